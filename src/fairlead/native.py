@@ -1,0 +1,209 @@
+"""Machine code of compiled functions: made by numba once, kept on disk, loaded without numba.
+
+    key = digest(source_text, ...)                 everything the code depends on
+    native = load_or_compile(key, build)           build() runs on a miss only and imports numba
+    native.address["rhs"]                          C function address, callable through ctypes
+
+numba's own cache watches one file per function and goes stale when a called function in another
+file changes, and reading it costs the import of numba (0.3 s). Here an entry is one file named by
+the hash of everything it depends on; it holds the object code and whatever the builder wants to
+remember (`meta`). Loading takes llvmlite only, about 20 ms.
+
+The folder is private to the user, because what it holds is executed. An entry that is torn or
+foreign, and a folder that cannot be written, mean one warning and a compile in memory.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import hashlib
+import importlib.metadata
+import json
+import os
+import pathlib
+import platform
+import struct
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+MAGIC = b"fairlead-native-1\n"
+# numba references these only on paths that raise or count references; compiled laws do neither.
+UNREACHED = (
+    "NRT_Free", "NRT_MemInfo_call_dtor", "NRT_decref", "NRT_incref", "numba_do_raise", "numba_gil_ensure",
+    "numba_gil_release", "numba_runtime_build_excinfo_struct", "numba_unpickle",
+)
+
+
+class CacheWarning(UserWarning):
+    """The kernel cache could not be used as it should; compiled code lives in memory instead."""
+
+
+@dataclass(frozen=True)
+class Build:
+    """What a builder returns: facts to remember (JSON) and numba `cfunc` objects by name."""
+
+    meta: dict[str, Any]
+    functions: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Native:
+    """Loaded machine code: C addresses by name, the builder's facts, and whether it came from disk."""
+
+    address: dict[str, int]
+    meta: dict[str, Any]
+    cached: bool
+    engines: list[Any] = field(repr=False, default_factory=list)  # keep the code alive
+
+
+@dataclass(frozen=True)
+class _ObjectCode:
+    """One compiled function: its symbol and the relocatable object that defines it."""
+
+    symbol: str
+    code: bytes
+
+
+def digest(*parts: str) -> str:
+    """Hash of the parts together with everything else machine code depends on: tools and CPU."""
+    state = hashlib.sha256()
+    for part in (*_environment(), *parts):
+        state.update(len(part).to_bytes(8, "little") + part.encode())
+    return state.hexdigest()
+
+
+@functools.cache
+def _environment() -> tuple[str, ...]:
+    import llvmlite.binding as llvm
+
+    versions = tuple(importlib.metadata.version(name) for name in ("numba", "llvmlite", "numpy"))
+    cpu = (llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten())
+    own = pathlib.Path(__file__).read_text(encoding="utf-8")
+    return (*versions, *cpu, platform.platform(), platform.machine(), sys.version, own)
+
+
+def load_or_compile(key: str, build: Callable[[], Build]) -> Native:
+    """Machine code under `key` from the cache, or from `build()` when it is not there.
+
+    Never raises for a bad cache: it warns (CacheWarning) and compiles.
+    """
+    folder = cache_folder()
+    if folder is not None:
+        stored = _read(folder / f"{key}.native")
+        if stored is not None:
+            return _load(*stored, cached=True)
+    made = build()
+    objects = {name: _compile(function) for name, function in made.functions.items()}
+    if folder is not None:
+        _write(folder / f"{key}.native", made.meta, objects)
+    return _load(made.meta, objects, cached=False)
+
+
+def cache_folder() -> pathlib.Path | None:
+    """The private folder of compiled code, made when missing; None (and a warning) when unusable.
+
+    FAIRLEAD_CACHE names another place. On POSIX the folder must belong to the user and be closed
+    to others: machine code found in a folder that others may write to is not run.
+    """
+    import platformdirs
+
+    chosen = os.environ.get("FAIRLEAD_CACHE")
+    folder = pathlib.Path(chosen) if chosen else platformdirs.user_cache_path("fairlead") / "native"
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if os.name == "posix":
+            status = folder.stat()
+            if status.st_uid != os.getuid() or status.st_mode & 0o022:
+                raise PermissionError(f"{folder} belongs to or can be written by somebody else")
+    except OSError as error:
+        _warn_once(f"kernel cache not used: {error}; compiled code is kept in memory")
+        return None
+    return folder
+
+
+def _read(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, _ObjectCode]] | None:
+    """Entry at `path`, or None when it is absent or not whole."""
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        _warn_once(f"kernel cache entry cannot be read: {error}; compiling again")
+        return None
+    start = len(MAGIC) + 32
+    body = data[start:]
+    if data[: len(MAGIC)] != MAGIC or hashlib.sha256(body).digest() != data[len(MAGIC) : start]:
+        _warn_once(f"kernel cache entry {path.name} is torn or foreign; compiling again")
+        return None
+    (length,) = struct.unpack_from("<Q", body)
+    header = json.loads(body[8 : 8 + length])
+    objects, position = {}, 8 + length
+    for name, symbol, size in header["objects"]:
+        objects[name] = _ObjectCode(symbol, body[position : position + size])
+        position += size
+    return header["meta"], objects
+
+
+def _write(path: pathlib.Path, meta: dict[str, Any], objects: dict[str, _ObjectCode]) -> None:
+    """Store an entry under a temporary name and rename it, so that readers see all or nothing."""
+    header = json.dumps({"meta": meta, "objects": [(n, o.symbol, len(o.code)) for n, o in objects.items()]}).encode()
+    body = struct.pack("<Q", len(header)) + header + b"".join(o.code for o in objects.values())
+    temporary = None
+    try:
+        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as file:
+            temporary = file.name
+            file.write(MAGIC + hashlib.sha256(body).digest() + body)
+        os.replace(temporary, path)
+    except OSError as error:
+        _warn_once(f"kernel cache cannot be written: {error}; compiled code is kept in memory")
+        if temporary is not None:
+            pathlib.Path(temporary).unlink(missing_ok=True)
+
+
+@functools.cache
+def _target_machine() -> Any:
+    import llvmlite.binding as llvm
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    never = ctypes.cast(ctypes.pythonapi.PyErr_Clear, ctypes.c_void_p).value
+    for name in UNREACHED:
+        if llvm.address_of_symbol(name) is None:
+            llvm.add_symbol(name, never)
+    return llvm.Target.from_default_triple().create_target_machine(
+        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=3,
+        jit=True, codemodel="jitdefault",
+    )  # fmt: skip
+
+
+def _compile(function: Any) -> _ObjectCode:
+    """Object code of a numba `cfunc`, from the optimised LLVM text that numba publishes."""
+    import llvmlite.binding as llvm
+
+    machine = _target_machine()
+    module = llvm.parse_assembly(function.inspect_llvm())
+    return _ObjectCode(function.native_name, machine.emit_object(module))
+
+
+def _load(meta: dict[str, Any], objects: dict[str, _ObjectCode], *, cached: bool) -> Native:
+    import llvmlite.binding as llvm
+
+    machine = _target_machine()
+    addresses, engines = {}, []
+    for name, stored in objects.items():
+        engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+        engine.add_object_file(llvm.ObjectFileRef.from_data(stored.code))
+        engine.finalize_object()
+        addresses[name] = engine.get_function_address(stored.symbol)
+        engines.append(engine)
+    return Native(addresses, meta, cached, engines)
+
+
+@functools.cache
+def _warn_once(text: str) -> None:
+    warnings.warn(text, CacheWarning, stacklevel=3)
