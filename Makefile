@@ -1,0 +1,79 @@
+# What one types to try, test and check fairlead. `make help` lists it all.
+# Everything is installed into .venv beside this file; nothing outside this folder is touched.
+# Every path below is relative, so that the folder's own name may contain spaces.
+
+PYTHON ?=
+VENV := .venv
+RUN := $(VENV)/bin/python
+MODEL ?= single_bend
+TESTS ?= tests
+
+.PHONY: help demo test lint types bench clean
+.DEFAULT_GOAL := help
+
+help:  ## list these commands
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 16
+	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
+
+demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
+	$(VENV)/bin/fairlead run $(MODEL) --report --force --out results/$(MODEL)
+	@echo "Open results/$(MODEL)/report.html in a browser."
+
+test: $(VENV)/test.done  ## install with what the tests need, run all tests
+	$(RUN) -m pytest $(TESTS)
+
+lint: $(VENV)/lint.done link-tree  ## ruff: mistakes and style
+	$(RUN) -m ruff check .
+
+types: $(VENV)/lint.done link-tree  ## mypy: types
+	MYPYPATH=typing $(RUN) -m mypy -p fairlead
+
+bench: $(VENV)/bench.done  ## error, time and counters beside scipy (minutes)
+	$(RUN) -m benchmarks
+
+clean:  ## remove .venv, results and everything generated
+	rm -rf $(VENV) typing results build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# Type checkers cannot follow the package-dir mapping of pyproject.toml (components/ is
+# fairlead.components), so they are given a tree of links that looks like the installed package.
+.PHONY: link-tree
+link-tree:
+	@rm -rf typing && mkdir -p typing/fairlead
+	@cd typing/fairlead && for each in ../../src/fairlead/* ../../components ../../models; do ln -s "$$each" .; done
+
+# A stamp per set of dependencies: a second call installs nothing unless pyproject.toml changed.
+$(VENV)/fairlead.done: EXTRAS :=
+$(VENV)/test.done: EXTRAS := [test]
+$(VENV)/lint.done: EXTRAS := [lint]
+$(VENV)/bench.done: EXTRAS := [bench]
+$(VENV)/%.done: pyproject.toml | $(VENV)/created
+	@echo "Installing fairlead$(EXTRAS) into $(VENV) (about a minute the first time) ..."
+	@$(RUN) -m pip install --quiet --disable-pip-version-check --editable '.$(EXTRAS)' || { \
+	  echo "pip could not install the dependencies (its own words are above)."; \
+	  echo "Without a connection to a package index, point pip to one: PIP_INDEX_URL=https://... make $(MAKECMDGOALS)"; \
+	  exit 1; }
+	@touch $@
+
+# Take the first Python of 3.11 or newer that runs; say how to get one, or its venv module, if there is none.
+ENOUGH := import sys; sys.exit(sys.version_info < (3, 11))
+$(VENV)/created:
+	@for python in $(or $(PYTHON),python3 python3.13 python3.12 python3.11 python); do \
+	  if "$$python" -c '$(ENOUGH)' 2>/dev/null; then found=$$python; break; fi; \
+	done; \
+	if [ -z "$$found" ]; then \
+	  echo "fairlead needs Python 3.11 or newer; here is $$($(or $(PYTHON),python3) --version 2>&1 | head -n 1)."; \
+	  echo "  Debian, Ubuntu:  sudo apt install python3 python3-venv"; \
+	  echo "  Fedora:          sudo dnf install python3"; \
+	  echo "  macOS:           brew install python   (or the installer from https://www.python.org/downloads)"; \
+	  echo "  installed elsewhere:  make $(MAKECMDGOALS) PYTHON=/path/to/python3.12"; \
+	  exit 1; \
+	fi; \
+	if ! "$$found" -c 'import venv, ensurepip' 2>/dev/null; then \
+	  echo "$$found comes without the venv and ensurepip modules, which make a private environment."; \
+	  echo "  Debian, Ubuntu:  sudo apt install python3-venv"; \
+	  echo "  or another one:  make $(MAKECMDGOALS) PYTHON=/path/to/python3.12"; \
+	  exit 1; \
+	fi; \
+	rm -rf $(VENV); "$$found" -m venv $(VENV)
+	@touch $@
