@@ -1,0 +1,60 @@
+"""What a run cost, in counts that do not depend on the machine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+COUNTS = (
+    "steps",
+    "rejected_error",
+    "rejected_nan",
+    "rejected_companion",
+    "rhs",
+    "jacobians",
+    "factorisations",
+    "solves",
+    "guards",
+    "switches",
+    "located",
+    "settling_passes",
+    "time_events",
+    "replans",
+)
+"""Counters kept by the compiled loop, in the order they lie in memory."""
+
+
+@dataclass(frozen=True)
+class Counters:
+    """Counts of one run; the arrays are by machine."""
+
+    steps: int
+    """Accepted steps, each up to its end or to the first switch inside it."""
+    rejected_error: int
+    rejected_nan: int
+    rejected_companion: int
+    """Steps given up because a guard turned out positive without having crossed."""
+    rhs: int
+    jacobians: int
+    factorisations: int
+    solves: int
+    guards: int
+    """Evaluations of the vector of all guards."""
+    switches: int
+    """Zone changes, all machines."""
+    located: int
+    """Instants located inside a step at which guards fired."""
+    settling_passes: int
+    time_events: int
+    replans: int
+    """Fresh pivot orders computed because the planned one lost accuracy."""
+    switches_by_machine: NDArray[np.int64]
+    rejections_by_unknown: NDArray[np.int64]
+    """How often each unknown had the largest error of a rejected step."""
+
+    @property
+    def rejected(self) -> int:
+        """Steps tried in vain, for any reason."""
+        return self.rejected_error + self.rejected_nan + self.rejected_companion

@@ -1,0 +1,210 @@
+"""What any problem hands to an integrator, the settings of a run, and what comes back.
+
+The equations are
+
+    M(zones) y' = f(t, y, zones, discrete)
+
+with M constant, possibly singular, while the zones are frozen (index 1). Zones change only at
+accepted points, when a guard rises through zero. A problem fits `Problem` by shape: it need not
+import this module. All callbacks are addresses of C functions, so that the loop is compiled once
+for all problems; `context` is passed through untouched.
+
+    rhs       void   (ctx, t, y, f)               f[n]
+    jacobian  void   (ctx, t, y, values, ft)      df/dy along `pattern`; ft[n] = partial f / partial t
+    mass      void   (ctx, values)                M along `mass_pattern`, for the zones in force
+    guards    void   (ctx, t, y, g)               g[ng]; negative inside the zone in force, -1 when not in force
+    switch    int64  (ctx, t, y, fired, nfired)   sets new zones; may change y; returns how many zones changed
+    slip      int64  (ctx, t, y, r)               r[n] = 0 but -v_rel on held rows; returns how many rows hold
+    next_time double (ctx, t)                     the next time event strictly later than t, or inf
+    at_time   int64  (ctx, t, y)                  t is the start or exactly a time event; 1 if anything changed
+    outputs   void   (ctx, t, y, out)             out[n_outputs], in the zones in force
+
+ctx is int64*, t a double, the others double* or int64*. The last six may be missing (or zero):
+no guards, no held contacts, no time events; outputs missing records y itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Literal, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.integrate.counters import Counters
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
+
+CALLBACKS = ("rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs")
+"""The names a problem may use in `callbacks`; the first three must be there."""
+
+EVENT = np.dtype(
+    [("t", "f8"), ("machine", "i8"), ("before", "i8"), ("after", "i8"), ("guard", "i8"), ("position", "i8")]
+)
+"""One zone change: time, machine, zone before and after, the guard that fired (-1: no guard of its
+own, for instance a time event), and the pass of the settling it happened in (0 first)."""
+
+
+class Pattern(NamedTuple):
+    """Where the entries of a sparse n x n matrix may be, by columns (CSC)."""
+
+    starts: Integers
+    """[n + 1]: column j owns the entries starts[j] .. starts[j + 1] - 1."""
+    rows: Integers
+    """[nnz], ascending within a column."""
+
+
+class Problem(Protocol):
+    """The shape of a problem; see the module docstring for the callbacks."""
+
+    callbacks: Mapping[str, int]
+    context: int
+    initial: Floats
+    """y at the start; algebraic entries are a first guess."""
+    pattern: Pattern
+    mass_pattern: Pattern
+    zones: Integers
+    """[nz] live memory that the callbacks read and `switch` writes: the zone of each machine."""
+    differential: Booleans
+    """[n]; False: y_i is algebraic, its column of M is empty."""
+    quadrature: Booleans
+    """[n]; True: nothing depends on y_i and it has no weight in the error norm."""
+    absolute: Floats
+    relative: Floats
+    cap: Floats
+    """[n] each: the error weight of y_i is min(absolute_i + relative_i |y_i|, cap_i)."""
+    guard_tolerance: Floats
+    """[ng]; at an accepted point no guard may be above this."""
+    guard_machine: Integers
+    """[ng]; the machine each guard belongs to, -1 for none."""
+    n_outputs: int
+    unknown_names: Sequence[str]
+    machine_names: Sequence[str]
+    guard_names: Sequence[str]
+
+    def zone_names(self, machine: int) -> Sequence[str]:
+        """Names of the zones of one machine, by the numbers in `zones`."""
+        ...
+
+
+@dataclass(frozen=True)
+class Run:
+    """Settings of one run. None means: the integrator chooses, as stated."""
+
+    stop: float
+    start: float = 0.0
+    every: float | None = None
+    """Record on this grid (and both sides of each event); None: every accepted step."""
+    method: Literal["rodas5p", "rodas3p"] = "rodas5p"
+    first_step: float | None = None
+    max_step: float = np.inf
+    fixed_step: float | None = None
+    """Take this step without error control; events are still located and time events landed on."""
+    step_floor: float | None = None
+    """Smallest step; None: 1e-13 of the span."""
+    max_steps: int | None = None
+    max_events: int | None = None
+    max_wall: float | None = None
+    max_passes: int = 100
+    """Passes of one settling before it counts as not settled."""
+    dwell: float | None = None
+    """A machine that toggles again and again within this time chatters; None: 1e-6 of the span."""
+    on_chatter: Literal["warn", "hold", "stop"] = "warn"
+    """warn: name it and go on; hold: freeze its zone for one dwell each time; stop: end the run."""
+
+
+class Status(IntEnum):
+    """How a run ended (negative: inside the loop, returned to Python for service)."""
+
+    FINISHED = 0
+    PAUSED = -1
+    BUFFER_FULL = -2
+    REPLAN = -3
+    STEP_FLOOR = 1
+    NOT_FINITE = 2
+    NOT_SETTLED = 3
+    INCONSISTENT = 4
+    SINGULAR = 5
+    CHATTER = 6
+    MAX_STEPS = 7
+    MAX_EVENTS = 8
+    MAX_WALL = 9
+    INTERRUPTED = 10
+
+    @property
+    def is_budget(self) -> bool:
+        """True if a budget of the user ended the run, or the user did."""
+        return self in (Status.MAX_STEPS, Status.MAX_EVENTS, Status.MAX_WALL, Status.INTERRUPTED)
+
+
+class Block(NamedTuple):
+    """What a slice of the run recorded, handed over when a buffer fills or a slice of time ends."""
+
+    t: Floats
+    """[k], not decreasing; repeats at an event, left and right value."""
+    values: Floats
+    """[k, n_outputs]."""
+    side: NDArray[np.int8]
+    """[k]: 0 an ordinary point, 1 just before an event, 2 just after it."""
+    events: np.ndarray
+    """Zone changes, dtype EVENT."""
+    reached: float
+    """The time the run has reached."""
+    fraction: float
+    """The same as a fraction of the span, for a progress display."""
+
+
+OnBlock = Callable[[Block], object]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended, and what it cost."""
+
+    status: Status
+    sentence: str
+    """What happened, likely causes, what to try."""
+    t: float
+    """The last good time."""
+    y: Floats
+    """The unknowns there."""
+    culprits: tuple[str, ...]
+    """Unknowns or machines to look at first."""
+    chattering: tuple[str, ...]
+    """Machines that toggled faster than their dwell, whatever the reaction."""
+    counters: Counters
+    wall: float
+    """Seconds spent, all included."""
+    loop_wall: float
+    """Seconds spent inside the compiled loop."""
+    blocks: tuple[Block, ...] = field(default=(), repr=False)
+    """What was recorded, when no `on_block` took it."""
+
+    @property
+    def ok(self) -> bool:
+        """True if the run reached its stop time."""
+        return self.status == Status.FINISHED
+
+    @property
+    def times(self) -> Floats:
+        """All recorded times [k]."""
+        return np.concatenate([block.t for block in self.blocks])
+
+    @property
+    def values(self) -> Floats:
+        """All recorded outputs [k, n_outputs]."""
+        return np.concatenate([block.values for block in self.blocks])
+
+    @property
+    def sides(self) -> NDArray[np.int8]:
+        """Side of each recorded row [k], see `Block.side`."""
+        return np.concatenate([block.side for block in self.blocks])
+
+    @property
+    def events(self) -> np.ndarray:
+        """All zone changes, dtype EVENT."""
+        return np.concatenate([block.events for block in self.blocks])
