@@ -12,7 +12,7 @@ TESTS ?= tests
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 16
+	@awk -F '[:#]+' '/^[a-z]+:.*##/ { printf "  make %-8s%s\n", $$1, $$NF }' Makefile
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
 demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
@@ -22,10 +22,10 @@ demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to 
 test: $(VENV)/test.done  ## install with what the tests need, run all tests
 	$(RUN) -m pytest $(TESTS)
 
-lint: $(VENV)/lint.done link-tree  ## ruff: mistakes and style
+lint: $(VENV)/lint.done link-tree  ## look for mistakes and style with ruff
 	$(RUN) -m ruff check .
 
-types: $(VENV)/lint.done link-tree  ## mypy: types
+types: $(VENV)/lint.done link-tree  ## check types with mypy
 	MYPYPATH=typing $(RUN) -m mypy -p fairlead
 
 bench: $(VENV)/bench.done  ## error, time and counters beside scipy (minutes)

@@ -1,0 +1,46 @@
+"""The command `fairlead`: one file per verb, each a thin caller of the Python API.
+
+Exit codes: 0 ok, 1 model error, 2 usage, 3 numerical failure, 4 budget exceeded, 5 a limit of the
+netlist broken, 130 interrupted. Results go to standard output; progress, warnings and errors to
+standard error. A verb imports what it needs when it runs, so that `--help` stays quick.
+"""
+
+import typer
+
+from fairlead.cli import check, describe, doctor, graph, run, schema
+from fairlead.cli.verb import Verb
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    name="fairlead",
+    help="System models in which dry friction sticks and slips at many places at once.",
+    epilog="Start with: fairlead run single_bend --report",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+for verb in (check.check, describe.describe, graph.graph, run.run, schema.schema, doctor.doctor):
+    app.command(cls=Verb)(verb)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        import importlib.metadata
+
+        typer.echo(f"fairlead {importlib.metadata.version('fairlead')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: bool = typer.Option(
+        False, "--version", help="Print the version.", callback=_print_version, is_eager=True
+    ),
+) -> None:
+    """System models in which dry friction sticks and slips at many places at once."""
+
+
+def main() -> None:
+    """Run the command line with the arguments of this process; does not return."""
+    app()

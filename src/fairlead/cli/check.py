@@ -1,0 +1,29 @@
+"""`fairlead check`: every mistake of a netlist at once, without running it."""
+
+import json
+
+import typer
+
+from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+
+
+def check(
+    netlist: Netlist,
+    settings: Settings = [],  # noqa: B006  (typer reads the default and never hands it out)
+    libraries: Libraries = [],  # noqa: B006
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Find every mistake of a netlist, with file, line and a way out."""
+    import fairlead
+    from fairlead.cli.verb import fault_record
+
+    remarks = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).check()
+    if as_json:
+        typer.echo(json.dumps({"ok": True, "faults": [fault_record(remark) for remark in remarks]}, indent=2))
+        return
+    for remark in remarks:
+        typer.echo(f"warning: {remark}", err=True)
+    if not quiet:
+        typer.echo(f"{netlist}: no mistakes found{f', {len(remarks)} warnings' if remarks else ''}.")

@@ -1,0 +1,46 @@
+"""`fairlead graph`: the wiring of a netlist as a drawing."""
+
+import enum
+import pathlib
+from typing import Annotated
+
+import typer
+
+from fairlead.cli.options import Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+
+
+class Format(enum.StrEnum):
+    """The drawing languages; SVG needs no further program."""
+
+    MERMAID = "mermaid"
+    DOT = "dot"
+    SVG = "svg"
+
+
+SUFFIXES = {".mmd": Format.MERMAID, ".md": Format.MERMAID, ".dot": Format.DOT, ".gv": Format.DOT, ".svg": Format.SVG}
+
+
+def graph(
+    netlist: Netlist,
+    kind: Annotated[
+        Format | None, typer.Option("--format", help="Default: by the ending of --out, else mermaid.")
+    ] = None,
+    out: Annotated[pathlib.Path | None, typer.Option(help="Write to this file, not to standard output.")] = None,
+    settings: Settings = [],  # noqa: B006
+    libraries: Libraries = [],  # noqa: B006
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Draw which port meets which, as Mermaid, DOT or SVG."""
+    import fairlead
+
+    if kind is None:
+        kind = SUFFIXES.get(out.suffix, Format.MERMAID) if out else Format.MERMAID
+    text = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).graph(kind.value)
+    if out is None:
+        typer.echo(text)
+        return
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(text, encoding="utf-8")
+    if not quiet:
+        typer.echo(f"{kind.value} drawing in {out}")

@@ -1,0 +1,43 @@
+"""The options that several verbs take, spelled and explained once."""
+
+import pathlib
+from typing import Annotated
+
+import typer
+
+Netlist = Annotated[str, typer.Argument(help="A netlist file, or the name of a bundled model.", show_default=False)]
+Settings = Annotated[
+    list[str],
+    typer.Option(
+        "--set", metavar="NAME=VALUE", help="Override a parameter of the netlist; repeatable.", show_default=False
+    ),
+]
+Libraries = Annotated[
+    list[pathlib.Path],
+    typer.Option(
+        "--library",
+        metavar="PATH",
+        help="A Python file or folder with components of your own; its code is run. Repeatable.",
+        show_default=False,
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Print more, and tracebacks.")]
+
+
+def parse_settings(texts: list[str]) -> dict[str, str]:
+    """`["mu=0.6"]` as `{"mu": "0.6"}`; the values stay text, the netlist stage knows their units.
+
+    Raises:
+        typer.BadParameter: a text is not NAME=VALUE, or a name comes twice.
+    """
+    settings: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not (name and equals and value):
+            raise typer.BadParameter(f"--set wants NAME=VALUE, such as --set mu=0.6; it got {text!r}.")
+        if name in settings:
+            raise typer.BadParameter(f"--set gives {name} twice: {settings[name]!r} and {value!r}.")
+        settings[name] = value
+    return settings

@@ -1,0 +1,96 @@
+"""What all verbs share: how an error, a warning or Ctrl-C becomes a message and an exit code.
+
+A mistake in a netlist is told without a traceback, in the words of the error. An exception that no
+stage foresaw is a mistake of fairlead: the user gets a short text to send, and with -v the traceback.
+"""
+
+import json
+import sys
+import traceback
+import warnings
+from typing import Any
+
+import typer
+import typer.core
+
+from fairlead.errors import FairleadError, Fault, ModelError
+
+INTERRUPTED = 130
+UNFORESEEN = 70  # EX_SOFTWARE of sysexits.h: not one of ours, so that a script never takes it for a verdict
+
+
+class Verb(typer.core.TyperCommand):
+    """A command whose failures end in one of the documented exit codes."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Call the verb; translate what it raises.
+
+        Raises:
+            typer.Exit: with the exit code of the failure.
+        """
+        as_json, verbose = ctx.params.get("as_json", False), ctx.params.get("verbose", False)
+        warnings.showwarning = _show_warning
+        try:
+            return super().invoke(ctx)
+        except FairleadError as error:
+            typer.echo(_as_json(error) if as_json else str(error), err=not as_json)
+            if verbose:
+                typer.echo(traceback.format_exc(), err=True)
+            raise typer.Exit(error.exit_code) from error
+        except KeyboardInterrupt as error:
+            typer.echo("interrupted", err=True)
+            raise typer.Exit(INTERRUPTED) from error
+        except Exception as error:
+            if _belongs_to_typer(error):
+                raise
+            typer.echo(_report_text(error, verbose), err=True)
+            raise typer.Exit(UNFORESEEN) from error
+
+
+def fault_record(fault: Fault) -> dict[str, object]:
+    """A fault as JSON: file, line and column are null when it has no place in a file."""
+    where = fault.where
+    return {
+        "file": where.file if where else None,
+        "line": where.line if where else None,
+        "column": where.column if where else None,
+        "what": fault.what,
+        "way_out": fault.way_out,
+    }
+
+
+def _as_json(error: FairleadError) -> str:
+    faults = [fault_record(fault) for fault in error.faults] if isinstance(error, ModelError) else []
+    return json.dumps(
+        {"ok": False, "exit_code": error.exit_code, "error": str(error), "faults": faults}, indent=2
+    )
+
+
+def _belongs_to_typer(error: Exception) -> bool:
+    """Usage errors and exits are printed by typer; a closed pipe (`| head`) is nobody's mistake."""
+    return isinstance(error, typer.Exit | typer.Abort | BrokenPipeError) or hasattr(error, "format_message")
+
+
+def _report_text(error: Exception, verbose: bool) -> str:
+    """What to send when fairlead itself is wrong; -v adds the traceback."""
+    import importlib.metadata
+    import platform
+
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    head = (
+        "This is a mistake in fairlead, not in your netlist. Please send these lines and the netlist to the\n"
+        "fairlead developers (CONTRIBUTING.md says where):\n"
+        f"    {type(error).__name__}: {error}\n"
+        f"    in {last.name}, {last.filename}:{last.lineno}\n"
+        f"    fairlead {importlib.metadata.version('fairlead')}, Python {platform.python_version()}, "
+        f"{platform.platform()}\n"
+        f"    command: fairlead {' '.join(sys.argv[1:])}"
+    )
+    if verbose:
+        return f"{head}\n\n{''.join(traceback.format_exception(error))}"
+    return f"{head}\nThe same command with -v adds the traceback."
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
+    """One line on standard error, without the line of ours that happened to notice."""
+    typer.echo(f"warning: {message}", err=True)

@@ -1,0 +1,104 @@
+"""Who may import whom: the stages of the pipeline know what lies before them and nothing after.
+
+The sources are read as text (ast), so imports inside functions count as well.
+"""
+
+import ast
+import pathlib
+from collections.abc import Iterator
+
+import networkx
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# stage -> what it may import beside itself. `native` is the cache of compiled code; `testing` is the contract
+# suite that ships with the package; the empty name is `fairlead/__init__.py` itself.
+ALLOWED = {
+    "errors": set(),
+    "quantities": {"errors"},
+    "native": {"errors"},
+    "netlist": {"errors", "quantities"},
+    "component": {"errors", "quantities"},
+    "components": {"errors", "quantities", "component"},
+    "flatten": {"errors", "quantities", "netlist", "component", "components"},
+    "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native"},
+    "integrate": {"errors", "native"},
+    "results": {"errors", "quantities"},
+    "analysis": {"errors", "quantities", "results"},
+    "report": {"errors", "quantities", "results", "analysis"},
+}
+LAST = {"", "simulate", "testing", "cli", "__main__", "models"}   # these may import everything before them
+
+
+def source_files() -> dict[str, pathlib.Path]:
+    """Dotted name -> file, of every module that is installed."""
+    named = {}
+    for folder, prefix in (("src", ""), ("components", "fairlead.components."), ("models", "fairlead.models.")):
+        for file in sorted((ROOT / folder).rglob("*.py")):
+            dotted = prefix + ".".join(file.relative_to(ROOT / folder).with_suffix("").parts)
+            named[dotted.removesuffix("__init__").rstrip(".")] = file
+    return named
+
+
+def imports(name: str, file: pathlib.Path) -> Iterator[tuple[int, str]]:
+    """Line and dotted target of every import in a file, relative ones resolved."""
+    package = name.split(".") if file.name == "__init__.py" else name.split(".")[:-1]
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"), filename=str(file))):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = [*package[: len(package) - node.level + 1]] if node.level else []
+            origin = ".".join(base + ([node.module] if node.module else []))
+            yield from ((node.lineno, f"{origin}.{alias.name}") for alias in node.names)
+
+
+def import_edges() -> Iterator[tuple[str, str, str]]:
+    """(importer, imported, "file:line") for each import between our modules."""
+    files = source_files()
+    for name, file in files.items():
+        for line, target in imports(name, file):
+            module = target if target in files else target.rpartition(".")[0]
+            if module in files and module != name:
+                yield name, module, f"{file.relative_to(ROOT)}:{line}"
+
+
+def stage(name: str) -> str:
+    """The stage that a dotted name belongs to: its second part."""
+    return name.partition(".")[2].partition(".")[0]
+
+
+def test_every_stage_imports_only_what_lies_before_it() -> None:
+    wrong = [
+        f"{where}: {stage(importer)} imports {stage(imported)}"
+        for importer, imported, where in import_edges()
+        if stage(importer) not in LAST
+        and stage(imported) != stage(importer)
+        and stage(imported) not in ALLOWED[stage(importer)]
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_only_the_command_line_is_built_on_the_command_line() -> None:
+    wrong = [
+        where
+        for importer, imported, where in import_edges()
+        if stage(imported) == "cli" and stage(importer) not in {"cli", "__main__"}
+    ]
+    assert not wrong
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    graph = networkx.DiGraph((importer, imported) for importer, imported, _ in import_edges())
+    circles = [sorted(group) for group in networkx.strongly_connected_components(graph) if len(group) > 1]
+    assert not circles
+
+
+def test_every_module_belongs_to_a_stage_of_the_architecture() -> None:
+    strange = {name for name in source_files() if stage(name) not in ALLOWED.keys() | LAST}
+    assert not strange, f"{strange}: give the new stage its place in ALLOWED"
+
+
+@pytest.mark.parametrize("word", ["utils", "core", "helpers", "common"])
+def test_no_module_is_a_drawer_for_the_rest(word: str) -> None:
+    assert not [name for name in source_files() if word in name.split(".")]

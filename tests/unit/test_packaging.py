@@ -1,0 +1,145 @@
+"""What is installed is what is on disk: the package list, the data, and a wheel that runs elsewhere."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tomllib
+import venv
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
+PACKAGES = {"src/fairlead": "fairlead", "components": "fairlead.components", "models": "fairlead.models"}
+
+
+def packages_on_disk() -> set[str]:
+    """Dotted names of all folders with an `__init__.py`, as they are called once installed."""
+    return {
+        ".".join((name, *file.parent.relative_to(ROOT / folder).parts))
+        for folder, name in PACKAGES.items()
+        for file in (ROOT / folder).rglob("__init__.py")
+    }
+
+
+def test_pyproject_lists_exactly_the_packages_on_disk() -> None:
+    assert sorted(SETUPTOOLS["packages"]) == sorted(packages_on_disk())
+
+
+def test_every_folder_with_code_is_a_package() -> None:
+    folders = {file.parent for top in PACKAGES for file in (ROOT / top).rglob("*.py")}
+    assert not [folder for folder in folders if not (folder / "__init__.py").is_file()]
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """A clean environment outside the tree with our wheel installed, and a user's folder to work in."""
+
+    folder: pathlib.Path
+
+    @property
+    def user(self) -> pathlib.Path:
+        """Where the commands are called."""
+        return self.folder / "user"
+
+    @property
+    def python(self) -> pathlib.Path:
+        """The interpreter of the clean environment."""
+        return self.folder / "env" / ("Scripts" if os.name == "nt" else "bin") / "python"
+
+    def call(self, *words: str | pathlib.Path) -> str:
+        """Output of `python words`, which must succeed, with nothing of this session's Python set-up."""
+        variables = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+        variables.update(XDG_CACHE_HOME=str(self.folder / "cache"), MPLBACKEND="Agg")
+        return succeed(self.python, *words, cwd=self.user, env=variables)
+
+    def fairlead(self, *words: str) -> str:
+        """Output of the installed command, which must succeed."""
+        return self.call("-m", "fairlead", *words)
+
+
+def succeed(*command: str | pathlib.Path, **settings: Any) -> str:
+    """Standard output of a command that must end well; its words are shown when it does not."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=600, stdin=subprocess.DEVNULL, **settings)
+    assert done.returncode == 0, f"{words}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+def build_wheel(folder: pathlib.Path) -> pathlib.Path:
+    """A wheel made from a copy of the sources: setuptools would leave a `build/` in the tree and reuse it."""
+    copy = folder / "sources"
+    for name in ("src", "components", "models"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, copy)
+    pip_wheel = (sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder)
+    succeed(*pip_wheel, copy, cwd=folder)
+    (wheel,) = folder.glob("fairlead-*.whl")
+    return wheel
+
+
+@pytest.fixture(scope="module")
+def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
+    """Our wheel in a clean environment; its folder has a blank in its name, as folders have."""
+    place = Elsewhere(tmp_path_factory.mktemp("else where"))
+    place.user.mkdir()
+    venv.create(place.folder / "env", with_pip=True)
+    probe = [place.python, "-m", "pip", "download", "--no-deps", "--dest", place.folder / "probe", "setuptools"]
+    answer = subprocess.run(probe, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
+    if answer.returncode:
+        pytest.skip(f"no package index can be reached: {answer.stderr[-300:]}")
+    place.call("-m", "pip", "install", "--quiet", build_wheel(place.folder))
+    return place
+
+
+OWN_COMPONENT = '''
+"""A component in a user's own file."""
+from fairlead.component import Component, Parameter, Translational
+
+class HardeningSpring(Component):
+    """A spring that grows stiffer as it is stretched."""
+    a, b = Translational(), Translational()
+    stiffness = Parameter("N/m", above=0)
+    hardening = Parameter("1/m^2", default=0)
+
+    def flows(p, a, b):
+        s = b.x - a.x
+        return -p.stiffness * s * (1 + p.hardening * s**2), p.stiffness * s * (1 + p.hardening * s**2)
+'''
+
+OWN_MODEL = """
+schema: 1
+name: own
+components:
+  wall: {type: Ground}
+  spring: {type: HardeningSpring, stiffness: 10 N/m, hardening: 2}
+  block: {type: Mass, mass: 1 kg}
+  push: {type: ForceSource, force: 1 N}
+connections:
+  - [wall.flange, spring.a]
+  - [spring.b, block.flange, push.flange]
+run: {stop: 1 s}
+"""
+
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_runs_a_bundled_model_by_name(elsewhere: Elsewhere) -> None:
+    elsewhere.fairlead("run", "belt", "--out", "belt result")
+    assert {"run.json", "series.nc"} <= {file.name for file in (elsewhere.user / "belt result").iterdir()}
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_takes_a_component_from_a_users_file(elsewhere: Elsewhere) -> None:
+    (elsewhere.user / "parts.py").write_text(OWN_COMPONENT)
+    (elsewhere.user / "own.yaml").write_text(OWN_MODEL)
+    elsewhere.fairlead("check", "own.yaml", "--library", "parts.py")
+    assert "HardeningSpring" in elsewhere.fairlead("schema", "--library", "parts.py")
+    assert "hardening" in elsewhere.fairlead("describe", "HardeningSpring", "--library", "parts.py")
+    elsewhere.fairlead("run", "own.yaml", "--library", "parts.py", "--out", "own result")
+    assert (elsewhere.user / "own result" / "run.json").is_file()

@@ -1,0 +1,37 @@
+"""Starting is light: what is heavy loads when it is needed, not before."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = {"sympy", "xarray", "matplotlib", "numba", "pandas", "scipy", "pint"}
+
+
+def loaded_by(statement: str) -> set[str]:
+    """Top-level packages in memory after a fresh interpreter ran `statement`."""
+    script = f"""
+import json, sys
+try:
+    {statement}
+except SystemExit:
+    pass
+print(json.dumps(sorted({{name.partition(".")[0] for name in sys.modules}})), file=sys.stderr)
+"""
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
+    return set(json.loads(done.stderr.splitlines()[-1]))
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "import fairlead",
+        "import fairlead.cli; sys.argv = ['fairlead', '--help']; fairlead.cli.main()",
+        "import fairlead.cli; sys.argv = ['fairlead', 'run', '--help']; fairlead.cli.main()",
+    ],
+    ids=["import", "help", "help-of-run"],
+)
+def test_starting_loads_nothing_heavy(statement: str) -> None:
+    assert loaded_by(statement) & HEAVY == set()
