@@ -19,8 +19,9 @@ With z = dF/(v_d sqrt(k m)) the speed of a slip is again v_d after
     stick time 2 dF/(k v_d),                the belt carries the block back from the one to the other.
 
 While it sticks the spring force goes from F_k - dF to F_k + dF = F_s; while it slips it overshoots both
-ends, to F_k -+ sqrt(dF^2 + v_d^2 k m), because the block still has the speed of the belt. The slip speed reaches
-v_d (1 + sqrt(1 + z^2)), and throughout the slip the belt is the faster of the two: friction keeps one sign.
+ends, to F_k -+ sqrt(dF^2 + v_d^2 k m), because the block still has the speed of the belt. The slip
+speed reaches v_d (1 + sqrt(1 + z^2)), and throughout the slip the belt is the faster of the two: friction
+keeps one sign.
 
 In the frame of the belt this is the block of physics section 1.8, pulled over a fixed floor by a spring
 whose far end moves at v_d: spring force, slip speed and all times are the same.

@@ -7,8 +7,8 @@ m' l, half a mass at the free end) the same rod has exactly the frequencies
     w_j = 2 sqrt(k/m) sin((2 j - 1) pi/(4 n)),      j = 1..n,
 
 with k = EA/l and m = m' l: right for long waves (error (w l/c)^2/24), and with a ceiling of
-2 sqrt(k/m) = 2 c/l that no chain of this element length can exceed. The ceiling, not the physics of interest, limits
-the step of an explicit method.
+2 sqrt(k/m) = 2 c/l that no chain of this element length can exceed. The ceiling, not the
+physics of interest, limits the step of an explicit method.
 
 Source: Born and von Karman (1912) for the chain; Rayleigh, Theory of Sound, chapter V;
 physics section 8 item 13.

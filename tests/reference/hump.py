@@ -15,8 +15,8 @@ the equation that Lambert's W function solves,
 
 Stability. A mass slides at v_d under the load N, held by a spring and a damper c_d. A small disturbance w
 of its speed meets the force -(c_d + N mu'(v_d)) w, so sliding is steady exactly when
-c_d + N mu'(v_d) > 0: on the rising branch always, on the falling branch only with damping enough. Otherwise the motion grows
-into stick-slip.
+c_d + N mu'(v_d) > 0: on the rising branch always, on the falling branch only with damping enough.
+Otherwise the motion grows into stick-slip.
 
 Source: Corless et al., On the Lambert W function, Adv. Comput. Math. 5 (1996) 329, for W; physics
 sections 1.2 and 8 item 5. Defaults: physics section 9.
