@@ -1,0 +1,135 @@
+"""What fairlead says when something is wrong: locations, faults, the exceptions and "did you mean".
+
+A message has the form
+
+    models/belt.yaml:9:6: spring.c: Spring has ports a, b. Did you mean spring.b?
+        A way out on a line of its own, when there is one.
+
+so that an editor can jump to the place. Every exception that fairlead raises on purpose descends
+from `FairleadError` and carries the exit code of the command line.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+MOST_FAULTS_PRINTED = 100
+LONGEST_VALUE_SHOWN = 60
+LONGEST_WORD_COMPARED = 100
+
+
+@dataclass(frozen=True, order=True)
+class Location:
+    """A place in a file, counted from 1; line 0 means the file as a whole (or no file, as in `--set`)."""
+
+    file: str
+    line: int = 0
+    column: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}" if self.line else self.file
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One mistake: where it stands, what is wrong with which value, and a way out."""
+
+    where: Location | None
+    what: str
+    way_out: str = ""
+
+    def __str__(self) -> str:
+        place = f"{self.where}: " if self.where else ""
+        advice = "".join(f"\n    {line}" for line in self.way_out.splitlines())
+        return f"{place}{self.what}{advice}"
+
+
+class FairleadError(Exception):
+    """Something fairlead refuses, explained; `exit_code` is what the command line returns."""
+
+    exit_code = 1
+
+
+class ModelError(FairleadError):
+    """All mistakes found in a model, collected so that they can be mended in one go."""
+
+    exit_code = 1
+
+    def __init__(self, faults: Iterable[Fault]) -> None:
+        self.faults: tuple[Fault, ...] = tuple(faults)
+        super().__init__(self.faults)
+
+    def __str__(self) -> str:
+        lines = [str(fault) for fault in self.faults[:MOST_FAULTS_PRINTED]]
+        left_out = len(self.faults) - len(lines)
+        return "\n".join([*lines, f"... and {left_out} more mistakes."] if left_out else lines)
+
+
+class UsageError(FairleadError):
+    """A command that cannot be carried out as typed, such as a run into a finished directory."""
+
+    exit_code = 2
+
+
+class NumericalError(FairleadError):
+    """The integrator could not go on: NaN, step size at its floor, zones that do not settle."""
+
+    exit_code = 3
+
+
+class BudgetError(FairleadError):
+    """A budget of the run (wall time, steps, events) is used up; what was computed is kept."""
+
+    exit_code = 4
+
+
+def did_you_mean(word: str, allowed: Iterable[str]) -> str:
+    """The sentence "Did you mean X?" for the nearest allowed word, or "" when none is near.
+
+    Case, underscores and hyphens do not count as differences. A longer name that contains `word` as a whole
+    (`force` for `normal_force`) is offered when it is the only one.
+    """
+    if not 0 < len(word) <= LONGEST_WORD_COMPARED:
+        return ""
+    by_key: dict[str, str] = {}
+    for name in allowed:
+        by_key.setdefault(_key(name), name)
+    near = difflib.get_close_matches(_key(word), by_key, n=1, cutoff=0.6)
+    if not near:
+        near = [key for key in by_key if len(word) > 2 and _key(word) in key]
+    return f"Did you mean {by_key[near[0]]}?" if len(near) == 1 else ""
+
+
+def _key(word: str) -> str:
+    return word.lower().replace("_", "").replace("-", "")
+
+
+def listing(names: Iterable[str], most: int = 12) -> str:
+    """The names separated by commas; a long list is cut and says how many were left out."""
+    words = list(names)
+    shown_words = ", ".join(words[:most])
+    return f"{shown_words} and {len(words) - most} more" if len(words) > most else shown_words
+
+
+def shown(value: object) -> str:
+    """A value from a user's file as it may stand in a message: one line, printable, short."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if value is None:
+        return "nothing"
+    if isinstance(value, dict):
+        return f"a map of {len(value)}" if value else "an empty map"
+    if isinstance(value, (list, tuple)):
+        return f"a list of {len(value)}" if value else "an empty list"
+    if isinstance(value, int) and abs(value) >= 10**LONGEST_VALUE_SHOWN:
+        return f"a whole number of more than {LONGEST_VALUE_SHOWN} digits"
+    text = value if isinstance(value, str) else str(value)
+    if len(text) > LONGEST_VALUE_SHOWN:
+        return f"{_printable(text[: LONGEST_VALUE_SHOWN - 20])!r}... ({len(text)} characters)"
+    return _printable(text) if text.strip() else repr(text)
+
+
+def _printable(text: str) -> str:
+    return "".join(letter if letter.isprintable() else "�" for letter in text)

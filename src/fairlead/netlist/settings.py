@@ -1,0 +1,95 @@
+"""The `run` and `record` blocks: how far, how exactly, by which method, and what is written down."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+
+from fairlead.quantities import QuantityError, si, wanted
+
+
+class Strict(BaseModel):
+    """A frozen block in which an unknown key is an error; its docstrings are the hover texts of editors."""
+
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, strict=True, use_attribute_docstrings=True, hide_input_in_errors=True
+    )
+
+
+def _schema_of(unit: str) -> WithJsonSchema:
+    return WithJsonSchema({"type": ["number", "string"], "description": wanted(unit)})
+
+
+def _whole(value: object) -> object:
+    """1e6 is a whole number to everybody but a parser."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def _number(value: object) -> float:
+    if isinstance(value, str):
+        raise QuantityError(f"{value!r} is a text, not a number", wanted("1"))
+    return si(value, "1")
+
+
+# Text with a unit (or an expression in braces) or a bare number comes in, an SI float is kept.
+Seconds = Annotated[float, BeforeValidator(lambda value: si(value, "s")), _schema_of("s")]
+Speed = Annotated[float, BeforeValidator(lambda value: si(value, "m/s")), _schema_of("m/s")]
+Number = Annotated[float, BeforeValidator(_number), _schema_of("1")]
+Count = Annotated[int, BeforeValidator(_whole), Field(gt=0)]
+Duration = Annotated[Seconds, Field(gt=0)]
+
+
+class RunSettings(Strict):
+    """How a run goes; every time is a quantity (`20 s`, `10 ms`) or a bare number of seconds."""
+
+    stop: Seconds
+    """Time at which the run ends."""
+    start: Seconds = 0.0
+    """Time at which the run starts."""
+    accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-3
+    """Relative accuracy; sets tolerances, creep and guard tolerances together."""
+    engine: Literal["auto", "rodas"] = "auto"
+    """The engine; auto chooses by the number of contacts and the accuracy."""
+    method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
+    """The Rosenbrock method; rodas3p serves loose accuracies."""
+    max_step: Duration | None = None
+    """Longest step."""
+    first_step: Duration | None = None
+    """First step tried, at the start and after every switch."""
+    step_floor: Duration | None = None
+    """Steps shorter than this, several in a row, are chatter or a stop."""
+    max_wall: Duration | None = None
+    """Wall time after which the run stops and keeps what it has."""
+    max_steps: Count | None = None
+    """Steps after which the run stops and keeps what it has."""
+    max_events: Count | None = None
+    """Zone switches after which the run stops and keeps what it has."""
+    chatter: Literal["warn", "hold", "stop"] = "warn"
+    """What happens to a contact that toggles faster than its dwell."""
+    dwell: Duration | None = None
+    """Shortest time a zone lasts before its toggling counts as chatter."""
+    creep: Annotated[Speed, Field(gt=0)] | None = None
+    """Slip speed a contact may have while it sticks."""
+
+
+class Plot(Strict):
+    """A figure drawn at the end of a run."""
+
+    signals: Annotated[list[str], Field(min_length=1)]
+    """Patterns of the signals to draw, such as `line.*.tension`."""
+    title: str = ""
+    """Title above the figure."""
+    file: str = ""
+    """File name inside the run directory, such as `tension.png`."""
+
+
+class RecordSettings(Strict):
+    """Which signals are written down, and how often."""
+
+    signals: list[str] = ["*"]
+    """Patterns of the signals to record, such as `line.*.tension`."""
+    every: Duration | None = None
+    """Interval between recorded points; without it, every accepted step is recorded."""
+    plots: list[Plot] = []
+    """Figures drawn at the end of a run."""

@@ -1,0 +1,307 @@
+"""Quantities: one finite number, a space, one unit. Text comes in, SI floats go out.
+
+A unit is a product of atoms with whole exponents, `N*s/m` or `m/s^2`. The grammar is ours; only an
+atom that the table below does not hold (`lbf`, `knot`) is looked up with pint, so that pint never
+sees more than one word of a user's text and is not even imported in the usual case.
+
+A dimension has seven exponents: m, kg, s, A, K and two that SI lacks but an engineer does not:
+
+- `rad`: angles are a kind of their own, so Hz never becomes rad/s nor a stiffness in N*m/rad one in N*m;
+- `energy`: J carries it and N*m does not, so a torque refuses J. The other way is harmless (a work
+  written as N*m), and electrical units are exempt, since there nobody confuses the two.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from numbers import Real
+
+from fairlead.errors import FairleadError, did_you_mean, shown
+
+LONGEST_UNIT = 40
+LONGEST_NUMBER = 60
+LARGEST_EXPONENT = 4
+
+Dimension = tuple[Fraction | int, ...]
+BASES = ("m", "kg", "s", "A", "K", "rad", "J")
+NONE: Dimension = (0, 0, 0, 0, 0, 0, 0)
+RAD, ENERGY = 5, 6
+
+PREFIXES = {"n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "d": 1e-1, "h": 1e2,
+            "k": 1e3, "M": 1e6, "G": 1e9}  # fmt: skip
+# Atom -> (factor to SI, exponents of m kg s A K rad energy). These take a prefix ...
+METRIC: dict[str, tuple[float, Dimension]] = {
+    "m": (1.0, (1, 0, 0, 0, 0, 0, 0)),
+    "g": (1e-3, (0, 1, 0, 0, 0, 0, 0)),
+    "s": (1.0, (0, 0, 1, 0, 0, 0, 0)),
+    "A": (1.0, (0, 0, 0, 1, 0, 0, 0)),
+    "K": (1.0, (0, 0, 0, 0, 1, 0, 0)),
+    "rad": (1.0, (0, 0, 0, 0, 0, 1, 0)),
+    "Hz": (1.0, (0, 0, -1, 0, 0, 0, 0)),
+    "N": (1.0, (1, 1, -2, 0, 0, 0, 0)),
+    "Pa": (1.0, (-1, 1, -2, 0, 0, 0, 0)),
+    "bar": (1e5, (-1, 1, -2, 0, 0, 0, 0)),
+    "J": (1.0, (2, 1, -2, 0, 0, 0, 1)),
+    "W": (1.0, (2, 1, -3, 0, 0, 0, 1)),
+    "V": (1.0, (2, 1, -3, -1, 0, 0, 1)),
+    "ohm": (1.0, (2, 1, -3, -2, 0, 0, 1)),
+    "l": (1e-3, (3, 0, 0, 0, 0, 0, 0)),
+    "L": (1e-3, (3, 0, 0, 0, 0, 0, 0)),
+}
+# ... and these do not.
+PLAIN: dict[str, tuple[float, Dimension]] = {
+    "1": (1.0, NONE),
+    "%": (1e-2, NONE),
+    "min": (60.0, (0, 0, 1, 0, 0, 0, 0)),
+    "h": (3600.0, (0, 0, 1, 0, 0, 0, 0)),
+    "t": (1e3, (0, 1, 0, 0, 0, 0, 0)),
+    "deg": (math.pi / 180, (0, 0, 0, 0, 0, 1, 0)),
+    "°": (math.pi / 180, (0, 0, 0, 0, 0, 1, 0)),
+    "rev": (2 * math.pi, (0, 0, 0, 0, 0, 1, 0)),
+    "rpm": (2 * math.pi / 60, (0, 0, -1, 0, 0, 1, 0)),
+}
+# Declared unit -> (what it measures, an example), for messages.
+KINDS = {
+    "1": ("plain number", "0.35"), "m": ("length", "35 mm"), "m^2": ("area", "12 cm^2"),
+    "m^3": ("volume", "2 l"), "s": ("time", "10 ms"), "Hz": ("frequency", "50 Hz"),
+    "m/s": ("speed", "20 mm/s"), "m/s^2": ("acceleration", "9.81 m/s^2"), "kg": ("mass", "4.2 kg"),
+    "kg/m": ("mass per length", "1.6 kg/m"), "kg/m^3": ("density", "850 kg/m^3"),
+    "kg*m^2": ("moment of inertia", "0.2 kg*m^2"), "N": ("force", "12 kN"),
+    "N/m": ("stiffness or force per length", "500 kN/m"), "N*s/m": ("damping coefficient", "40 N*s/m"),
+    "N/s": ("rate of force", "2 kN/s"), "Pa": ("pressure", "210 bar"), "m^3/s": ("volume flow", "60 l/min"),
+    "rad": ("angle", "90 deg"), "rad/s": ("angular speed", "1500 rpm"),
+    "rad/s^2": ("angular acceleration", "3 rad/s^2"), "N*m": ("torque", "120 N*m"),
+    "N*m/rad": ("rotational stiffness", "2 kN*m/rad"),
+    "N*m*s/rad": ("rotational damping coefficient", "3 N*m*s/rad"), "J": ("energy", "2 kJ"),
+    "W": ("power", "5.5 kW"), "V": ("voltage", "400 V"), "A": ("current", "12 A"),
+    "ohm": ("resistance", "0.3 ohm"), "K": ("temperature", "293.15 K"),
+}  # fmt: skip
+
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+FACTOR = re.compile(r"([A-Za-zµμΩ°%_]+|1)(?:(?:\^|\*\*)([-+]?\d{1,3}))?")
+FORM = "A quantity is a finite number, a space and a unit."
+GRAMMAR = "Units are joined by * and / as in N*s/m or m/s^2."
+SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "·": "*"})
+
+
+class QuantityError(FairleadError, ValueError):
+    """A text or number that is not the quantity wanted.
+
+    `what` begins with the offending value, so that `spring.stiffness = {what}` reads as a sentence;
+    `allowed` says what would be accepted, with an example.
+    """
+
+    def __init__(self, what: str, allowed: str = "") -> None:
+        super().__init__(what, allowed)
+        self.what, self.allowed = what, allowed
+
+    def __str__(self) -> str:
+        return f"{self.what}. {self.allowed}".strip()
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit read from text: the factor that turns it to SI, and its dimension."""
+
+    text: str
+    factor: float
+    dimension: Dimension
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number in SI with its dimension."""
+
+    value: float
+    dimension: Dimension = NONE
+
+
+def si(value: object, unit: str) -> float:
+    """The value in SI: `si("12 kN", "N")` is 12000.0; a bare number is taken to be in SI already.
+
+    Parameters: `value` a text or a number; `unit` the declared unit, such as `N*m/rad` or `1`.
+    Raises QuantityError when it is not finite, not a quantity, or of another dimension.
+    """
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return _finite(value, unit)
+    if not isinstance(value, str):
+        raise QuantityError(f"{shown(value)} is not {article(kind(unit))}", wanted(unit))
+    try:
+        number, given = split(value)
+        found = parse_unit(given) if given else None
+    except QuantityError as error:
+        raise QuantityError(error.what, f"{error.allowed} {wanted(unit)}".strip()) from None
+    if found is None:
+        return _finite(number, unit)
+    declared = parse_unit(unit)
+    if not fits(found.dimension, declared.dimension):
+        raise QuantityError(
+            f"{shown(value)} is {article(kind(given))}, not {article(kind(unit))}",
+            _hint(found.dimension, declared.dimension) + wanted(unit),
+        )
+    return _finite(number * found.factor, unit, value)
+
+
+def quantity(text: str) -> Quantity:
+    """The quantity a text holds, whatever its dimension; raises QuantityError when it holds none."""
+    number, given = split(text)
+    unit = parse_unit(given or "1")
+    return Quantity(_finite(number * unit.factor, given or "1", text), unit.dimension)
+
+
+def split(text: str) -> tuple[float, str]:
+    """The number and the unit text ("" when there is none) of a quantity; the unit is not looked at."""
+    match = NUMBER.match(text) if len(text) <= LONGEST_NUMBER + 1 + LONGEST_UNIT else None
+    if match is None:
+        raise QuantityError(f"{shown(text)} is not a quantity", FORM)
+    number, rest = float(match[0]), text[match.end() :]
+    if rest and not rest.startswith(" "):
+        advice = f"Put a space before the unit: {match[0]} {rest}." if rest[0].isalpha() else FORM
+        raise QuantityError(f"{shown(text)} is not a quantity", advice)
+    return number, rest.strip(" ")
+
+
+def fits(given: Dimension, declared: Dimension) -> bool:
+    """Whether a quantity of dimension `given` may stand where `declared` is asked for (module docstring)."""
+    if given[:ENERGY] != declared[:ENERGY]:
+        return False
+    electric = declared[BASES.index("A")] != 0
+    return electric or given[ENERGY] in (0, declared[ENERGY])
+
+
+@lru_cache(maxsize=1024)
+def parse_unit(text: str) -> Unit:
+    """The unit a text such as `kN*s/m` means; raises QuantityError when it means none."""
+    if len(text) > LONGEST_UNIT:
+        raise QuantityError(f"{shown(text)} is not a unit", f"A unit has at most {LONGEST_UNIT} characters.")
+    factor, dimension, position, sign = 1.0, NONE, 0, 1
+    plain = text.translate(SUPERSCRIPTS)
+    while True:
+        match = FACTOR.match(plain, position) if sign else None
+        if match is None:
+            raise QuantityError(f"{shown(text)} is not a unit", GRAMMAR)
+        exponent = sign * int(match[2] or 1)
+        if abs(exponent) > LARGEST_EXPONENT:
+            raise QuantityError(f"{shown(text)} is not a unit", f"Exponents go up to {LARGEST_EXPONENT}.")
+        scale, powers = atom(match[1])
+        factor *= scale**exponent
+        dimension = tuple(have + exponent * more for have, more in zip(dimension, powers, strict=True))
+        position = match.end()
+        if position == len(plain):
+            return Unit(text, factor, dimension)
+        sign = {"*": 1, "/": -1}.get(plain[position], 0)
+        position += 1
+
+
+def atom(name: str) -> tuple[float, Dimension]:
+    """Factor and dimension of one word of a unit: from the tables, else from pint."""
+    if name in PLAIN:
+        return PLAIN[name]
+    name = name.replace("Ω", "ohm")
+    if name in METRIC:
+        return METRIC[name]
+    if name[0] in PREFIXES and name[1:] in METRIC:
+        scale, powers = METRIC[name[1:]]
+        return PREFIXES[name[0]] * scale, powers
+    return _from_pint(name)
+
+
+def _from_pint(name: str) -> tuple[float, Dimension]:
+    """Look one word up with pint; temperatures with an offset, and units of nothing we know, are refused."""
+    if name in _MISREAD:
+        raise QuantityError(f"{name} is not a known unit", f"Did you mean {_MISREAD[name]}?")
+    unknown = QuantityError(f"{name} is not a known unit", did_you_mean(name, [*METRIC, *PLAIN, *_PREFIXED]))
+    import pint
+
+    registry = pint.application_registry
+    try:
+        zero = registry.Quantity(0.0, name).to_root_units().magnitude
+        one = registry.Quantity(1.0, name).to_root_units()
+    except Exception:  # noqa: BLE001 - pint raises a dozen kinds, some not its own; each means: not a unit
+        raise unknown from None
+    if zero != 0.0:
+        raise QuantityError(f"{name} has a zero point of its own", "Give temperatures in K.")
+    factor, powers = float(one.magnitude), [0] * len(BASES)
+    for root, exponent in one.unit_items():
+        if root not in _ROOTS or exponent != int(exponent):
+            raise unknown
+        scale, index = _ROOTS[root]
+        factor *= scale ** int(exponent)
+        powers[index] = int(exponent)
+    if powers[:2] in ([2, 1], [-2, -1]) and powers[2] * powers[0] < 0:
+        powers[ENERGY] = powers[1]
+    return factor, tuple(powers)
+
+
+_ROOTS = {"meter": (1.0, 0), "gram": (1e-3, 1), "kilogram": (1.0, 1), "second": (1.0, 2), "ampere": (1.0, 3),
+          "kelvin": (1.0, 4), "radian": (1.0, RAD)}  # fmt: skip
+# Offered beside the table when a unit is unknown, and spellings that pint would take for something else
+# (its Nm is a nautical mile, so a torque typed without the * would pass for a length).
+_PREFIXED = ("kN", "mm", "cm", "km", "kg", "ms", "kPa", "MPa", "kJ", "kW", "mrad", "kHz")
+_MISREAD = {"Nm": "N*m", "kNm": "kN*m", "Nmm": "N*mm", "Ns": "N*s", "kn": "kN, or knot", "kmh": "km/h"}
+
+
+def kind(unit: str) -> str:
+    """What a unit measures in words ("force"), or "quantity in N^2" when the table has no word for it."""
+    if unit in KINDS:
+        return KINDS[unit][0]
+    dimension = parse_unit(unit).dimension
+    for declared, (words, _example) in KINDS.items():
+        if parse_unit(declared).dimension == dimension:
+            return words
+    return f"quantity in {unit}"
+
+
+def wanted(unit: str) -> str:
+    """The sentence that says which quantities are accepted, with an example."""
+    if unit == "1":
+        return "Write a plain number such as 0.35."
+    example = KINDS[unit][1] if unit in KINDS else f"2 {unit}"
+    return f"Write {article(kind(unit))} such as {example}, or a bare number in {unit}."
+
+
+def article(words: str) -> str:
+    """The words with "a" or "an" before them."""
+    return f"an {words}" if words[0] in "aeiou" else f"a {words}"
+
+
+def unit_text(dimension: Dimension) -> str:
+    """The SI unit of a dimension as text that `parse_unit` reads back, such as `m*kg/s^2`; "" for a number.
+
+    Raises QuantityError when an exponent is not whole or beyond what a unit may have.
+    """
+    turns = [2, 1, -2, 0, 0, 0, 0]  # J stands for one energy, so its m, kg and s are taken out of the others
+    powers = [have - turn * dimension[ENERGY] for have, turn in zip(dimension, turns, strict=True)]
+    named = [(base, power) for base, power in zip(BASES, powers) if power]
+    if any(power != int(power) or not -LARGEST_EXPONENT <= power <= LARGEST_EXPONENT for _, power in named):
+        text = "*".join(f"{base}^{power}" for base, power in named)
+        raise QuantityError(f"{text} is not a unit", f"Exponents are whole, up to {LARGEST_EXPONENT}.")
+    above = "*".join(_power_text(base, power) for base, power in named if power > 0)
+    below = "".join("/" + _power_text(base, -power) for base, power in named if power < 0)
+    return (above or "1") + below if named else ""
+
+
+def _power_text(base: str, power: Fraction | int) -> str:
+    return base if power == 1 else f"{base}^{power}"
+
+
+def _finite(number: object, unit: str, text: object = None) -> float:
+    try:
+        result = float(number)  # type: ignore[arg-type]
+    except OverflowError:
+        result = math.inf
+    if not math.isfinite(result):
+        raise QuantityError(f"{shown(number if text is None else text)} is not finite", wanted(unit))
+    return result
+
+
+def _hint(given: Dimension, declared: Dimension) -> str:
+    if given[:RAD] != declared[:RAD]:
+        return ""
+    if given[RAD] != declared[RAD]:
+        return "Angles are a kind of their own: Hz is not rad/s, and rad is not dropped. "
+    return "J measures an energy; a torque is written in N*m. "
