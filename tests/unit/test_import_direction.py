@@ -34,7 +34,8 @@ LAST = {"", "simulate", "testing", "cli", "__main__", "models"}   # these may im
 def source_files() -> dict[str, pathlib.Path]:
     """Dotted name -> file, of every module that is installed."""
     named = {}
-    for folder, prefix in (("src", ""), ("components", "fairlead.components."), ("models", "fairlead.models.")):
+    roots = {"src": "", "components": "fairlead.components.", "models": "fairlead.models."}
+    for folder, prefix in roots.items():
         for file in sorted((ROOT / folder).rglob("*.py")):
             dotted = prefix + ".".join(file.relative_to(ROOT / folder).with_suffix("").parts)
             named[dotted.removesuffix("__init__").rstrip(".")] = file

@@ -65,7 +65,7 @@ class Elsewhere:
 def succeed(*command: str | pathlib.Path, **settings: Any) -> str:
     """Standard output of a command that must end well; its words are shown when it does not."""
     words = [str(word) for word in command]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=600, stdin=subprocess.DEVNULL, **settings)
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, **settings)
     assert done.returncode == 0, f"{words}\n{done.stdout}\n{done.stderr}"
     return done.stdout
 
@@ -89,8 +89,8 @@ def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
     place = Elsewhere(tmp_path_factory.mktemp("else where"))
     place.user.mkdir()
     venv.create(place.folder / "env", with_pip=True)
-    probe = [place.python, "-m", "pip", "download", "--no-deps", "--dest", place.folder / "probe", "setuptools"]
-    answer = subprocess.run(probe, capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
+    fetch = [place.python, "-m", "pip", "download", "--no-deps", "--dest", place.folder / "fetched"]
+    answer = subprocess.run([*fetch, "setuptools"], capture_output=True, text=True)
     if answer.returncode:
         pytest.skip(f"no package index can be reached: {answer.stderr[-300:]}")
     place.call("-m", "pip", "install", "--quiet", build_wheel(place.folder))

@@ -1,8 +1,9 @@
 """The command `fairlead`: one file per verb, each a thin caller of the Python API.
 
 Exit codes: 0 ok, 1 model error, 2 usage, 3 numerical failure, 4 budget exceeded, 5 a limit of the
-netlist broken, 130 interrupted. Results go to standard output; progress, warnings and errors to
-standard error. A verb imports what it needs when it runs, so that `--help` stays quick.
+netlist broken, 70 a mistake of fairlead itself, 130 interrupted. Results go to standard output,
+progress, warnings and errors to standard error. A verb imports what it needs when it runs, so that
+`--help` stays quick.
 """
 
 import typer
@@ -43,4 +44,4 @@ def _options(
 
 def main() -> None:
     """Run the command line with the arguments of this process; does not return."""
-    app()
+    app(prog_name="fairlead")

@@ -9,8 +9,8 @@ from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Ve
 
 def check(
     netlist: Netlist,
-    settings: Settings = [],  # noqa: B006  (typer reads the default and never hands it out)
-    libraries: Libraries = [],  # noqa: B006
+    settings: Settings,
+    libraries: Libraries,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,

@@ -20,11 +20,11 @@ class Stage(enum.StrEnum):
 
 def describe(
     subject: Annotated[
-        str, typer.Argument(help="A netlist, a bundled model, or a component type such as Spring.", show_default=False)
+        str, typer.Argument(help="A netlist, a bundled model, or a component type such as Spring.")
     ],
-    stage: Annotated[Stage, typer.Option(help="The stage whose output is shown, for a netlist.")] = Stage.FLATTEN,
-    settings: Settings = [],  # noqa: B006
-    libraries: Libraries = [],  # noqa: B006
+    settings: Settings,
+    libraries: Libraries,
+    stage: Annotated[Stage, typer.Option(help="For a netlist: the stage to look at.")] = Stage.FLATTEN,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:

@@ -17,17 +17,19 @@ class Format(enum.StrEnum):
     SVG = "svg"
 
 
-SUFFIXES = {".mmd": Format.MERMAID, ".md": Format.MERMAID, ".dot": Format.DOT, ".gv": Format.DOT, ".svg": Format.SVG}
+SUFFIXES = {".mmd": Format.MERMAID, ".dot": Format.DOT, ".gv": Format.DOT, ".svg": Format.SVG}
 
 
 def graph(
     netlist: Netlist,
+    settings: Settings,
+    libraries: Libraries,
     kind: Annotated[
         Format | None, typer.Option("--format", help="Default: by the ending of --out, else mermaid.")
     ] = None,
-    out: Annotated[pathlib.Path | None, typer.Option(help="Write to this file, not to standard output.")] = None,
-    settings: Settings = [],  # noqa: B006
-    libraries: Libraries = [],  # noqa: B006
+    out: Annotated[
+        pathlib.Path | None, typer.Option(metavar="FILE", help="Write to this file, not to standard output.")
+    ] = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:

@@ -5,11 +5,15 @@ from typing import Annotated
 
 import typer
 
-Netlist = Annotated[str, typer.Argument(help="A netlist file, or the name of a bundled model.", show_default=False)]
+Netlist = Annotated[str, typer.Argument(help="A netlist file, or the name of a bundled model.")]
 Settings = Annotated[
     list[str],
     typer.Option(
-        "--set", metavar="NAME=VALUE", help="Override a parameter of the netlist; repeatable.", show_default=False
+        "--set",
+        metavar="NAME=VALUE",
+        help="Override a parameter of the netlist; repeatable.",
+        default_factory=list,
+        show_default=False,
     ),
 ]
 Libraries = Annotated[
@@ -18,6 +22,7 @@ Libraries = Annotated[
         "--library",
         metavar="PATH",
         help="A Python file or folder with components of your own; its code is run. Repeatable.",
+        default_factory=list,
         show_default=False,
     ),
 ]

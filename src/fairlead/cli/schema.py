@@ -8,7 +8,7 @@ from fairlead.cli.options import Libraries, Quiet, Verbose
 
 
 def schema(
-    libraries: Libraries = [],  # noqa: B006
+    libraries: Libraries,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:

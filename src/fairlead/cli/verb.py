@@ -29,9 +29,10 @@ class Verb(typer.core.TyperCommand):
             typer.Exit: with the exit code of the failure.
         """
         as_json, verbose = ctx.params.get("as_json", False), ctx.params.get("verbose", False)
-        warnings.showwarning = _show_warning
         try:
-            return super().invoke(ctx)
+            with warnings.catch_warnings():
+                warnings.showwarning = _show_warning
+                return super().invoke(ctx)
         except FairleadError as error:
             typer.echo(_as_json(error) if as_json else str(error), err=not as_json)
             if verbose:

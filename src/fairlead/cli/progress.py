@@ -1,0 +1,34 @@
+"""Progress with an estimate of the time left: on standard error, and only on a terminal."""
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+ReportProgress = Callable[[float, float, Any], None]
+"""Called with (fraction done, simulated time in s, counters)."""
+
+
+@contextlib.contextmanager
+def progress_bar(label: str, quiet: bool) -> Iterator[ReportProgress | None]:
+    """Give the callback of a live bar; None when nobody watches (a file, a pipe, -q)."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TaskProgressColumn(),
+        TimeRemainingColumn(),
+        TextColumn("t = {task.fields[time]:.4g} s"),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(label, total=1.0, time=0.0)
+
+        def report(fraction: float, time: float, counters: Any) -> None:
+            bar.update(task, completed=fraction, time=time)
+
+        yield report

@@ -1,0 +1,92 @@
+"""`fairlead run`: simulate a netlist, leave a directory of results, and say how far to trust them."""
+
+import json
+import pathlib
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+
+if TYPE_CHECKING:
+    from fairlead import Model, Result
+
+EXIT_CODES = {"finished": 0, "interrupted": 130, "max_wall": 4, "max_steps": 4, "max_events": 4}
+"""How the status in run.json ends the process; any other status is a numerical failure."""
+NUMERICAL_FAILURE = 3
+LIMIT_BROKEN = 5
+
+
+def run(
+    netlist: Netlist,
+    settings: Settings,
+    libraries: Libraries,
+    out: Annotated[
+        pathlib.Path | None,
+        typer.Option(metavar="DIR", help="Leave the results here. Default: results/NAME."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the results of a finished run.")] = False,
+    csv: Annotated[bool, typer.Option("--csv", help="Also write the signals as series.csv.")] = False,
+    report: Annotated[bool, typer.Option("--report", help="Also write report.html.")] = False,
+    profile: Annotated[
+        bool, typer.Option("--profile", help="Say which components cost the time, and one thing to try.")
+    ] = False,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Simulate a netlist. Ctrl-C ends a run early and keeps what was computed."""
+    import fairlead
+    from fairlead.cli.progress import progress_bar
+
+    model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
+    with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress:
+        result = model.run(out=out, force=force, progress=progress, profile=profile)
+    written = _write_extras(model, result, csv=csv, report=report)
+    if as_json:
+        typer.echo(json.dumps({**result.run, "directory": str(result.directory)}, indent=2, default=str))
+    elif not quiet:
+        _print_summary(result, written, profile=profile)
+    raise typer.Exit(exit_code(result.run))
+
+
+def exit_code(outcome: dict[str, Any]) -> int:
+    """The exit code that the contents of a `run.json` call for."""
+    code = EXIT_CODES.get(outcome["status"], NUMERICAL_FAILURE)
+    return LIMIT_BROKEN if code == 0 and outcome.get("limits_broken") else code
+
+
+def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> list[pathlib.Path]:
+    """What is made from the results: figures the netlist names, and CSV and a page when asked."""
+    written = []
+    if plots := model.netlist.record.plots:
+        from fairlead.report import figures
+
+        written += figures.draw(result, plots)
+    if csv:
+        target = pathlib.Path(result.directory) / "series.csv"
+        result.to_pandas().to_csv(target)
+        written.append(target)
+    if report:
+        from fairlead.report import page
+
+        written.append(page.write(result, plots))
+    return written
+
+
+def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bool) -> None:
+    """The closing table, the files made beside the results, and what went beyond the limits."""
+    from rich.console import Console
+
+    from fairlead.cli.summary import summary_table
+
+    console = Console(highlight=False)
+    console.print(summary_table(result.run, result.directory))
+    for file in written:
+        typer.echo(f"wrote {file}")
+    if profile:
+        typer.echo(result.run.get("profile", "no profile was kept"))
+    if result.run["status"] != "finished":
+        typer.echo(f"{result.run['status']}: {result.run.get('sentence', 'the run ended early')}", err=True)
+    for broken in result.run.get("limits_broken") or ():
+        typer.echo(f"limit broken: {broken}", err=True)

@@ -1,0 +1,67 @@
+"""The table a run ends with: what it cost, and how far its numbers can be trusted."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+UNKNOWN = "not known"
+
+
+def summary_table(run: Mapping[str, Any], directory: object) -> "Table":
+    """The closing table of a run, from the contents of its `run.json`."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, show_header=False, pad_edge=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
+    for name, value in summary_rows(run, directory):
+        table.add_row(name, value)
+    return table
+
+
+def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, str]]:
+    """(what, value with unit) of each row."""
+    return [
+        ("end time", f"{_number(run.get('end_time'), 's')} ({run.get('status', UNKNOWN)})"),
+        ("wall time", _wall_time(run)),
+        ("engine", str(run.get("engine", UNKNOWN))),
+        ("steps", f"{run.get('steps', UNKNOWN)}"),
+        ("rejected", f"{run.get('rejected', UNKNOWN)}"),
+        ("switches", f"{run.get('switches', UNKNOWN)}"),
+        ("worst creep", _creep(run.get("worst_creep"))),
+        ("energy closure", _closure(run.get("energy"))),
+        ("results", str(directory)),
+    ]
+
+
+def _number(value: float | None, unit: str) -> str:
+    return UNKNOWN if value is None else f"{value:.4g} {unit}"
+
+
+def _wall_time(run: Mapping[str, Any]) -> str:
+    text = _number(run.get("wall_time"), "s")
+    compile_time = run.get("compile_time")
+    return f"{text}, {compile_time:.2g} s of it compiling" if compile_time else text
+
+
+def _creep(creep: Mapping[str, Any] | None) -> str:
+    """Largest slip speed of a contact that should be stuck; a scene may have no such contact."""
+    if not creep or creep.get("value") is None:
+        return "no contact was held"
+    return f"{creep['value']:.2g} m/s in {creep['contact']}"
+
+
+def _closure(energy: Mapping[str, Any] | None) -> str:
+    """Energy not accounted for, relative to what passed through."""
+    if not energy or energy.get("closure") is None:
+        return UNKNOWN
+    parts = (
+        f"{word} {energy[key]:.4g} J"
+        for word, key in (("supplied", "supplied"), ("dissipated", "dissipated"), ("stored", "stored_change"))
+        if energy.get(key) is not None
+    )
+    detail = ", ".join(parts)
+    return f"{energy['closure']:.2g}{f' ({detail})' if detail else ''}"
