@@ -1,0 +1,43 @@
+"""A line that pulls and cannot push."""
+
+from fairlead.component import Component, Output, Parameter, Translational, Zones, guard, zone
+from fairlead.component.declare import Law
+
+
+class Tether(Component):
+    """Tension-only line between two flanges.
+
+    taut:   tension = stiffness * (b.x - a.x - length)
+    slack:  tension = 0
+
+    It carries no damping and no mass; a snap is limited by the masses at its ends.
+    """
+
+    a = Translational("inboard end")
+    b = Translational("outboard end")
+    stiffness = Parameter("N/m", "Tension per stretch.", above=0)
+    length = Parameter("m", "Length without load.", default=0.0, least=0)
+    tension = Output("N", "Tension, never negative.")
+    zones = Zones("slack", "taut")
+
+    @zone("slack")
+    def slack(p, a, b):
+        """Nothing is carried."""
+        return Law(a=0, b=0, tension=0)
+
+    @zone("taut")
+    def taut(p, a, b):
+        """The law of a spring."""
+        stretch = b.x - a.x - p.length
+        tension = p.stiffness * stretch
+        return Law(a=-tension, b=+tension, tension=tension, stored=tension * stretch / 2)
+
+    @guard("slack", to="taut", unit="m")
+    def tightens(p, a, b):
+        """The ends are further apart than the line is long."""
+        return b.x - a.x - p.length
+
+    @guard("taut", to="slack", unit="m")
+    def slackens(p, a, b):
+        """The ends have come closer."""
+        return p.length - (b.x - a.x)

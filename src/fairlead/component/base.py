@@ -1,0 +1,216 @@
+"""Component and its kin: declarations collected by name and checked when the class is created.
+
+A subclass of `Component` answers one question: given the motion of my ports, what do I take in?
+
+    class Spring(Component):
+        a, b = Translational(), Translational()
+        stiffness = Parameter("N/m", above=0)
+
+        def law(p, a, b):
+            tension = p.stiffness * (b.x - a.x)
+            return -tension, +tension
+
+Arguments are passed by name: `p` holds the parameters, every other argument is a port, an input, a
+state, an unknown or `t`. A law without zones is called `law`; with zones, each `@zone` marks one.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, cast
+
+from fairlead.component.declare import (
+    Block, Choice, Count, Derived, Guard, Input, Law, Output, Parameter, Part, Port, State, Stations, Table,
+    Unknown, Waveform, ZoneLaw, Zones,
+)  # fmt: skip
+
+PARAMETER_KINDS = (Parameter, Choice, Count, Part, Block, Table, Waveform, Stations)
+METHODS = ("law", "inertia", "start", "ties", "stored", "dissipated", "supplied", "expand", "check", "prescribes")
+LEDGER = ("dissipated", "supplied", "stored")
+
+
+class DeclarationError(TypeError):
+    """A class that contradicts itself; raised when it is created, with its file and line."""
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """All that a class declares, by name and in order."""
+
+    ports: dict[str, Port] = field(default_factory=dict)
+    parameters: dict[str, Any] = field(default_factory=dict)
+    inputs: dict[str, Input] = field(default_factory=dict)
+    outputs: dict[str, Output] = field(default_factory=dict)
+    states: dict[str, State] = field(default_factory=dict)
+    unknowns: dict[str, Unknown] = field(default_factory=dict)
+    derived: dict[str, Derived] = field(default_factory=dict)
+    zones: tuple[str, ...] = ("always",)
+    laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
+    guards: dict[str, Guard] = field(default_factory=dict)
+
+    @property
+    def arguments(self) -> set[str]:
+        """Names a law may ask for."""
+        return {"p", "t", "zone", *self.ports, *self.inputs, *self.states, *self.unknowns}
+
+
+class Declared:
+    """What Component, Composite and parts of laws share: declarations collected at class creation."""
+
+    declaration: ClassVar[Declaration] = Declaration()
+
+    def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
+        """Collect what the body declares on top of what its half-models declare."""
+        super().__init_subclass__(**keywords)
+        if cls.__module__.split(".")[0] == "components":
+            raise DeclarationError(
+                f"{cls.__name__} was imported as {cls.__module__}; import it as fairlead.{cls.__module__}"
+            )
+        if not abstract:  # a half-model is collected through the leaves that build on it
+            cls.declaration = _collect(cls)
+            _check(cls)
+
+
+class Family(Declared, abstract=True):
+    """Kinds that can stand in one place, told apart by one word in the netlist.
+
+    The head of a family is abstract and names the word: `key = "curve"`. A member is known by its
+    `word` (its class name in lower_snake unless it says so), and becomes available by being imported.
+    `bare` names the parameter that a value without a map stands for, in the member `bare_word`.
+    """
+
+    key: ClassVar[str] = ""
+    word: ClassVar[str] = ""
+    default_word: ClassVar[str] = ""
+    bare: ClassVar[tuple[str, str] | None] = None  # (word, parameter)
+    members: ClassVar[dict[str, type[Family]]]
+
+    def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
+        """Collect declarations, and join the family."""
+        super().__init_subclass__(abstract=abstract, **keywords)
+        if abstract:
+            cls.members = cls.__dict__.get("members", {})
+        else:
+            cls.word = cls.__dict__.get("word") or _snake(cls.__name__)
+            cls.members[cls.word] = cls
+
+
+def _snake(name: str) -> str:
+    return "".join("_" + c.lower() if c.isupper() and i else c.lower() for i, c in enumerate(name))
+
+
+class Component(Declared, abstract=True):
+    """A leaf of the model: ports, parameters and pure laws."""
+
+
+class Composite(Declared, abstract=True):
+    """A component made of others: `expand(p)` returns an Expansion of children and connections."""
+
+
+@dataclass(frozen=True)
+class Child:
+    """One child of a composite: its class and its parameters, already in SI."""
+
+    type: type[Declared]
+    parameters: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """What a composite turns into. Connections join paths such as ("hose[0].b", "node[1].flange").
+
+    `ports` maps each outer port to an inner one; `outputs` gives inner outputs an outer name.
+    """
+
+    children: dict[str, Child]
+    connections: list[tuple[str, ...]]
+    ports: dict[str, str]
+    outputs: dict[str, str] = field(default_factory=dict)
+    line: Any = None  # what a route needs to know, for composites with a path
+
+
+def _collect(cls: type) -> Declaration:
+    """Merge the declarations of all bases, nearest last, into one record."""
+    members: dict[str, Any] = {}
+    for base in reversed(cls.__mro__[:-1]):
+        members.update(base.__dict__)
+
+    def of(kind: Any) -> dict[str, Any]:
+        return {name: value for name, value in members.items() if isinstance(value, kind)}
+
+    zones = next((value for value in reversed(list(members.values())) if isinstance(value, Zones)), None)
+    laws: dict[str, Callable[..., Any]] = {}
+    for marked in of(ZoneLaw).values():
+        laws.update(dict.fromkeys(marked.zones, marked.law))
+    if "law" in members and zones is None:
+        laws["always"] = members["law"]
+    return Declaration(
+        ports=of(Port), parameters=of(PARAMETER_KINDS), inputs=of(Input), outputs=of(Output), states=of(State),
+        unknowns=of(Unknown), derived=of(Derived), zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
+    )  # fmt: skip
+
+
+def _check(cls: type[Declared]) -> None:
+    """Names, signatures and targets; the physics is the contract suite's business."""
+    has = cls.declaration
+    if issubclass(cls, Composite):
+        _demand(cls, hasattr(cls, "expand"), "a Composite needs an expand(p) method")
+        return
+    if not issubclass(cls, Component):
+        return
+    for name in has.zones:
+        _demand(cls, name in has.laws, f"zone {name!r} has no law")
+    for name, law in has.laws.items():
+        _demand(cls, name in has.zones, f"a law is declared for {name!r}, which is not in zones {has.zones}")
+        _check_arguments(cls, law, has.arguments)
+    for name, mark in has.guards.items():
+        for zone in (*mark.zones, mark.to):
+            _demand(cls, zone in has.zones, f"guard {name!r} names {zone!r}, which is not in zones {has.zones}")
+        _demand(cls, mark.to not in mark.zones, f"guard {name!r} leads from {mark.to!r} to itself")
+        _check_arguments(cls, mark.function, has.arguments)
+
+
+def _check_arguments(cls: type, function: Callable[..., Any], allowed: Iterable[str]) -> None:
+    for argument in inspect.signature(function).parameters:
+        _demand(cls, argument in allowed, f"{function.__name__} asks for {argument!r}; known: {sorted(allowed)}")
+
+
+def _demand(cls: type, holds: bool, what: str) -> None:
+    if not holds:
+        raise DeclarationError(f"{source_place(cls)}: {cls.__name__}: {what}")
+
+
+def source_place(thing: Any) -> str:
+    """file:line of a class or function, or its name when there is no source."""
+    try:
+        thing = inspect.unwrap(thing)
+        return f"{inspect.getsourcefile(thing)}:{inspect.getsourcelines(thing)[1]}"
+    except (OSError, TypeError):
+        return str(getattr(thing, "__qualname__", thing))
+
+
+def terms_of(cls: type[Declared], said: Any) -> dict[str, Any]:
+    """A law's answer by name; a bare value or tuple gives the flows of the ports in their order."""
+    if isinstance(said, Law):
+        terms = dict(said.terms)
+    else:
+        flows = said if isinstance(said, tuple) else (said,)
+        ports = list(cls.declaration.ports)
+        if len(flows) != len(ports):
+            raise DeclarationError(f"the law returns {len(flows)} flows for {len(ports)} ports {ports}")
+        terms = dict(zip(ports, flows, strict=True))
+    has = cls.declaration
+    known = {*has.ports, *has.states, *has.unknowns, *has.outputs, *LEDGER}
+    unknown = set(terms) - known
+    missing = {*has.ports, *has.states, *has.unknowns} - set(terms) - _passive(cls)
+    if unknown or missing:
+        raise DeclarationError(f"the law gives {sorted(unknown)} unasked and leaves out {sorted(missing)}")
+    return terms
+
+
+def _passive(cls: type[Declared]) -> set[str]:
+    """Ports whose flow is settled elsewhere: prescribed motion takes whatever comes, ties pass it on."""
+    settled = set(cast(Any, cls).prescribes()) if hasattr(cls, "prescribes") else set()
+    return settled | (set(cls.declaration.ports) if hasattr(cls, "ties") else set())

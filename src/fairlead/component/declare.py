@@ -1,0 +1,275 @@
+"""The words of a component: ports, parameters, unknowns, outputs, zones, guards.
+
+Everything here is a declaration, a small frozen record that says what a class has. `base.Component`
+collects them by name when the class is created; nothing is computed in this file.
+
+Sign rules, stated once:
+    a flow is what a port *takes in*: the force that acts on the component there, the volume or the
+    current that enters it. At a node the flows of all ports sum to zero.
+    tension is positive; power into a component is positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+REQUIRED: Any = object()
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A kind of port: what is equal at a node (across) and what sums to zero there (through).
+
+    A mechanical domain has a position, its rate and, in guards and outputs only, its acceleration;
+    the others have one potential.
+    """
+
+    name: str
+    across: tuple[tuple[str, str], ...]  # (variable, unit), position before rate
+    through: tuple[str, str]
+    acceleration: str = ""
+
+    @property
+    def mechanical(self) -> bool:
+        """True when the across variables are a position and its rate."""
+        return len(self.across) == 2
+
+
+TRANSLATIONAL = Domain("translational", (("x", "m"), ("v", "m/s")), ("force", "N"), "a")
+ROTATIONAL = Domain("rotational", (("angle", "rad"), ("speed", "rad/s")), ("torque", "N*m"), "acceleration")
+HYDRAULIC = Domain("hydraulic", (("pressure", "Pa"),), ("flow", "m^3/s"))
+ELECTRICAL = Domain("electrical", (("voltage", "V"),), ("current", "A"))
+PATH = Domain("path", (), ("", ""))
+
+
+@dataclass(frozen=True)
+class Port:
+    """A connection point of one domain."""
+
+    domain: Domain
+    doc: str = ""
+    optional: bool = False  # may stay unconnected
+
+
+def Translational(doc: str = "", *, optional: bool = False) -> Any:
+    """A flange that moves along a line: x [m], v [m/s]; takes in a force [N]."""
+    return Port(TRANSLATIONAL, doc, optional)
+
+
+def Rotational(doc: str = "", *, optional: bool = False) -> Any:
+    """A shaft end: angle [rad], speed [rad/s]; takes in a torque [N m]."""
+    return Port(ROTATIONAL, doc, optional)
+
+
+def Hydraulic(doc: str = "", *, optional: bool = False) -> Any:
+    """A fluid port: pressure [Pa, absolute]; takes in a volume flow [m^3/s]."""
+    return Port(HYDRAULIC, doc, optional)
+
+
+def Electrical(doc: str = "", *, optional: bool = False) -> Any:
+    """A terminal: voltage [V]; takes in a current [A]."""
+    return Port(ELECTRICAL, doc, optional)
+
+
+def Path(doc: str = "") -> Any:
+    """Joins a line with the route it runs along; becomes contacts when the model is flattened."""
+    return Port(PATH, doc)
+
+
+@dataclass(frozen=True)
+class Input:
+    """A directed signal read by the component. `default` is used when nothing is connected."""
+
+    unit: str
+    doc: str = ""
+    default: str | float | None = None  # a number, or the name of a parameter
+
+
+@dataclass(frozen=True)
+class Output:
+    """A directed signal, computed by the law in force; free unless recorded or connected."""
+
+    unit: str
+    doc: str = ""
+
+
+@dataclass(frozen=True)
+class State:
+    """An unknown of the component's own with a rate. `start` is a number or a parameter's name."""
+
+    unit: str
+    doc: str = ""
+    start: str | float = 0.0
+    nominal: float = 1.0
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """An algebraic unknown of the component's own: its law gives what must be zero, or `hold(...)`."""
+
+    unit: str
+    doc: str = ""
+    nominal: float = 1.0
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number with a unit and a range; SI inside, any unit of the same kind in a netlist.
+
+    `above`/`below` exclude the bound, `least`/`most` include it. Without a default it must be given.
+    A default of None means "absent": the law must not read it then.
+    """
+
+    unit: str
+    doc: str = ""
+    default: Any = REQUIRED
+    above: float | None = None
+    least: float | None = None
+    below: float | None = None
+    most: float | None = None
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A word among a few; each option is a variant of its own, traced and compiled apart."""
+
+    options: tuple[str, ...]
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
+class Count:
+    """A whole number that shapes a composite (how many children); never seen by a law."""
+
+    doc: str = ""
+    default: Any = REQUIRED
+    least: int = 1
+    most: int = 1_000_000
+
+
+@dataclass(frozen=True)
+class Part:
+    """A replaceable part of a law: an instance of a `family` of small declarations (such as a curve)."""
+
+    family: type
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
+class Block:
+    """A group of parameters written as a map in the netlist: `hose: {mass: 1.6 kg/m, ...}`."""
+
+    parameters: Mapping[str, Parameter]
+    doc: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """An x-y table as a law function: value and derivative, its interval frozen inside a step."""
+
+    x: str
+    y: str
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
+class Waveform:
+    """A quantity given in time: constant, ramp, step, sine, trapezoid or table; pieces end exactly."""
+
+    unit: str
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
+class Stations:
+    """The ordered devices of a route, each an instance of a `family`."""
+
+    family: type
+    doc: str = ""
+
+
+class Zones(tuple[str, ...]):
+    """The zones of a component, in the order in which a start tries them."""
+
+    def __new__(cls, *names: str) -> Zones:
+        """Zones by name."""
+        return super().__new__(cls, names)
+
+
+@dataclass(frozen=True)
+class ZoneLaw:
+    """A law in force in some zones."""
+
+    zones: tuple[str, ...]
+    law: Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A function that is negative inside `zones`; its rise through zero leads to zone `to`.
+
+    A guard that returns several values is a group: it fires when all of them have risen.
+    """
+
+    zones: tuple[str, ...]
+    to: str
+    unit: str
+    function: Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A number computed from the parameters when an instance is made; plain Python, not traced."""
+
+    function: Callable[..., float]
+
+
+def zone(*names: str) -> Callable[[Callable[..., Any]], Any]:
+    """Mark a law as the one in force in the named zones. With several names it receives `zone`."""
+    return lambda law: ZoneLaw(names, law)
+
+
+def guard(*zones: str, to: str, unit: str) -> Callable[[Callable[..., Any]], Any]:
+    """Mark a function as a guard of `zones` that leads to `to`; `unit` scales its tolerance."""
+    return lambda function: Guard(zones, to, unit, function)
+
+
+def derived(function: Callable[..., float]) -> Any:
+    """Mark a method as a number derived from the parameters, read as `p.name` in laws."""
+    return Derived(function)
+
+
+@dataclass(frozen=True)
+class Hold:
+    """The demand that a relative speed stays zero; the engine writes the row (see `docs/integrator.md`)."""
+
+    slip: Any
+
+
+def hold(slip: Any) -> Any:
+    """Law of an algebraic unknown in a zone that holds: keep `slip` [m/s or rad/s] at zero."""
+    return Hold(slip)
+
+
+@dataclass(frozen=True)
+class Law:
+    """What a law says, by the names the component declares.
+
+    ports        what the port takes in                     Law(a=-tension, b=+tension)
+    states       the rate                                   Law(speed=force / mass)
+    unknowns     what must be zero, or hold(slip)           Law(force=force - limit)
+    outputs      the value
+    dissipated, supplied [W], stored [J]   lines of the energy ledger
+    """
+
+    terms: Mapping[str, Any] = field(default_factory=dict)
+
+    def __init__(self, **terms: Any) -> None:
+        """Terms by name."""
+        object.__setattr__(self, "terms", terms)

@@ -1,0 +1,103 @@
+"""Everything the code of a class depends on, as text to be hashed, without running or tracing it.
+
+Followed are the functions of the class and its bases and, through the names they use, helpers, constants
+and classes in any file, the user's and ours alike. A module used as `module.f` counts with its whole source.
+Third-party packages count through their versions (see `native.digest`).
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import pathlib
+import sys
+from types import CodeType, FunctionType, ModuleType
+from typing import Any
+
+from fairlead.component.declare import Derived, Guard, ZoneLaw
+from fairlead.component.values import Variant
+
+
+def dependencies(variant: Variant) -> str:
+    """Text that changes whenever the traced laws of `variant` may change."""
+    seen: set[int] = set()
+    pieces = [repr((variant.words, variant.absent))]
+    for base in variant.type.__mro__[:-1]:
+        pieces += _of(base, seen)
+    pieces += [f"{name}: {dependencies(part)}" for name, part in variant.parts]
+    return "\n".join([*pieces, _framework()])
+
+
+@functools.cache
+def _framework() -> str:
+    """Source of the files that trace laws and write kernels."""
+    here = pathlib.Path(__file__).parent
+    files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
+    files += [here.parent / "system" / n for n in ("kernels.py", "addresses.py", "layout.py")]
+    return "\n".join(file.read_text(encoding="utf-8") for file in files)
+
+
+def _of(thing: Any, seen: set[int]) -> list[str]:
+    """Text of one thing and, recursively, of what its code names."""
+    if id(thing) in seen:
+        return []
+    seen.add(id(thing))
+    if isinstance(thing, ZoneLaw):
+        return [repr(thing.zones), *_of(thing.law, seen)]
+    if isinstance(thing, Guard):
+        return [repr((thing.zones, thing.to, thing.unit)), *_of(thing.function, seen)]
+    if isinstance(thing, Derived):
+        return _of(thing.function, seen)
+    if isinstance(thing, functools.partial):
+        return _of(thing.func, seen) + [repr(thing.args)]
+    if isinstance(thing, FunctionType):
+        return _of_function(thing, seen)
+    if isinstance(thing, type):
+        if _third_party(thing.__module__):
+            return []
+        return [p for name, member in sorted(vars(thing).items()) for p in [name, *_of(member, seen)]]
+    if isinstance(thing, ModuleType):
+        return [_module_source(thing)] if not _third_party(thing.__name__) else []
+    if isinstance(thing, str | int | float | tuple | frozenset | bool | None):
+        return [repr(thing)]
+    return []
+
+
+def _of_function(function: FunctionType, seen: set[int]) -> list[str]:
+    if _third_party(function.__module__ or ""):
+        return []
+    pieces = [function.__qualname__, *_of_code(function.__code__), repr(function.__defaults__)]
+    for name in _names(function.__code__):
+        if name in function.__globals__:
+            pieces += [name, *_of(function.__globals__[name], seen)]
+    for cell in function.__closure__ or ():
+        pieces += _of(cell.cell_contents, seen)
+    return pieces
+
+
+def _of_code(code: CodeType) -> list[str]:
+    constants = [repr(c) for c in code.co_consts if not isinstance(c, CodeType)]
+    inner = [p for c in code.co_consts if isinstance(c, CodeType) for p in _of_code(c)]
+    return [code.co_code.hex(), *code.co_names, *code.co_varnames, *constants, *inner]
+
+
+def _names(code: CodeType) -> list[str]:
+    inner = [name for c in code.co_consts if isinstance(c, CodeType) for name in _names(c)]
+    return [*code.co_names, *inner]
+
+
+def _module_source(module: ModuleType) -> str:
+    try:
+        return inspect.getsource(module)
+    except (OSError, TypeError):
+        return module.__name__
+
+
+def _third_party(module: str) -> bool:
+    """True for the standard library and installed packages: their versions are in the key."""
+    root = module.split(".")[0]
+    if root in sys.stdlib_module_names or root == "builtins":
+        return True
+    loaded = sys.modules.get(root)
+    file = getattr(loaded, "__file__", None) or ""
+    return root != "fairlead" and "site-packages" in pathlib.PurePath(file).parts

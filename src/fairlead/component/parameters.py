@@ -1,0 +1,259 @@
+"""Parameters as a user types them, checked by one frozen pydantic model per class.
+
+    values, faults = read(Spring, raw, "spring", folder)
+
+The model is made from the class's declarations (extra keys forbidden), so validation, the collected
+messages and the JSON Schema have one source. What comes out is `Values`: SI floats, words, parts,
+tables and waves.
+"""
+
+from __future__ import annotations
+
+import functools
+import pathlib
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, Literal, Union
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, create_model
+
+from fairlead.component.base import Declared, Family
+from fairlead.component.declare import (
+    REQUIRED, Block, Choice, Count, Parameter, Part, Stations, Table, Waveform,
+)  # fmt: skip
+from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
+from fairlead.component.values import Values
+from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.netlist.netlist import Value
+from fairlead.quantities import si, wanted
+
+STRICT = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, hide_input_in_errors=True)
+
+
+def read(
+    kind: type[Declared], raw: Mapping[str, Value], path: str, where: Location, folder: pathlib.Path
+) -> tuple[Values | None, list[Fault]]:
+    """Values of an instance of `kind` from the netlist, and every mistake in them.
+
+    `path` names the instance in messages; tables in files are looked for below `folder`.
+    """
+    plain = {name: value.plain() for name, value in raw.items()}
+    try:
+        model = model_of(kind).model_validate(plain, context={"folder": folder})
+    except ValidationError as error:
+        tree = Value(dict(raw), where)
+        return None, [_fault(kind, detail, tree, path) for detail in error.errors(include_url=False)]
+    values = _values(kind, model)
+    return values, _contradictions(kind, values, raw, path, where)
+
+
+def defaults(kind: type[Declared], **given: Any) -> Values:
+    """Values with the declared defaults, numbers given in SI: for composites, tests and tools."""
+    model = model_of(kind).model_validate(given, context={"folder": pathlib.Path()})
+    return _values(kind, model)
+
+
+@functools.cache
+def model_of(kind: type[Declared]) -> type[BaseModel]:
+    """The pydantic model of a class: one field per parameter, its default and its bounds."""
+    fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
+    if issubclass(kind, Family) and kind.key:
+        fields[kind.key] = (Literal[kind.word], Field(default=kind.word, description=_first_line(kind)))
+    return create_model(kind.__name__, __config__=STRICT, **fields)
+
+
+def family_type(family: type[Family], keep: Callable[[type[Family]], Any] | None = None) -> Any:
+    """The annotated union of all members of a family, with the bare value as a short form."""
+    models = [model_of(member) for member in family.members.values()]
+    union: Any = Union[tuple(models)] if len(models) > 1 else models[0]  # noqa: UP007 - made at run time
+    inner = Annotated[union, Field(discriminator=family.key)] if len(models) > 1 else union
+    return Annotated[inner, BeforeValidator(functools.partial(_with_word, family))]
+
+
+def _with_word(family: type[Family], value: Any) -> Any:
+    """Write out the short forms: a bare number, a bare word, a map without the word."""
+    if isinstance(value, str) and value in family.members:
+        return {family.key: value}
+    if not isinstance(value, Mapping) and family.bare is not None:
+        return {family.key: family.bare[0], family.bare[1]: value}
+    if isinstance(value, Mapping) and family.key not in value and family.default_word:
+        return {family.key: family.default_word, **value}
+    return value
+
+
+def _field(declared: Any) -> tuple[Any, Any]:
+    """Annotation and default of one parameter."""
+    default = ... if getattr(declared, "default", REQUIRED) is REQUIRED else declared.default
+    kind: Any
+    if isinstance(declared, Parameter):
+        bounds = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
+        limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
+        schema = {"type": ["number", "string"], "description": f"{declared.doc} {wanted(declared.unit)}".strip()}
+        kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: si(v, u)), limits, _Schema(schema)]
+    elif isinstance(declared, Choice):
+        kind = Literal[declared.options]
+    elif isinstance(declared, Count):
+        kind = Annotated[int, BeforeValidator(_whole), Field(ge=declared.least, le=declared.most)]
+    elif isinstance(declared, Part):
+        kind = family_type(declared.family)  # type: ignore[arg-type]
+    elif isinstance(declared, Block):
+        inner: dict[str, Any] = {name: _field(d) for name, d in declared.parameters.items()}
+        kind = create_model("Block", __config__=STRICT, **inner)
+        if all(not model_field.is_required() for model_field in kind.model_fields.values()):
+            default = Field(default_factory=kind)
+    elif isinstance(declared, Stations):
+        kind = list[family_type(declared.family)]  # type: ignore[misc, arg-type]
+    else:
+        kind = _table_type(declared)
+    if default is None:
+        kind = kind | None
+    described = getattr(declared, "doc", "")
+    validated = isinstance(default, str | int | float) and not isinstance(declared, Choice)
+    if default is ... or not isinstance(default, str | int | float | type(None)):
+        return kind, default if default is not ... else Field(description=described)
+    return kind, Field(default=default, description=described, validate_default=validated)
+
+
+def _table_type(declared: Table | Waveform) -> Any:
+    def parse(value: Any, info: ValidationInfo) -> Any:
+        if isinstance(declared, Table):
+            return read_table(value, declared, (info.context or {}).get("folder", pathlib.Path()))
+        return read_waveform(value, declared, (info.context or {}).get("folder", pathlib.Path()))
+
+    schema = table_schema(declared) if isinstance(declared, Table) else waveform_schema(declared)
+    return Annotated[Any, BeforeValidator(parse), _Schema(schema)]
+
+
+def _Schema(schema: dict[str, Any]) -> Any:  # noqa: N802 - stands for a class of pydantic
+    from pydantic import WithJsonSchema
+
+    return WithJsonSchema(schema)
+
+
+def _whole(value: Any) -> Any:
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def _values(kind: type[Declared], model: BaseModel) -> Values:
+    """The model's fields as Values; parts become Values of their own class."""
+    given: dict[str, Any] = {}
+    for name, declared in kind.declaration.parameters.items():
+        value = getattr(model, name)
+        if isinstance(declared, Part):
+            value = _part(declared.family, value)
+        elif isinstance(declared, Stations):
+            value = [_part(declared.family, one) for one in value]
+        elif isinstance(value, BaseModel):
+            value = _block(declared, value)
+        given[name] = value
+    prepare = getattr(kind, "prepare", None)
+    return Values(kind, prepare(given) if prepare else given)
+
+
+def _part(family: Any, value: Any) -> Any:
+    if not isinstance(value, BaseModel):
+        return value
+    return _values(family.members[getattr(value, family.key)], value)
+
+
+def _block(declared: Block, value: BaseModel) -> dict[str, Any]:
+    parts = {n: d.family for n, d in declared.parameters.items() if isinstance(d, Part)}
+    return {
+        n: _part(parts[n], getattr(value, n)) if n in parts else getattr(value, n) for n in type(value).model_fields
+    }
+
+
+def _contradictions(
+    kind: type[Declared], values: Values, raw: Mapping[str, Value], path: str, where: Location
+) -> list[Fault]:
+    """What the class's own `check(p)` says: (parameter, what is wrong, way out)."""
+    check = getattr(kind, "check", None)
+    faults = []
+    for name, what, way_out in (check(values) if check else ()):
+        place = raw[name].where if name in raw else where
+        faults.append(Fault(place, f"{path}.{name}: {what}" if name else f"{path}: {what}", way_out))
+    for name, value in values.given.items():
+        if isinstance(value, Values):
+            inner = raw[name].entries if name in raw else {}
+            faults += _contradictions(value.type, value, inner, f"{path}.{name}", raw[name].where if name in raw else where)
+    return faults
+
+
+def _fault(kind: type[Declared], detail: Any, tree: Value, path: str) -> Fault:
+    """One pydantic error as a Fault at the place in the netlist it speaks of."""
+    node, names = tree, []
+    for step in detail["loc"]:
+        if isinstance(node.content, dict) and step in node.content:
+            node = node.content[step]
+        elif isinstance(node.content, list) and isinstance(step, int) and step < len(node.content):
+            node = node.content[step]
+        elif not (isinstance(step, str) and detail["type"] in ("missing", "extra_forbidden") and step == detail["loc"][-1]):
+            continue  # the tag of a union, not a key of the netlist
+        names.append(f"[{step}]" if isinstance(step, int) else f".{step}")
+    full = path + "".join(names)
+    return _explain(kind, detail, node, full)
+
+
+def _explain(kind: type[Declared], detail: Any, node: Value, full: str) -> Fault:
+    name, owner, context = str(detail["loc"][-1]), kind.__name__, detail.get("ctx", {})
+    if detail["type"] == "extra_forbidden":
+        allowed = _siblings(kind, detail["loc"])
+        return Fault(node.named_at, f"{full}: {owner} has no parameter {name}. {did_you_mean(name, allowed)}".rstrip(),
+                     f"It has {listing(allowed)}." if allowed else "")  # fmt: skip
+    if detail["type"] == "missing":
+        return Fault(node.where, f"{full} is missing; {owner} needs it.", _needed(kind, detail["loc"]))
+    if "error" in context:  # raised by our own readers, already a sentence
+        return Fault(node.where, f"{full} = {shown(node.plain())}: {context['error']}")
+    limits = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
+    for key, words in limits.items():
+        if key in context:
+            unit = _unit(kind, detail["loc"])
+            return Fault(node.where, f"{full} = {shown(node.plain())} is out of range.", f"Allowed: {words} {context[key]:g} {unit}.")
+    if detail["type"] == "literal_error":
+        return Fault(node.where, f"{full} = {shown(node.plain())} is not one of {context['expected']}.")
+    if detail["type"].startswith("union_tag"):
+        return _wrong_word(node, full, detail, context)
+    return Fault(node.where, f"{full} = {shown(node.plain())}: {detail['msg']}.")
+
+
+def _wrong_word(node: Value, full: str, detail: Any, context: Any) -> Fault:
+    """The word that selects a member of a family is missing or unknown."""
+    key = context["discriminator"].strip("'")
+    if "tag" not in context:
+        return Fault(node.where, f"{full} = {shown(node.plain())} needs the key {key}.")
+    chosen, expected = str(context["tag"]), [w.strip("' ") for w in context["expected_tags"].split(",")]
+    place = node.entries[key].where if key in node.entries else node.where
+    return Fault(place, f"{full}.{key}: there is no {key} {chosen}. {did_you_mean(chosen, expected)}".rstrip(),
+                 f"There are {listing(expected)}.")  # fmt: skip
+
+
+def _declared(kind: type[Declared], loc: tuple[Any, ...]) -> Any:
+    """The declaration that `loc` points to, through blocks, parts and stations."""
+    names: Mapping[str, Any] = kind.declaration.parameters
+    found: Any = None
+    for step in loc:
+        if isinstance(found, Part | Stations) and step in getattr(found.family, "members", {}):
+            names = found.family.members[step].declaration.parameters  # type: ignore[attr-defined]
+        elif isinstance(step, str) and step in names:
+            found = names[step]
+            names = found.parameters if isinstance(found, Block) else _only_member(found)
+    return found, names
+
+
+def _only_member(found: Any) -> Mapping[str, Any]:
+    members = getattr(getattr(found, "family", None), "members", {})
+    return next(iter(members.values())).declaration.parameters if len(members) == 1 else {}
+
+
+def _siblings(kind: type[Declared], loc: tuple[Any, ...]) -> list[str]:
+    return list(_declared(kind, loc[:-1])[1])
+
+
+def _needed(kind: type[Declared], loc: tuple[Any, ...]) -> str:
+    found = _declared(kind, loc)[0]
+    return f"{found.doc} Give {wanted(found.unit)}." if isinstance(found, Parameter) else getattr(found, "doc", "")
+
+
+def _unit(kind: type[Declared], loc: tuple[Any, ...]) -> str:
+    found = _declared(kind, loc)[0]
+    unit = getattr(found, "unit", "")
+    return "" if unit == "1" else unit

@@ -1,0 +1,98 @@
+"""Piecewise polynomials: x-y tables and quantities given in time, ready for kernels.
+
+A table becomes rows  [left, right, reference, c0, c1, c2, c3, c4],  one a piece: between left and
+right its value is  c0 + c1 s + ... + c4 s^4,  s = x - reference. A kernel is told which piece is in
+force and never compares x; outside its piece the polynomial simply continues, so a law stays smooth
+while a step is tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+STRIDE = 8
+DEGREE = 4
+FAR = 1e300
+
+
+@dataclass(frozen=True)
+class Sine:
+    """amplitude * sin(omega t + phase), added to a waveform."""
+
+    amplitude: float = 0.0
+    omega: float = 0.0
+    phase: float = 0.0
+
+
+@dataclass(frozen=True)
+class PiecewisePolynomial:
+    """Pieces (k, 8) in the layout above, ordered, without gaps."""
+
+    rows: np.ndarray
+
+    def piece_at(self, x: float) -> int:
+        """The piece that holds x; at a border the right one."""
+        return int(np.clip(np.searchsorted(self.rows[:, 0], x, side="right") - 1, 0, len(self.rows) - 1))
+
+    def __call__(self, x: float) -> float:
+        """Value at x."""
+        row = self.rows[self.piece_at(x)]
+        return float(np.polynomial.polynomial.polyval(x - row[2], row[3:]))
+
+    def integral(self, start: float) -> PiecewisePolynomial:
+        """Antiderivative that is zero at `start`; pieces of degree at most three."""
+        if np.any(self.rows[:, 3 + DEGREE] != 0):
+            raise ValueError("a piece of degree four cannot be integrated in this layout")
+        rows = self.rows.copy()
+        rows[:, 4:] = self.rows[:, 3:7] / np.arange(1, DEGREE + 1)
+        rows[:, 3] = 0.0
+        for before, row in zip(rows, rows[1:], strict=False):  # continuous at every border
+            row[3] += _value(before, row[0]) - _value(row, row[0])
+        whole = PiecewisePolynomial(rows)
+        rows[:, 3] -= whole(start)
+        return whole
+
+    def derivative(self) -> PiecewisePolynomial:
+        """Slope, piece by piece."""
+        rows = self.rows.copy()
+        rows[:, 3:7] = self.rows[:, 4:] * np.arange(1, DEGREE + 1)
+        rows[:, 7] = 0.0
+        return PiecewisePolynomial(rows)
+
+
+def _value(row: np.ndarray, x: float) -> float:
+    return float(np.polynomial.polynomial.polyval(x - row[2], row[3:]))
+
+
+def pieces(borders: Sequence[float], coefficients: Sequence[Sequence[float]]) -> PiecewisePolynomial:
+    """From inner borders b1..bk-1 and k coefficient lists, each about the left border of its piece."""
+    edges = [-FAR, *borders, FAR]
+    rows = np.zeros((len(coefficients), STRIDE))
+    for row, left, right, terms in zip(rows, edges, edges[1:], coefficients, strict=True):
+        reference = left if left > -FAR else (right if right < FAR else 0.0)
+        row[:3] = left, right, reference
+        row[3 : 3 + len(terms)] = terms
+    return PiecewisePolynomial(rows)
+
+
+def constant(value: float) -> PiecewisePolynomial:
+    """The same value everywhere, one piece."""
+    return pieces([], [[value]])
+
+
+def linear_table(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
+    """Straight lines between points, constant beyond the ends."""
+    slopes = np.diff(y) / np.diff(x)
+    inner = [[a, b] for a, b in zip(y, slopes, strict=False)]
+    return pieces(list(x), [[y[0]], *inner, [y[-1]]])
+
+
+def monotone_cubic_table(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
+    """Shape-preserving cubic (Fritsch and Butland 1984, as in PCHIP), constant beyond the ends."""
+    from scipy.interpolate import PchipInterpolator
+
+    powers = PchipInterpolator(x, y).c[::-1].T  # (k-1, 4), ascending about the left border
+    return pieces(list(x), [[y[0]], *powers.tolist(), [y[-1]]])

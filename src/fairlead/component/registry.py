@@ -1,0 +1,97 @@
+"""Component types by name: the bundled library, plug-ins, and files given by --library."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import importlib.metadata
+import importlib.util
+import pathlib
+import pkgutil
+import sys
+import warnings
+from collections.abc import Iterable, Mapping
+from types import ModuleType
+
+from fairlead.component.base import Component, Composite, Declared
+from fairlead.errors import Fault, ModelError
+
+ENTRY_POINTS = "fairlead.components"
+Types = Mapping[str, type[Declared]]
+
+
+def known_types(libraries: Iterable[str] = ()) -> dict[str, type[Declared]]:
+    """Every type a netlist may name: bundled, from installed plug-ins, and from `libraries`.
+
+    A plug-in that fails to import is reported with its name and left out. A library given by path
+    that cannot be loaded raises ModelError, since the user asked for it.
+    """
+    types = dict(_bundled())
+    for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
+        try:
+            types.update(_types_in(point.load()))
+        except Exception as error:  # noqa: BLE001 - any failure of foreign code must not stop the start
+            warnings.warn(f"plug-in {point.name} ({point.value}) is left out: {error}", stacklevel=2)
+    for path in libraries:
+        types.update(_types_in(load_library(path)))
+    return types
+
+
+@functools.cache
+def _bundled() -> dict[str, type[Declared]]:
+    package = importlib.import_module("fairlead.components")
+    types: dict[str, type[Declared]] = {}
+    for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
+        types.update(_types_in(importlib.import_module(info.name)))
+    return types
+
+
+def _types_in(module: object) -> dict[str, type[Declared]]:
+    """Concrete component classes a module defines itself (or a class given directly)."""
+    if isinstance(module, type):
+        return {module.__name__: module}
+    return {
+        name: value
+        for name, value in vars(module).items()
+        if isinstance(value, type)
+        and issubclass(value, Component | Composite)
+        and value.__module__ == getattr(module, "__name__", None)
+        and not name.startswith("_")
+        and (value.declaration.laws or issubclass(value, Composite) or value.declaration.ports)
+        and not value.__dict__.get("hidden", False)
+    }
+
+
+def load_library(path: str) -> ModuleType:
+    """Import a user's Python file (or package folder) of components; runs its code.
+
+    Raises ModelError when it is missing or fails, with the line in the user's file.
+    """
+    file = pathlib.Path(path).resolve()
+    target = file / "__init__.py" if file.is_dir() else file
+    if not target.is_file():
+        raise ModelError((Fault(None, f"--library {path}: there is no such file", "Give a .py file."),))
+    name = f"fairlead_library_{target.parent.name if file.is_dir() else target.stem}"
+    loaded = sys.modules.get(name)
+    if loaded is not None and getattr(loaded, "__file__", None) == str(target):
+        return loaded
+    spec = importlib.util.spec_from_file_location(name, target)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[name]
+        raise ModelError((Fault(None, f"--library {path} cannot be loaded: {_place(error, target)}{error}"),)) from error
+    return module
+
+
+def _place(error: BaseException, file: pathlib.Path) -> str:
+    """'file:line: ' of the deepest frame in the user's own file."""
+    lines, trace = [], error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == str(file):
+            lines.append(trace.tb_lineno)
+        trace = trace.tb_next
+    return f"{file.name}:{lines[-1]}: " if lines else ""

@@ -1,0 +1,260 @@
+"""Laws turned into expressions: each class variant is run once with SymPy symbols.
+
+    traced = trace(variant)
+    traced.zones["taut"].flows["a"]        -> -stiffness*(b.x - a.x - length)
+
+A law that branches on a value, reads an acceleration, or uses a function that is not smooth cannot
+be frozen inside a step; it is refused with the author's file and line.
+"""
+
+from __future__ import annotations
+
+import functools
+import traceback
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy
+
+from fairlead.component.base import LEDGER, Declaration, Declared, source_place, terms_of
+from fairlead.component.declare import Choice, Count, Hold, Part, Table, Waveform
+from fairlead.component.piecewise import DEGREE
+from fairlead.component.values import Variant
+
+NOT_SMOOTH = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Max, sympy.Min, sympy.Piecewise, sympy.floor)
+TAU = "@tau"  # time constant of a hold row, a setting of the run
+
+
+class TraceError(TypeError):
+    """A law that cannot be traced; the text names the author's file and line."""
+
+
+@dataclass(frozen=True)
+class HoldRow:
+    """A row d(slip)/dt = -slip/tau: the slip and its coefficient of every speed it contains."""
+
+    slip: sympy.Expr
+    rates: dict[str, sympy.Expr]  # input key of a speed -> coefficient in the mass row
+
+
+@dataclass
+class TracedGuard:
+    """A guard in one zone: it fires when all `values` have risen through zero."""
+
+    name: str
+    to: str
+    unit: str
+    values: list[sympy.Expr]
+    table: str = ""  # for the border of a table's interval: the table, and the step of its index
+    step: int = 0
+
+
+@dataclass
+class TracedZone:
+    """Everything one zone says, as expressions of the symbols in `Traced`."""
+
+    flows: dict[str, sympy.Expr] = field(default_factory=dict)  # port -> what it takes in
+    own: dict[str, sympy.Expr] = field(default_factory=dict)  # state -> rate, unknown -> what is zero
+    holds: dict[str, HoldRow] = field(default_factory=dict)  # unknown -> hold row
+    outputs: dict[str, sympy.Expr] = field(default_factory=dict)
+    ledger: dict[str, sympy.Expr] = field(default_factory=dict)
+    guards: list[TracedGuard] = field(default_factory=list)
+    tables: dict[str, sympy.Expr] = field(default_factory=dict)  # table -> where it is read
+
+
+@dataclass
+class Traced:
+    """A class variant as expressions. Symbols carry the key of what they stand for as their name."""
+
+    variant: Variant
+    zones: dict[str, TracedZone]
+    tables: list[str]
+    time_tables: list[str]
+
+
+class _Recorder:
+    """The symbolic `p`: hands out symbols by name and notes which tables are read where."""
+
+    def __init__(self, variant: Variant, prefix: str, reads: dict[str, sympy.Expr]) -> None:
+        self._variant, self._prefix, self._reads = variant, prefix, reads
+
+    def __getattr__(self, name: str) -> Any:
+        variant, has = self._variant, self._variant.type.declaration
+        path = self._prefix + name
+        words, parts = dict(variant.words), dict(variant.parts)
+        if name in variant.absent:
+            return None
+        if name in words:
+            return words[name]
+        if name in parts:
+            return _Recorder(parts[name], path + ".", self._reads)
+        declared = has.parameters.get(name)
+        if isinstance(declared, Table | Waveform):
+            return _TableReader(path, self._reads)
+        if isinstance(declared, Choice | Count | Part):
+            raise TraceError(f"{name!r} shapes the component and is not a number in its law")
+        if declared is not None or name in has.derived:
+            return symbol(f"p:{path}")
+        function = getattr(variant.type, name, None)
+        if callable(function):
+            return functools.partial(function, self)
+        known = [*has.parameters, *has.derived]
+        raise TraceError(f"{variant.type.__name__} has no parameter {name!r}; it has {known}")
+
+
+class _TableReader:
+    """A table or a waveform inside a law: the polynomial of the interval in force."""
+
+    def __init__(self, path: str, reads: dict[str, sympy.Expr]) -> None:
+        self._path, self._reads = path, reads
+
+    def __call__(self, x: Any) -> sympy.Expr:
+        """Value at x."""
+        return self._derivative(x, 0)
+
+    def rate(self, x: Any) -> sympy.Expr:
+        """First derivative at x."""
+        return self._derivative(x, 1)
+
+    def second(self, x: Any) -> sympy.Expr:
+        """Second derivative at x."""
+        return self._derivative(x, 2)
+
+    def _derivative(self, x: Any, order: int) -> sympy.Expr:
+        read = self._reads.setdefault(self._path, sympy.sympify(x))
+        if read != x:
+            raise TraceError(f"table {self._path!r} is read at two places in one zone: {read} and {x}")
+        at, s = sympy.Dummy("x"), symbol(f"T:{self._path}:0")
+        value = sum(symbol(f"T:{self._path}:{k + 1}") * (at - s) ** k for k in range(DEGREE + 1))
+        if x == symbol("t"):
+            value += symbol(f"p:{self._path}:amplitude") * sympy.sin(
+                symbol(f"p:{self._path}:omega") * at + symbol(f"p:{self._path}:phase")
+            )
+        return sympy.diff(value, at, order).subs(at, x)
+
+
+class _PortReader:
+    """The symbolic view of a port: across variables, acceleration (guards, outputs), reaction, mass."""
+
+    def __init__(self, name: str, declared: Declared | Any) -> None:
+        domain = declared.domain
+        self._key = name
+        for (attribute, _), kind in zip(domain.across, ("x", "v"), strict=False):
+            setattr(self, attribute, symbol(f"port:{name}:{kind}"))
+        if domain.acceleration:
+            setattr(self, domain.acceleration, symbol(f"port:{name}:a"))
+        setattr(self, domain.through[0] or "_", symbol(f"port:{name}:R"))
+        self.inverse_mass = symbol(f"p:{name}.inverse_mass")
+
+
+@functools.cache
+def symbol(key: str) -> sympy.Symbol:
+    """The real symbol of a key such as `port:a:v`, `own:force`, `in:normal`, `p:stiffness`, `t`."""
+    return sympy.Symbol(key, real=True)
+
+
+def trace(variant: Variant) -> Traced:
+    """Run every law and guard of a class variant with symbols. Raises TraceError."""
+    has = variant.type.declaration
+    zones = {name: _trace_zone(variant, has, name) for name in has.zones}
+    tables = list(dict.fromkeys(path for zone in zones.values() for path in zone.tables))
+    timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
+    for zone in zones.values():
+        zone.guards += [guard for path in zone.tables if path not in timed for guard in _borders(path, zone)]
+    return Traced(variant, zones, tables, timed)
+
+
+def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
+    zone = TracedZone()
+    arguments = _arguments(variant, has, name, zone.tables)
+    for key, value in _terms(variant, has.laws[name], arguments):
+        if key in has.ports:
+            zone.flows[key] = _smooth(value, has.laws[name])
+        elif isinstance(value, Hold):
+            zone.holds[key] = _hold_row(value.slip)
+            zone.own[key] = _hold_right_side(value.slip)
+        elif key in has.outputs:
+            zone.outputs[key] = _expression(value)
+        elif key in LEDGER:
+            zone.ledger[key] = _expression(value)
+        else:
+            zone.own[key] = _smooth(value, has.laws[name])
+    for line in LEDGER:
+        method = getattr(variant.type, line, None)
+        if method is not None and line not in zone.ledger:
+            zone.ledger[line] = _expression(_run(method, arguments))
+    for label, mark in has.guards.items():
+        if name in mark.zones:
+            said = _run(mark.function, arguments)
+            values = list(said) if isinstance(said, tuple) else [said]
+            zone.guards.append(TracedGuard(label, mark.to, mark.unit, [_expression(v) for v in values]))
+    return zone
+
+
+def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, sympy.Expr]) -> dict[str, Any]:
+    return {
+        "p": _Recorder(variant, "", reads),
+        "t": symbol("t"),
+        "zone": zone,
+        **{name: _PortReader(name, port) for name, port in has.ports.items()},
+        **{name: symbol(f"in:{name}") for name in has.inputs},
+        **{name: symbol(f"own:{name}") for name in (*has.states, *has.unknowns)},
+    }
+
+
+def _terms(variant: Variant, law: Callable[..., Any], arguments: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    said = _run(law, arguments)
+    try:
+        yield from terms_of(variant.type, said).items()
+    except TypeError as error:
+        raise TraceError(f"{source_place(law)}: {variant.type.__name__}: {error}") from error
+
+
+def _run(function: Callable[..., Any], arguments: dict[str, Any]) -> Any:
+    """Call an author's function; any failure becomes a TraceError at the author's own line."""
+    code = function.__code__
+    wanted = code.co_varnames[: code.co_argcount]
+    try:
+        return function(**{name: arguments[name] for name in wanted})
+    except Exception as error:
+        frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == code.co_filename]
+        line = frames[-1].lineno if frames else code.co_firstlineno
+        what = "a law must not branch on values; write one law per zone" if "truth value" in str(error) else error
+        raise TraceError(f"{code.co_filename}:{line}: {function.__qualname__}: {what}") from error
+
+
+def _expression(value: Any) -> sympy.Expr:
+    return sympy.sympify(value)
+
+
+def _smooth(value: Any, law: Callable[..., Any]) -> sympy.Expr:
+    expression = sympy.sympify(value)
+    kinks = expression.atoms(*NOT_SMOOTH)
+    if kinks:
+        raise TraceError(f"{source_place(law)}: {kinks.pop()} is not smooth; give each branch a zone")
+    read = [s.name for s in expression.free_symbols if s.name.startswith("port:") and s.name.endswith((":a", ":R"))]
+    if read:
+        raise TraceError(f"{source_place(law)}: a law must not read an acceleration or a reaction ({read[0]})")
+    return expression
+
+
+def _hold_row(slip: Any) -> HoldRow:
+    speeds = [s for s in sympy.sympify(slip).free_symbols if s.name.endswith(":v")]
+    return HoldRow(slip, {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)})
+
+
+def _hold_right_side(slip: Any) -> sympy.Expr:
+    """-slip/tau, less the acceleration of prescribed surfaces (zero for free ones)."""
+    prescribed = {s: symbol(s.name[:-1] + "A") for s in slip.free_symbols if s.name.endswith(":v")}
+    return -slip / symbol(f"p:{TAU}") - sum(sympy.diff(slip, s) * a for s, a in prescribed.items())
+
+
+def _borders(path: str, zone: TracedZone) -> list[TracedGuard]:
+    """Leaving the interval of a table to the right and to the left."""
+    at = zone.tables[path]
+    right, left = symbol(f"T:{path}:right"), symbol(f"T:{path}:left")
+    return [
+        TracedGuard(f"{path} next", "", "1", [at - right], path, +1),
+        TracedGuard(f"{path} previous", "", "1", [left - at], path, -1),
+    ]

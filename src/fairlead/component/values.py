@@ -1,0 +1,105 @@
+"""The `p` of a law with plain numbers in it: parameters of one instance, in SI.
+
+The same attribute names work on the symbolic `p` of `trace.py`, so a law, a derived number and an
+inertia are written the same way.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairlead.component.base import Declared
+from fairlead.component.piecewise import PiecewisePolynomial, Sine, constant
+
+
+@dataclass(frozen=True)
+class Wave:
+    """A quantity in time: a piecewise polynomial plus one sine."""
+
+    polynomial: PiecewisePolynomial
+    sine: Sine = field(default_factory=Sine)
+
+    def __call__(self, t: float) -> float:
+        """Value at time t."""
+        import math
+
+        return self.polynomial(t) + self.sine.amplitude * math.sin(self.sine.omega * t + self.sine.phase)
+
+
+def steady(value: float) -> Wave:
+    """A wave that never changes."""
+    return Wave(constant(value))
+
+
+class Values:
+    """Attribute access to the parameters of an instance of `type`; derived numbers on demand."""
+
+    def __init__(self, type: type[Declared], given: Mapping[str, Any]) -> None:
+        """`given` holds SI floats, words, nested maps, Values of parts, tables and waves, by name."""
+        self.type = type
+        self.given = {name: _Group(value) if isinstance(value, Mapping) else value for name, value in given.items()}
+
+    def __getattr__(self, name: str) -> Any:
+        """A parameter, a derived number (computed once) or, for a part, one of its functions."""
+        given = object.__getattribute__(self, "given")
+        if name in given:
+            return given[name]
+        declared = object.__getattribute__(self, "type")
+        if name in declared.declaration.derived:
+            given[name] = declared.declaration.derived[name].function(self)
+            return given[name]
+        function = getattr(declared, name, None)
+        if callable(function):
+            return functools.partial(function, self)
+        raise AttributeError(f"{declared.__name__} has no parameter {name!r}")
+
+    def path(self, dotted: str) -> Any:
+        """A nested value by its path, such as `curve.stiction`."""
+        return functools.reduce(getattr, dotted.split("."), self)
+
+    def __repr__(self) -> str:
+        """Type and what was given."""
+        return f"{self.type.__name__}({', '.join(f'{k}={v!r}' for k, v in self.given.items())})"
+
+
+class _Group:
+    """A nested map of parameters, read by attribute."""
+
+    def __init__(self, given: Mapping[str, Any]) -> None:
+        self.__dict__.update(given)
+
+    def __repr__(self) -> str:
+        return repr(self.__dict__)
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What decides the code of a kernel: the class, its words, its parts, and what is absent.
+
+    Scene numbers are not in it, so a new netlist of known classes compiles nothing.
+    """
+
+    type: type[Declared]
+    words: tuple[tuple[str, str], ...]
+    parts: tuple[tuple[str, Variant], ...]
+    absent: tuple[str, ...]
+
+    @property
+    def label(self) -> str:
+        """Class name with its words and parts, for listings: `Contact[hold, Stribeck]`."""
+        inside = [word for _, word in self.words] + [part.label for _, part in self.parts]
+        return self.type.__name__ + (f"[{', '.join(inside)}]" if inside else "")
+
+
+def variant_of(values: Values) -> Variant:
+    """The variant that an instance with these values belongs to."""
+    given = values.given
+    return Variant(
+        values.type,
+        tuple((name, value) for name, value in given.items() if isinstance(value, str)),
+        tuple((name, variant_of(value)) for name, value in given.items() if isinstance(value, Values)),
+        tuple(name for name, value in given.items() if value is None),
+    )

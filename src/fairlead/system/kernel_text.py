@@ -1,0 +1,269 @@
+"""Traced expressions written out as the Python text of a kernel. Imported on a cache miss only.
+
+For every mode the text has one loop over instances and, inside, one branch per zone:
+
+    if mode == 1:
+        for i in range(start, stop):
+            zone = zones[ms[i*1]]
+            if zone == 1:
+                u0 = zc[i*4+0]*z[zi[i*4+0]] + zo[i*4+0]
+                ...
+                out[fi[i*2+0]] += fc[i*2+0]*(-p0*(u2 - u0))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import sympy
+from sympy.printing.pycode import PythonCodePrinter
+
+from fairlead.component.piecewise import DEGREE, STRIDE
+from fairlead.component.trace import Traced, TracedGuard, TracedZone, symbol
+from fairlead.system import layout
+from fairlead.system.kernels import Structure
+
+HEAD = """def kernel(mode, block, start, stop, z, zones, tables, out):
+    par = f8(block[{PAR}]); zi = i8(block[{IN_INDEX}]); zc = f8(block[{IN_COEF}]); zo = f8(block[{IN_OFFSET}])
+    ms = i8(block[{MACHINES}]); tb = i8(block[{TABLE_BASE}]); si = i8(block[{SIG_INDEX}])
+    fi = i8(block[{FLOW_INDEX}]); fc = f8(block[{FLOW_COEF}]); li = i8(block[{LEDGER_INDEX}])
+"""
+COEFFICIENT = {"left": 0, "right": 1, **{str(k): k + 2 for k in range(DEGREE + 2)}}
+
+Statement = tuple[str, sympy.Expr]  # text with {} for the value
+
+
+class _Printer(PythonCodePrinter):
+    """Plain names instead of `math.exp`, so that the text runs with math and with cmath."""
+
+    def __init__(self) -> None:
+        super().__init__({"fully_qualified_modules": False})
+
+
+class KernelText:
+    """Builds the text of one kernel and the structure that goes with it."""
+
+    def __init__(self, traced: Traced) -> None:
+        """Number the inputs, parameters, tables and outputs of the class once, for all zones."""
+        self.traced = traced
+        has = traced.variant.type.declaration
+        self.zones = list(traced.zones.values())
+        self.ledger = [line for line in (layout.DISSIPATED, layout.SUPPLIED) if any(line in z.ledger for z in self.zones)]
+        self.targets = [f"port:{name}" for name in self._flowing()] + [f"own:{n}" for n in (*has.states, *has.unknowns)]
+        self.outputs = list(has.outputs)
+        symbols = sorted({s.name for e in self._everything() for s in e.free_symbols})
+        self.inputs = [key for key in symbols if key.split(":")[0] in ("port", "own", "in", "t")]
+        self.parameters = [key[2:] for key in symbols if key.startswith("p:")]
+        self.machines = (1 if len(traced.zones) > 1 else 0) + len(traced.tables)
+        self.d_signals = self._pairs(lambda z: [z.outputs.get(n) for n in self.outputs])
+        self.d_flows = self._pairs(self._target_values)
+        self.d_ledger = self._pairs(lambda z: [z.ledger.get(line) for line in self.ledger])
+        self.mass = sorted({(u, self.inputs.index(s)) for z in self.zones for u, h in z.holds.items() for s in h.rates})
+        self.slots = max((len(z.guards) for z in self.zones), default=0)
+
+    def write(self) -> tuple[str, Structure]:
+        """The text and the structure."""
+        fields = {name: value for name, value in vars(layout).items() if name.isupper()}
+        modes = [
+            (layout.SIGNALS, self._signals), (layout.FLOWS, self._flows), (layout.LEDGER, self._ledger_lines),
+            (layout.PARTIALS_SIGNALS, lambda z: self._partials(z, layout.D_SIGNALS, self.d_signals, self._output_values(z))),
+            (layout.PARTIALS_FLOWS, lambda z: self._partials(z, layout.D_FLOWS, self.d_flows, self._target_values(z))),
+            (layout.PARTIALS_LEDGER, lambda z: self._partials(z, layout.D_LEDGER, self.d_ledger, self._ledger_values(z))),
+            (layout.MASS, self._mass), (layout.SLIP, self._slip), (layout.GUARD, self._guards), (layout.OUTPUT, self._all_outputs),
+        ]  # fmt: skip
+        text = HEAD.format(**fields)
+        for mode, statements in modes:
+            text += self._loop(mode, statements)
+        return text, self._structure()
+
+    # What each mode computes, zone by zone ------------------------------------------------------
+
+    def _signals(self, zone: TracedZone) -> list[Statement]:
+        place = f"out[si[i*{len(self.outputs)}+{{k}}]] = {{{{}}}}"
+        return [(place.format(k=k), zone.outputs.get(n, sympy.S.Zero)) for k, n in enumerate(self.outputs)]
+
+    def _flows(self, zone: TracedZone) -> list[Statement]:
+        f = len(self.targets)
+        return [
+            (f"out[fi[i*{f}+{k}]] += fc[i*{f}+{k}]*({{}})", value)
+            for k, value in enumerate(self._target_values(zone))
+            if value is not None and value != 0
+        ]
+
+    def _ledger_lines(self, zone: TracedZone) -> list[Statement]:
+        lines = (layout.DISSIPATED, layout.SUPPLIED)
+        return [(f"out[li[{lines.index(n)}]] += {{}}", zone.ledger[n]) for n in self.ledger if zone.ledger.get(n)]
+
+    def _partials(self, zone: TracedZone, base: int, pairs: list[tuple[int, int]], values: list[Any]) -> list[Statement]:
+        place = f"out[block[{base}] + i*{len(pairs)} + {{e}}] = {{{{}}}}"
+        return [
+            (place.format(e=e), sympy.diff(values[k] or 0, symbol(self.inputs[j]))) for e, (k, j) in enumerate(pairs)
+        ]
+
+    def _mass(self, zone: TracedZone) -> list[Statement]:
+        place = f"out[block[{layout.D_MASS}] + i*{len(self.mass)} + {{e}}] = {{{{}}}}"
+        return [
+            (place.format(e=e), zone.holds[u].rates.get(self.inputs[j], sympy.S.Zero) if u in zone.holds else sympy.S.Zero)
+            for e, (u, j) in enumerate(self.mass)
+        ]
+
+    def _slip(self, zone: TracedZone) -> list[Statement]:
+        f = len(self.targets)
+        return [(f"out[fi[i*{f}+{self.targets.index('own:' + u)}]] = -({{}})", h.slip) for u, h in zone.holds.items()]
+
+    def _guards(self, zone: TracedZone) -> list[Statement]:
+        place = f"out[block[{layout.GUARDS}] + i*{self.slots} + {{s}}] = {{{{}}}}"
+        used = [(place.format(s=s), _group(g)) for s, g in enumerate(zone.guards)]
+        idle = [(place.format(s=s), sympy.Float(layout.NOT_IN_FORCE)) for s in range(len(zone.guards), self.slots)]
+        return used + idle
+
+    def _all_outputs(self, zone: TracedZone) -> list[Statement]:
+        names = [*self.outputs, "stored", "dissipated", "supplied"]
+        place = f"out[block[{layout.OUTPUTS}] + i*{len(names)} + {{k}}] = {{{{}}}}"
+        values = {**zone.outputs, **zone.ledger}
+        return [(place.format(k=k), values.get(n, sympy.S.Zero)) for k, n in enumerate(names)]
+
+    # The text of a loop --------------------------------------------------------------------------
+
+    def _loop(self, mode: int, statements: Any) -> str:
+        bodies = [statements(zone) for zone in self.zones]
+        if not any(bodies):
+            return ""
+        lines = [f"    if mode == {mode}:", "        for i in range(start, stop):"]
+        many = len(self.zones) > 1
+        if many:
+            lines.append(f"            zone = zones[ms[i*{self.machines}]]")
+        for number, body in enumerate(bodies):
+            if not body:
+                continue
+            if many:
+                lines.append(f"            if zone == {number}:")
+            pad = " " * (16 if many else 12)
+            lines += [pad + line for line in self._body(body)]
+        return "\n".join(lines) + "\n"
+
+    def _body(self, statements: list[Statement]) -> list[str]:
+        """Loads, shared subexpressions and stores of one zone."""
+        names = {s: sympy.Symbol(n, real=True) for s, n in self._identifiers(e for _, e in statements).items()}
+        shared, values = sympy.cse([e.xreplace(names) for _, e in statements], sympy.numbered_symbols("s"))
+        printer = _Printer()
+        return [
+            *self._loads(names),
+            *(f"{name} = {printer.doprint(value)}" for name, value in shared),
+            *(place.format(printer.doprint(value)) for (place, _), value in zip(statements, values, strict=True)),
+        ]
+
+    def _identifiers(self, expressions: Iterable[sympy.Expr]) -> dict[sympy.Symbol, str]:
+        """Short names of the symbols in use: u input, p parameter, c coefficient of a table."""
+        found = sorted({s for e in expressions for s in e.free_symbols}, key=lambda s: s.name)
+        names = {}
+        for s in found:
+            kind, _, rest = s.name.partition(":")
+            if kind == "p":
+                names[s] = f"p{self.parameters.index(rest)}"
+            elif kind == "T":
+                path, _, what = rest.rpartition(":")
+                names[s] = f"c{self.traced.tables.index(path)}_{what}"
+            else:
+                names[s] = f"u{self.inputs.index(s.name)}"
+        return names
+
+    def _loads(self, names: dict[sympy.Symbol, sympy.Symbol]) -> list[str]:
+        inputs, parameters, tables = len(self.inputs), len(self.parameters), self.traced.tables
+        lines, opened = [], set()
+        for name in (n.name for n in names.values()):
+            number = name[1:]
+            if name[0] == "u":
+                lines.append(f"{name} = zc[i*{inputs}+{number}]*z[zi[i*{inputs}+{number}]] + zo[i*{inputs}+{number}]")
+            elif name[0] == "p":
+                lines.append(f"{name} = par[i*{parameters}+{number}]")
+            else:
+                table, what = number.split("_")
+                if table not in opened:
+                    opened.add(table)
+                    machine = self.machines - len(tables) + int(table)
+                    piece = f"zones[ms[i*{self.machines}+{machine}]]"
+                    lines.append(f"b{table} = tb[i*{len(tables)}+{table}] + {STRIDE}*{piece}")
+                lines.append(f"{name} = tables[b{table} + {COEFFICIENT[what]}]")
+        return lines
+
+    # Facts about the class ----------------------------------------------------------------------
+
+    def _flowing(self) -> list[str]:
+        return [n for n in self.traced.variant.type.declaration.ports if any(n in z.flows for z in self.zones)]
+
+    def _target_values(self, zone: TracedZone) -> list[Any]:
+        return [(zone.flows if t.startswith("port:") else zone.own).get(t.split(":")[1]) for t in self.targets]
+
+    def _output_values(self, zone: TracedZone) -> list[Any]:
+        return [zone.outputs.get(n) for n in self.outputs]
+
+    def _ledger_values(self, zone: TracedZone) -> list[Any]:
+        return [zone.ledger.get(line) for line in self.ledger]
+
+    def _everything(self) -> list[sympy.Expr]:
+        found: list[sympy.Expr] = []
+        for z in self.zones:
+            found += [*z.flows.values(), *z.own.values(), *z.outputs.values(), *z.ledger.values()]
+            found += [value for g in z.guards for value in g.values]
+            found += [value for h in z.holds.values() for value in (h.slip, *h.rates.values())]
+        return found
+
+    def _pairs(self, values: Any) -> list[tuple[int, int]]:
+        """(value, input) for every derivative that is not identically zero in some zone."""
+        found = set()
+        for zone in self.zones:
+            for k, value in enumerate(values(zone)):
+                if value is not None:
+                    used = {s.name for s in value.free_symbols}
+                    found |= {(k, j) for j, key in enumerate(self.inputs) if key in used}
+        return sorted(found)
+
+    def _structure(self) -> Structure:
+        t = self.traced
+        return Structure(
+            inputs=self.inputs, parameters=self.parameters, tables=t.tables, time_tables=t.time_tables,
+            zones=list(t.zones), machines=self.machines, outputs=self.outputs, targets=self.targets, ledger=self.ledger,
+            d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger, mass=self.mass,
+            holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
+            guards={name: [_describe(g, self) for g in zone.guards] for name, zone in t.zones.items()},
+            slots=self.slots, equations={name: _equations(zone) for name, zone in t.zones.items()},
+            flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
+            reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
+        )  # fmt: skip
+
+    def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
+        pairs = zip(self.targets, self._target_values(zone), strict=True)
+        return {t: sorted(s.name for s in v.free_symbols if s.name in self.inputs) for t, v in pairs if v is not None}
+
+
+def _group(guard: TracedGuard) -> sympy.Expr:
+    """All of a group must have risen: the least of them decides."""
+    return guard.values[0] if len(guard.values) == 1 else sympy.Min(*guard.values)
+
+
+def _describe(guard: TracedGuard, text: KernelText) -> dict[str, Any]:
+    base = text.machines - len(text.traced.tables)
+    machine = base + text.traced.tables.index(guard.table) if guard.table else 0
+    to = -1 if guard.table else list(text.traced.zones).index(guard.to)
+    says = " and ".join(f"{readable(value)} >= 0" for value in guard.values)
+    return {"name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step, "when": says}
+
+
+def _equations(zone: TracedZone) -> list[str]:
+    lines = [f"{name} takes in  {readable(value)}" for name, value in zone.flows.items()]
+    lines += [f"hold  {readable(h.slip)} = 0" for h in zone.holds.values()]
+    lines += [f"0 or rate of {n} = {readable(v)}" for n, v in zone.own.items() if n not in zone.holds]
+    return lines + [f"{name} = {readable(value)}" for name, value in zone.outputs.items()]
+
+
+def readable(expression: sympy.Expr) -> str:
+    """An expression with the names an author wrote: `a.x` for `port:a:x`, `stiffness` for `p:stiffness`."""
+    renamed = {s: sympy.Symbol(_plain(s.name)) for s in expression.free_symbols}
+    return str(expression.xreplace(renamed))
+
+
+def _plain(key: str) -> str:
+    kind, _, rest = key.partition(":")
+    return {"port": rest.replace(":", "."), "T": "table " + rest}.get(kind, rest or key)
