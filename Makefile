@@ -62,7 +62,8 @@ $(VENV)/created:
 	  if "$$python" -c '$(ENOUGH)' 2>/dev/null; then found=$$python; break; fi; \
 	done; \
 	if [ -z "$$found" ]; then \
-	  echo "fairlead needs Python 3.11 or newer; here is $$($(or $(PYTHON),python3) --version 2>&1 | head -n 1)."; \
+	  here=$$($(or $(PYTHON),python3) --version 2>/dev/null) || here="no $(or $(PYTHON),python3)"; \
+	  echo "fairlead needs Python 3.11 or newer; here is $$here."; \
 	  echo "  Debian, Ubuntu:  sudo apt install python3 python3-venv"; \
 	  echo "  Fedora:          sudo dnf install python3"; \
 	  echo "  macOS:           brew install python   (or the installer from https://www.python.org/downloads)"; \
