@@ -11,7 +11,7 @@ Settings = Annotated[
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Override a parameter of the netlist; repeatable.",
+        help="Override a value of the netlist: mu=0.6, pad.normal_force='12 N', run.stop=5. Repeatable.",
         default_factory=list,
         show_default=False,
     ),
