@@ -18,6 +18,7 @@ from dataclasses import dataclass
 MOST_FAULTS_PRINTED = 100
 LONGEST_VALUE_SHOWN = 60
 LONGEST_WORD_COMPARED = 100
+MOST_WORDS_COMPARED = 500  # 10 ms; of more names only those with the same beginning or end are compared
 
 
 @dataclass(frozen=True, order=True)
@@ -85,6 +86,15 @@ class BudgetError(FairleadError):
     exit_code = 4
 
 
+def without_echoes(faults: Iterable[Fault], earlier: Iterable[Fault]) -> list[Fault]:
+    """The faults of a later stage, less those at a place that an earlier stage has blamed already.
+
+    What stands there could not be read, so whatever a later stage says about it is only an echo.
+    """
+    blamed = {fault.where for fault in earlier if fault.where and fault.where.line}
+    return [fault for fault in faults if fault.where not in blamed]
+
+
 def did_you_mean(word: str, allowed: Iterable[str]) -> str:
     """The sentence "Did you mean X?" for the nearest allowed word, or "" when none is near.
 
@@ -96,7 +106,12 @@ def did_you_mean(word: str, allowed: Iterable[str]) -> str:
     by_key: dict[str, str] = {}
     for name in allowed:
         by_key.setdefault(_key(name), name)
-    near = difflib.get_close_matches(_key(word), by_key, n=1, cutoff=0.6)
+    if len(by_key) > MOST_WORDS_COMPARED:
+        ends = _key(word)[:3], _key(word)[-3:]
+        by_key = {
+            key: name for key, name in by_key.items() if key.startswith(ends[0]) or key.endswith(ends[1])
+        }
+    near = difflib.get_close_matches(_key(word), [*by_key][:MOST_WORDS_COMPARED], n=1, cutoff=0.6)
     if not near:
         near = [key for key in by_key if len(word) > 2 and _key(word) in key]
     return f"Did you mean {by_key[near[0]]}?" if len(near) == 1 else ""
@@ -132,4 +147,4 @@ def shown(value: object) -> str:
 
 
 def _printable(text: str) -> str:
-    return "".join(letter if letter.isprintable() else "�" for letter in text)
+    return "".join(letter if letter.isprintable() else " " if letter.isspace() else "�" for letter in text)

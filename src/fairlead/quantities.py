@@ -131,26 +131,31 @@ def si(value: object, unit: str) -> float:
     if not isinstance(value, str):
         raise QuantityError(f"{shown(value)} is not {article(kind(unit))}", wanted(unit))
     try:
-        number, given = split(value)
-        found = parse_unit(given) if given else None
+        number, given = _read(value)
     except QuantityError as error:
         raise QuantityError(error.what, f"{error.allowed} {wanted(unit)}".strip()) from None
-    if found is None:
-        return _finite(number, unit)
     declared = parse_unit(unit)
-    if not fits(found.dimension, declared.dimension):
-        raise QuantityError(
-            f"{shown(value)} is {article(kind(given))}, not {article(kind(unit))}",
-            _hint(found.dimension, declared.dimension) + wanted(unit),
-        )
-    return _finite(number * found.factor, unit, value)
+    if given and not fits(given.dimension, declared.dimension):
+        what = f"{shown(value)} is {article(kind(given.text))}, not {article(kind(unit))}"
+        raise QuantityError(what, _hint(given.dimension, declared.dimension) + wanted(unit))
+    return _finite(number * (given.factor if given else 1.0), unit, value)
 
 
 def quantity(text: str) -> Quantity:
     """The quantity a text holds, whatever its dimension; raises QuantityError when it holds none."""
+    number, unit = _read(text)
+    if unit is None:
+        return Quantity(_finite(number, "1", text))
+    return Quantity(_finite(number * unit.factor, unit.text, text), unit.dimension)
+
+
+def _read(text: str) -> tuple[float, Unit | None]:
+    """Number and unit of a text; None when it is a bare number."""
     number, given = split(text)
-    unit = parse_unit(given or "1")
-    return Quantity(_finite(number * unit.factor, given or "1", text), unit.dimension)
+    try:
+        return number, parse_unit(given) if given else None
+    except QuantityError as error:
+        raise QuantityError(f"{shown(text)}: {error.what}", error.allowed) from None
 
 
 def split(text: str) -> tuple[float, str]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
+from fairlead.errors import shown
 from fairlead.quantities import QuantityError, si, wanted
 
 
@@ -28,7 +29,7 @@ def _whole(value: object) -> object:
 
 def _number(value: object) -> float:
     if isinstance(value, str):
-        raise QuantityError(f"{value!r} is a text, not a number", wanted("1"))
+        raise QuantityError(f"{shown(value)} is a text, not a number", wanted("1"))
     return si(value, "1")
 
 
@@ -71,6 +72,12 @@ class RunSettings(Strict):
     """Shortest time a zone lasts before its toggling counts as chatter."""
     creep: Annotated[Speed, Field(gt=0)] | None = None
     """Slip speed a contact may have while it sticks."""
+
+    @model_validator(mode="after")
+    def _ends_after_it_starts(self) -> RunSettings:
+        if self.stop <= self.start:
+            raise QuantityError(f"stop = {self.stop:g} s is not after start = {self.start:g} s")
+        return self
 
 
 class Plot(Strict):

@@ -1,0 +1,126 @@
+"""Files of a netlist: found by path or bundled name, inside the scene's folder, bounded, text."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+from pathlib import Path
+
+from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
+from fairlead.netlist.limits import MOST_BYTES
+
+# What YAML (section 5.1) does not allow in a text; a file with one of these is binary or damaged.
+UNPRINTABLE = re.compile(r"[^\x09\x0a\x0d\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def find(path: str | os.PathLike[str]) -> Path:
+    """The file a path or the name of a bundled model means; raises ModelError when there is none."""
+    asked = os.fspath(path)
+    where = Location(shown(asked))
+    bundled = bundled_models()
+    if _is(asked, Path.is_file):
+        return Path(asked)
+    if (name := asked.removesuffix(".yaml")) in bundled:
+        return _unless_ambiguous(bundled[name], Path(f"{name}.yaml"), where)
+    if _is(asked, Path.is_dir):
+        raise ModelError(
+            [Fault(where, "this is a folder, not a netlist", _neighbours(Path(asked), "netlist"))]
+        )
+    if _is(asked, Path.exists):
+        raise ModelError([Fault(where, "this is not a regular file")])
+    near = did_you_mean(Path(asked).stem, bundled)
+    local = _neighbours(Path(asked).parent, Path(asked).name) if os.sep in asked or "." in asked else ""
+    models = f"Bundled models are {listing(sorted(bundled))}." if bundled else ""
+    raise ModelError(
+        [Fault(where, "there is no such file or bundled model", f"{local or near} {models}".strip())]
+    )
+
+
+def _unless_ambiguous(bundled: Path, local: Path, where: Location) -> Path:
+    """The bundled model, unless a file of that name in the working folder may be the one that is meant."""
+    if local.is_file() and not local.samefile(bundled):
+        advice = f"Write ./{local} for the file, or work in another folder for the bundled model."
+        raise ModelError([Fault(where, f"this is a bundled model, and {local} is a file here", advice)])
+    return bundled
+
+
+def bundled_models() -> dict[str, Path]:
+    """The netlists that come with fairlead, by name."""
+    spec = importlib.util.find_spec("fairlead.models")
+    folders = spec.submodule_search_locations if spec else None
+    files = (file for folder in folders or () for file in sorted(Path(folder).glob("*.yaml")))
+    return {file.stem: file for file in files}
+
+
+def inside(folder: Path, base: Path, text: str, where: Location | None) -> Path:
+    """The file that `text`, relative to the folder `base`, means, which must lie in `folder` or below.
+
+    Links are followed first, so that none leads out. Raises ModelError when the path is absolute, leads out,
+    or is not a file. Tables and CSV files of a scene go through here as well as includes.
+    """
+    if Path(text).is_absolute() or re.match(r"[A-Za-z]:|[\\/~]", text):
+        advice = "Paths are relative to the file that names them, inside the folder of the netlist."
+        raise ModelError([Fault(where, f"{shown(text)} is not a relative path", advice)])
+    try:
+        file = (base / text).resolve()
+        outside = not file.is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):  # a loop of links, a name too long, a zero byte
+        raise ModelError([Fault(where, f"{shown(text)} is not a usable path")]) from None
+    if outside:
+        advice = f"Files of a netlist lie in its folder or below, links followed: {display(folder)}."
+        raise ModelError([Fault(where, f"{shown(text)} leads out of the folder of the netlist", advice)])
+    if not _is(str(file), Path.is_file):
+        advice = _neighbours(file.parent, file.name)
+        raise ModelError([Fault(where, f"{shown(text)}: there is no such file", advice)])
+    return file
+
+
+def read_text(file: Path, where: Location | None = None) -> tuple[str, bytes]:
+    """The text of a file and its bytes; raises ModelError when it is too large, unreadable or binary."""
+    place = Location(display(file))
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise ModelError([Fault(where or place, f"cannot read {display(file)}: {error.strerror}")]) from None
+    if len(data) > MOST_BYTES:
+        megabytes = file.stat().st_size / 1e6
+        what = f"this file has {megabytes:.1f} MB; a netlist has at most {MOST_BYTES / 1e6:g} MB"
+        raise ModelError([Fault(place, what, "Put data into a CSV table.")])
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        what = f"not a text file in UTF-8 (byte 0x{data[error.start]:02x} at {error.start})"
+        raise ModelError([Fault(place, what, "A netlist is a YAML file.")]) from None
+    if found := UNPRINTABLE.search(text):
+        line, column = (
+            text.count("\n", 0, found.start()) + 1,
+            found.start() - text.rfind("\n", 0, found.start()),
+        )
+        what = f"not a text file: it holds the control character U+{ord(found[0]):04X}"
+        raise ModelError([Fault(Location(place.file, line, column), what, "A netlist is a YAML file.")])
+    return text, data
+
+
+def display(file: Path) -> str:
+    """The file as messages name it: relative to the working folder when it lies below it."""
+    try:
+        return str(Path(os.path.abspath(file)).relative_to(Path.cwd()))  # noqa: PTH100 - keeps links as typed
+    except (OSError, ValueError):
+        return str(file)
+
+
+def _neighbours(folder: Path, name: str) -> str:
+    try:
+        names = sorted(file.name for file in folder.glob("*.yaml"))[:200]
+    except (OSError, ValueError):
+        return ""
+    return did_you_mean(name, names) or (f"There are {listing(names)}." if names else "")
+
+
+def _is(text: str, test: object) -> bool:
+    try:
+        return bool(test(Path(text)))  # type: ignore[operator]
+    except (OSError, ValueError):
+        return False

@@ -1,0 +1,107 @@
+"""Overrides: `--set mu=0.6`, `--set pad.normal_force="12 N"`, `--set run.stop=5`, put into the tree.
+
+A name without a dot is a scene parameter. In a dotted path the first word is a component, or else a block of
+the netlist (`run`, `record`, `friction`, `effects`, `initial`, `limits`); further words lead into maps, and
+into lists by number or by the `name` of an item.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.netlist.limits import DEEPEST
+from fairlead.netlist.netlist import Value
+from fairlead.netlist.yaml12 import resolve
+
+BLOCKS = ("run", "record", "friction", "effects", "initial", "limits")
+LONGEST = 1000
+PLACE = Location("--set")
+
+
+def override(tree: Value, overrides: Mapping[str, str]) -> tuple[Value, list[Fault]]:
+    """The tree with each override in its place, and a fault for each that has none."""
+    faults = []
+    for name, text in overrides.items():
+        result = _one(tree, name, str(text))
+        if isinstance(result, Fault):
+            faults.append(result)
+        else:
+            tree = result
+    return tree, faults
+
+
+def _one(tree: Value, name: str, text: str) -> Value | Fault:
+    if len(name) > LONGEST or len(text) > LONGEST:
+        return Fault(PLACE, f"{shown(name)}: names and values have at most {LONGEST} characters")
+    try:
+        new = Value(resolve(text.strip()), PLACE, PLACE)
+    except ValueError as error:
+        return Fault(PLACE, f"{shown(name)} = {shown(text)}: {error}")
+    path = name.replace("[", ".").replace("]", "").split(".")
+    if len(path) > DEEPEST or not all(path):
+        return Fault(
+            PLACE, f"{shown(name)} is not a path", "Write it as in mu, pad.normal_force or run.stop."
+        )
+    parameters, components = (_block(tree, block) for block in ("parameters", "components"))
+    if len(path) == 1:
+        if name not in parameters:
+            return _unknown(name, parameters, components)
+        path = ["parameters", name]
+    elif path[0] in components:
+        path = ["components", *path]
+    elif path[0] not in (*BLOCKS, "parameters") or (path[0] == "parameters" and path[1] not in parameters):
+        return _unknown(name, parameters, components)
+    return _placed(tree, path, new, name)
+
+
+def _placed(value: Value, path: list[str], new: Value, name: str) -> Value | Fault:
+    """The value with `new` put at the end of the path; maps on the way are made when absent."""
+    if not path:
+        return new
+    word, rest = path[0], path[1:]
+    content = value.content
+    if isinstance(content, list):
+        index = _index(content, word)
+        if index is None:
+            return Fault(PLACE, f"{shown(name)}: there is no item {shown(word)} in {shown(content)}")
+        inner = _placed(content[index], rest, new, name)
+        if isinstance(inner, Fault):
+            return inner
+        return replace(value, content=[*content[:index], inner, *content[index + 1 :]])
+    if content is not None and not isinstance(content, dict):
+        return Fault(PLACE, f"{shown(name)}: {shown(content)} at {value.where} has no part {shown(word)}")
+    entries = content or {}
+    inner = _placed(entries.get(word, Value(None, PLACE, PLACE)), rest, new, name)
+    return inner if isinstance(inner, Fault) else replace(value, content={**entries, word: inner})
+
+
+def _index(items: list[Value], word: str) -> int | None:
+    if word.isascii() and word.isdigit() and len(word) < 10:
+        return int(word) if int(word) < len(items) else None
+    names = [item.entries["name"].content if "name" in item.entries else None for item in items]
+    return names.index(word) if word in names else None
+
+
+def _unknown(name: str, parameters: Mapping[str, Value], components: Mapping[str, Value]) -> Fault:
+    first, _, rest = name.partition(".")
+    if not rest and first in components:
+        way_out = (
+            f"It is a component; name one of its parameters, as in {first}.{_sample(components[first])}."
+        )
+        return Fault(PLACE, f"{shown(name)} is not a parameter of the netlist", way_out)
+    known = [*components, *BLOCKS] if rest else [*parameters]
+    what = (
+        f"there is no component or block {shown(first)}" if rest else f"there is no parameter {shown(name)}"
+    )
+    names = f"Known: {listing(known)}." if known else "The netlist declares no parameters."
+    return Fault(PLACE, f"{shown(name)}: {what}", f"{did_you_mean(first, known)} {names}".strip())
+
+
+def _sample(component: Value) -> str:
+    return next((name for name in component.entries if name != "type"), "parameter")
+
+
+def _block(tree: Value, name: str) -> Mapping[str, Value]:
+    return tree.entries[name].entries if name in tree.entries else {}

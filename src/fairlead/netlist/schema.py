@@ -1,0 +1,71 @@
+"""The shape of a netlist file as pydantic models: the one source of its validation and of its JSON Schema.
+
+Component parameters are open here (`extra="allow"`): each component class closes them by a model of its own.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
+
+from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
+
+Scalar = bool | int | float | str
+ComponentName = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
+PortPath = Annotated[
+    str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*(\[\d+\])?(\.\w+(\[\d+\])?)+$", max_length=200)
+]
+
+
+def _nothing_is_empty(value: object) -> object:
+    """`friction:` with nothing behind it is an empty block, as every user means it."""
+    return {} if value is None else value
+
+
+Block = Annotated[dict[str, Any], BeforeValidator(_nothing_is_empty)]
+
+
+class ComponentBlock(BaseModel):
+    """A component: its type, and its parameters by name."""
+
+    model_config = ConfigDict(extra="allow", frozen=True, strict=True, use_attribute_docstrings=True)
+
+    type: str
+    """Name of the component class, such as Spring."""
+
+
+class Part(Strict):
+    """What an included file may hold."""
+
+    version: Literal[1] = Field(alias="schema")
+    """Version of the netlist format: 1."""
+    name: str = ""
+    """Name of the scene; the file's name when left out."""
+    description: str = ""
+    """What the scene shows, and where it comes from."""
+    include: list[str] = []
+    """Netlists whose parameters, components and connections are added, in this folder or below."""
+    parameters: Annotated[dict[str, Scalar], BeforeValidator(_nothing_is_empty)] = {}
+    """Numbers, quantities and texts that values may use in braces, as in "{2*mu} N"."""
+    components: Annotated[dict[ComponentName, ComponentBlock], BeforeValidator(_nothing_is_empty)] = {}
+    """The components by name (lower_snake)."""
+    connections: list[Annotated[list[PortPath], Field(min_length=2)]] = []
+    """Sets of two or more ports that are joined, such as [spring.b, mass.flange]."""
+
+
+class Document(Part):
+    """A fairlead netlist."""
+
+    effects: Block = {}
+    """Effects switched on or off for the whole scene."""
+    friction: Block = {}
+    """Defaults for every friction contact of the scene."""
+    initial: Block = {}
+    """Initial values by signal."""
+    run: RunSettings
+    """How far and how exactly to run, such as run: {stop: 20 s}."""
+    record: Annotated[RecordSettings, BeforeValidator(_nothing_is_empty)] = RecordSettings()
+    """What to write down."""
+    limits: Block = {}
+    """Bounds on signals; a run that breaks one ends with exit code 5."""

@@ -1,0 +1,178 @@
+"""pydantic's errors in the words of fairlead: place, path, offending value, what is allowed, a suggestion."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from fairlead.errors import Fault, did_you_mean, listing, shown
+from fairlead.netlist.limits import MOST_FAULTS
+from fairlead.netlist.netlist import Value
+from fairlead.netlist.yaml12 import resolve
+from fairlead.quantities import QuantityError
+
+Path = tuple[int | str, ...]
+
+BOUNDS = {"greater_than": ("not above", "gt"), "greater_than_equal": ("below", "ge"),
+          "less_than": ("not below", "lt"), "less_than_equal": ("above", "le")}  # fmt: skip
+WANTED = {
+    "string_type": ("a text", "Put it in quotes to make it a text."),
+    "bool_type": ("true or false", ""),
+    "int_type": ("a whole number", ""),
+    "int_from_float": ("a whole number", ""),
+    "float_type": ("a number", ""),
+    "list_type": ("a list", "Write it as [a, b]."),
+    "dict_type": ("a map", "Write it as entries with a name, a colon and a value."),
+    "model_type": ("a map", "Write it as entries with a name, a colon and a value."),
+    "model_attributes_type": ("a map", "Write it as entries with a name, a colon and a value."),
+}
+
+
+def validate(model: type[BaseModel], tree: Value) -> tuple[Any, list[Fault]]:
+    """The model filled from the tree, or None; and every mistake as a Fault at its place in the file."""
+    try:
+        return model.model_validate(tree.plain()), []
+    except ValidationError as error:
+        return None, _faults(error.errors(include_url=False), model, tree)
+
+
+def _faults(errors: list[ErrorDetails], model: type[BaseModel], tree: Value) -> list[Fault]:
+    """One Fault per mistake; a misspelt key is not reported a second time as a missing one."""
+    strangers: dict[Path, list[str]] = {}
+    for error in errors:
+        if error["type"] == "extra_forbidden":
+            strangers.setdefault(error["loc"][:-1], []).append(str(error["loc"][-1]))
+    faults: dict[Fault, None] = {}
+    for error in errors[:MOST_FAULTS]:
+        *parent, last = error["loc"]
+        misspelt = error["type"] == "missing" and did_you_mean(str(last), strangers.get(tuple(parent), ()))
+        if not misspelt:
+            faults[_fault(error, model, tree)] = None
+    return list(faults)
+
+
+def _fault(error: ErrorDetails, model: type[BaseModel], tree: Value) -> Fault:
+    path, kind, context = error["loc"], error["type"], error.get("ctx", {})
+    value, subject = _at(tree, path), _subject(path)
+    given = _given(value)
+    if kind == "missing":
+        return _missing(path, model, value)
+    if kind == "extra_forbidden":
+        return _unknown_key(path, model, tree)
+    if kind in BOUNDS:
+        word, key = BOUNDS[kind]
+        return Fault(value.where, f"{subject} = {given} is {word} {context[key]:g}", _hover(model, path))
+    if kind == "literal_error":
+        return _choice(value, subject, given, context["expected"])
+    if kind == "value_error" and isinstance(reason := context.get("error"), QuantityError):
+        joint = "." if isinstance(value.content, dict) else " = "  # a block as a whole names its own entries
+        return Fault(value.where, f"{subject}{joint}{reason.what}", reason.allowed)
+    if kind in WANTED:
+        words, advice = WANTED[kind]
+        return Fault(value.where, f"{subject} = {given} is not {words}", advice or _hover(model, path))
+    return _connection_or_name(error, value, subject, given)
+
+
+def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: str) -> Fault:
+    if error["loc"][-1] == "[key]":
+        name = str(error["loc"][-2])
+        better = re.sub(r"[^a-z0-9]+", "_", re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()).strip("_")
+        advice = f"Write it as {better}." if better[:1].isalpha() else "It begins with a letter."
+        what = f"{shown(name)} is not a component name; names are lower_snake"
+        return Fault(value.named_at, what, advice)
+    if error["type"] == "too_short":
+        what = f"{subject} is {given}; at least {error['ctx']['min_length']} are needed"
+        return Fault(value.where, what, "A connection joins two or more ports: [spring.a, ground.flange].")
+    if error["type"] in ("string_pattern_mismatch", "string_too_long") and error["loc"][0] == "connections":
+        return Fault(
+            value.where, f"{given} is not a port", "A port is written component.port, as in spring.a."
+        )
+    return Fault(value.where, f"{subject} = {given}: {error['msg']}")
+
+
+def _missing(path: Path, model: type[BaseModel], value: Value) -> Fault:
+    name = str(path[-1])
+    near = did_you_mean(name, value.entries)
+    advice = f"Is {near[13:-1]} a misspelling of it? " if near else ""
+    what = f"{_subject(path)} is missing"
+    return Fault(value.named_at if path[:-1] else value.where, what, advice + _hover(model, path))
+
+
+def _unknown_key(path: Path, model: type[BaseModel], tree: Value) -> Fault:
+    name = str(path[-1])
+    known = _keys(_model_at(model, path[:-1]) or model)
+    owner = f"{_subject(path[:-1])} has" if path[:-1] else "a netlist has"
+    if path[:-1] == () and "run" not in known:
+        owner = "an included file has"
+    value = _at(tree, path)
+    advice = f"{did_you_mean(name, known)} Known keys are {listing(known, 20)}.".strip()
+    return Fault(value.named_at, f"{owner} no key {shown(name)}", advice)
+
+
+def _choice(value: Value, subject: str, given: str, expected: str) -> Fault:
+    names = re.findall(r"'([^']*)'", expected)
+    if not names:
+        return Fault(value.where, f"{subject} = {given} is not {expected}", f"Write {subject}: {expected}.")
+    advice = f"{did_you_mean(given, names)} Allowed are {listing(names)}.".strip()
+    return Fault(value.where, f"{subject} = {given} is not known", advice)
+
+
+def _given(value: Value) -> str:
+    """The value as written; a text that would be a number or the like without its quotes keeps them."""
+    content = value.plain()
+    quoted = isinstance(content, str) and len(content) < 20 and not isinstance(resolve(content), str)
+    return repr(content) if quoted else shown(content)
+
+
+def _at(tree: Value, path: Path) -> Value:
+    """The value a path of pydantic's leads to, or the last one on the way that exists."""
+    for step in path:
+        if isinstance(tree.content, dict) and step in tree.content:
+            tree = tree.content[str(step)]
+        elif isinstance(tree.content, list) and isinstance(step, int) and step < len(tree.content):
+            tree = tree.content[step]
+        else:
+            break
+    return tree
+
+
+def _subject(path: Path) -> str:
+    """The path as a user writes it: components go by their own name, list items by their number."""
+    steps = [step for step in path if step != "[key]"]
+    if len(steps) > 1 and steps[0] == "components":
+        steps = steps[1:]
+    text = "".join(f"[{step}]" if isinstance(step, int) else f".{shown(step)}" for step in steps)
+    return text.removeprefix(".")
+
+
+def _keys(model: type[BaseModel]) -> list[str]:
+    return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def _hover(model: type[BaseModel], path: Path) -> str:
+    """The sentence that documents the field a path leads to."""
+    owner = _model_at(model, path[:-1])
+    fields = {field.alias or name: field for name, field in owner.model_fields.items()} if owner else {}
+    return (fields[str(path[-1])].description or "") if path[-1] in fields else ""
+
+
+def _model_at(model: type[BaseModel], path: Path) -> type[BaseModel] | None:
+    """The model of the block a path leads to."""
+    for step in path:
+        field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
+        inner = next(_models_in(field.annotation), None) if field else None
+        if inner is None:
+            return model if isinstance(step, int) or not field else None
+        model = inner
+    return model
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in getattr(annotation, "__args__", ()):
+        yield from _models_in(part)

@@ -1,0 +1,224 @@
+"""YAML 1.2 from pyyaml's events: core schema, places, bounds, no tags, no merge keys, no duplicate keys.
+
+pyyaml reads YAML 1.1, in which `no` is false, 12:30 is 750 and 1e3 is a text. Its scanner and parser are the
+same for both versions, so only what gives plain scalars a meaning is written here (YAML 1.2.2, section 10.3).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import yaml
+
+from fairlead.errors import Fault, Location, shown
+from fairlead.netlist.limits import Meter, TooMuch
+from fairlead.netlist.netlist import Value
+
+Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+NULL = re.compile(r"null|Null|NULL|~|")
+TRUE = re.compile(r"true|True|TRUE")
+FALSE = re.compile(r"false|False|FALSE")
+INTEGER = re.compile(r"[-+]?[0-9]+")
+OCTAL = re.compile(r"0o([0-7]+)")
+HEXADECIMAL = re.compile(r"0x([0-9a-fA-F]+)")
+FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+INFINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)")
+NOT_A_NUMBER = re.compile(r"\.(?:nan|NaN|NAN)")
+MOST_DIGITS = 300  # beyond that no float holds it, and Python itself refuses to read 4300
+
+Scalar = str | int | float | bool | None
+
+
+def resolve(text: str) -> Scalar:
+    """What a plain (unquoted) scalar means in the YAML 1.2 core schema.
+
+    Raises ValueError for a number that no float can hold.
+    """
+    if NULL.fullmatch(text):
+        return None
+    if TRUE.fullmatch(text) or FALSE.fullmatch(text):
+        return text[0] in "tT"
+    if not (text[0].isdigit() or text[0] in "+-."):
+        return text
+    for pattern, base in ((INTEGER, 10), (OCTAL, 8), (HEXADECIMAL, 16)):
+        if pattern.fullmatch(text):
+            if len(text) > MOST_DIGITS:
+                raise ValueError("a number of so many digits cannot be held")
+            return int(text[2:] if base != 10 else text, base)
+    if FLOAT.fullmatch(text):
+        if math.isinf(number := float(text)):
+            raise ValueError("beyond the largest number, 1.8e308")
+        return number
+    if INFINITE.fullmatch(text):
+        return -math.inf if text[0] == "-" else math.inf
+    return math.nan if NOT_A_NUMBER.fullmatch(text) else text
+
+
+def read_yaml(text: str, file: str, meter: Meter | None = None) -> tuple[Value | None, list[Fault]]:
+    """The single document of a text as a tree of Values, and every fault found on the way.
+
+    Duplicate keys, tags and the like leave a tree to go on with; after a syntax error or a passed bound there
+    is none.
+    """
+    composer = _Composer(file, text, meter or Meter())
+    try:
+        root = composer.document()
+    except TooMuch as error:
+        return None, [*composer.faults, error.fault]
+    except yaml.MarkedYAMLError as error:
+        return None, [*composer.faults, _syntax_fault(error, file, text)]
+    except yaml.YAMLError as error:
+        return None, [*composer.faults, Fault(Location(file), f"not YAML: {error}")]
+    return root, composer.faults
+
+
+@dataclass(frozen=True)
+class _Anchored:
+    """What an alias stands for, how many nodes that is, and how many levels it goes down."""
+
+    value: Value
+    size: int
+    height: int
+
+
+@dataclass
+class _Composer:
+    """Builds Values from the event stream, counting every event before it becomes a node."""
+
+    file: str
+    text: str
+    meter: Meter
+    deepest: int = 0
+    faults: list[Fault] = field(default_factory=list)
+    anchors: dict[str, _Anchored | None] = field(default_factory=dict)
+    events: Iterator[Any] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.events = yaml.parse(self.text, Loader=Loader)
+
+    def document(self) -> Value | None:
+        """The root of the first document; a second document is a fault, no document is None."""
+        next(self.events)
+        if isinstance(next(self.events), yaml.StreamEndEvent):
+            return None
+        root = self.node(next(self.events), 1)
+        next(self.events)
+        if isinstance(event := next(self.events), yaml.DocumentStartEvent):
+            self.complain(event, "a second document begins here", "A file holds one netlist; use include.")
+        return root
+
+    def node(self, event: Any, depth: int) -> Value:
+        """The value that begins with `event`."""
+        where = self.place(event)
+        if isinstance(event, yaml.AliasEvent):
+            return self.aliased(event, where, depth)
+        nodes, above, self.deepest = self.meter.nodes, self.deepest, depth
+        self.meter.node(where, depth)
+        if event.tag is not None:
+            advice = "A netlist holds data only; for a text, use quotes."
+            self.complain(event, f"tag {shown(event.tag)} is not allowed", advice)
+        if event.anchor:
+            self.meter.anchor(where)
+            self.anchors[event.anchor] = None
+        value = Value(self.content(event, depth), where)
+        if event.anchor:
+            height = self.deepest - depth
+            self.anchors[event.anchor] = _Anchored(value, self.meter.nodes - nodes, height)
+        self.deepest = max(self.deepest, above)
+        return value
+
+    def content(self, event: Any, depth: int) -> Any:
+        if isinstance(event, yaml.MappingStartEvent):
+            return self.mapping(depth)
+        if isinstance(event, yaml.SequenceStartEvent):
+            return self.sequence(depth)
+        if event.style:
+            return event.value
+        try:
+            return resolve(event.value)
+        except ValueError as error:
+            self.complain(event, f"{shown(event.value)}: {error}")
+            return 0
+
+    def sequence(self, depth: int) -> list[Value]:
+        items = []
+        while not isinstance(event := next(self.events), yaml.SequenceEndEvent):
+            items.append(self.node(event, depth + 1))
+        return items
+
+    def mapping(self, depth: int) -> dict[str, Value]:
+        entries: dict[str, Value] = {}
+        while not isinstance(event := next(self.events), yaml.MappingEndEvent):
+            where = self.place(event)
+            name = self.key(event, depth)
+            value = replace(self.node(next(self.events), depth + 1), key_where=where)
+            if name in entries:
+                first = entries[name].key_where
+                self.complain(event, f"{shown(name)} is given twice", f"It stands at {first} already.")
+            elif name is not None:
+                entries[name] = value
+        return entries
+
+    def key(self, event: Any, depth: int) -> str | None:
+        """The text of a key; None, with a fault, for what cannot be one."""
+        if not isinstance(event, yaml.ScalarEvent):
+            self.node(event, depth + 1)
+            self.complain(event, "a key is a name, not a map, list or alias")
+            return None
+        self.meter.node(self.place(event), depth)
+        if event.value == "<<" and not event.style:
+            advice = "Write the entries out, or put what is shared into parameters."
+            self.complain(event, "<<: merge keys are not part of YAML 1.2", advice)
+            return None
+        if event.tag is not None or event.anchor or not event.value:
+            self.complain(event, f"{shown(event.value)}: a key is a plain name without tag or anchor")
+        return event.value
+
+    def aliased(self, event: Any, where: Location, depth: int) -> Value:
+        known = self.anchors.get(event.anchor)
+        if known is None:
+            inside = event.anchor in self.anchors
+            why = "stands for itself" if inside else "has no anchor before it"
+            advice = "" if inside else f'A text that begins with * goes in quotes: "*{event.anchor}".'
+            self.complain(event, f"*{shown(event.anchor)} {why}", advice)
+            self.meter.node(where, 1)
+            return Value(None, where)
+        bottom = depth + known.height
+        self.meter.alias(where, known.size, bottom)
+        self.deepest = max(self.deepest, bottom)
+        return known.value
+
+    def place(self, event: Any) -> Location:
+        return Location(self.file, event.start_mark.line + 1, event.start_mark.column + 1)
+
+    def complain(self, event: Any, what: str, way_out: str = "") -> None:
+        self.faults.append(Fault(self.place(event), what, way_out))
+
+
+def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
+    mark = error.problem_mark or error.context_mark
+    if mark is None:
+        return Fault(Location(file), f"not YAML: {error.problem}")
+    lines = text.splitlines()
+    line = lines[mark.line] if mark.line < len(lines) else ""
+    context = f" {error.context}" if error.context else ""
+    what = f"not YAML: {error.problem}{context}"
+    return Fault(Location(file, mark.line + 1, mark.column + 1), what, _advice(line, mark.column))
+
+
+def _advice(line: str, column: int) -> str:
+    """The usual cause of a syntax error on this line, if it can be seen."""
+    if "\t" in line[: column + 1]:
+        return "Indent with spaces; YAML takes no tabs."
+    if re.search(r":\s+\{[^}:]*\}\s*\S", line):
+        return 'An expression goes in quotes: "{2*mu} N".'
+    if re.search(r"[:\[,]\s*[*&%@`]", line):
+        return 'A text that begins with one of * & % @ ` goes in quotes: "*.tension".'
+    if line.count(": ") > 1:
+        return "A text that holds a colon and a space goes in quotes."
+    return "Look here and on the line above: indentation, a missing colon, a bracket or quote left open."
