@@ -2,9 +2,220 @@
 
 from __future__ import annotations
 
-from fairlead.integrate.protocol import OnBlock, Outcome, Problem, Run
+import math
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairlead.integrate import ordering
+from fairlead.integrate.counters import COUNTS, Counters
+from fairlead.integrate.machine_code import compiled_loop
+from fairlead.integrate.memory import INDICES, VECTORS, Memory
+from fairlead.integrate.protocol import CALLBACKS, EVENT, Block, OnBlock, Outcome, Pattern, Problem, Run, Status
+from fairlead.integrate.sentences import culprits_of, sentence_of
+from fairlead.integrate.tableau import TABLEAUS, Tableau
+
+SLICE = 0.05
+"""Seconds between two returns to Python, aimed at."""
+FIRST_ATTEMPTS = 16
+BLOCK_NUMBERS = 1 << 17
+"""Recorded numbers a block may hold."""
+NEVER = 1e308
+REACTIONS = {"warn": 0, "hold": 1, "stop": 2}
 
 
 def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Outcome:
-    """Integrate `problem` over `run`; hand each `Block` to `on_block`, or keep them in the outcome."""
+    """Integrate `problem` over `run`; hand each `Block` to `on_block`, or keep them in the outcome.
+
+    Never raises for what happens in the run: the outcome says how it ended and keeps all that was
+    computed, after Ctrl-C too. Raises ValueError for settings or arrays that do not fit together.
+    """
+    begun = time.perf_counter()
+    advance = compiled_loop()
+    tableau = TABLEAUS[run.method]
+    check(problem, run)
+    memory = prepare(problem, run, tableau)
+    blocks: list[Block] = []
+    take = on_block if on_block is not None else blocks.append
+    status, inside, attempts, replanned_at = Status.PAUSED, 0.0, FIRST_ATTEMPTS, -1
+    try:
+        while status in (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN):
+            entered = time.perf_counter()
+            status = Status(advance(memory.address, attempts))
+            spent = time.perf_counter() - entered
+            inside += spent
+            if status != Status.REPLAN:
+                flush(memory, run, take)
+            attempts = next_attempts(attempts, spent)
+            if status == Status.REPLAN:
+                status = replan(memory, problem, replanned_at)
+                replanned_at = int(memory.number["factorisations"])
+            elif status == Status.PAUSED and run.max_wall is not None and time.perf_counter() - begun > run.max_wall:
+                status = Status.MAX_WALL
+    except KeyboardInterrupt:
+        status = Status.INTERRUPTED
+        flush(memory, run, take)
+    culprits = culprits_of(status, memory, problem, blocks)
+    return Outcome(
+        status=status,
+        sentence=sentence_of(status, memory, problem, run, culprits),
+        t=float(memory.number["t"]),
+        y=memory.array["y"].copy(),
+        culprits=culprits,
+        chattering=tuple(problem.machine_names[z] for z in np.flatnonzero(memory.array["chatters"])),
+        counters=count(memory),
+        wall=time.perf_counter() - begun,
+        loop_wall=inside,
+        blocks=tuple(blocks),
+    )
+
+
+def next_attempts(attempts: int, spent: float) -> int:
+    """Trial steps for the next slice, so that it lasts about SLICE seconds; never more than eight times as many."""
+    factor = SLICE / max(spent, 1e-6)
+    return max(1, int(attempts * min(max(factor, 0.1), 8.0)))
+
+
+def check(problem: Problem, run: Run) -> None:
+    """Refuse what does not fit together, with both numbers."""
+    if not run.stop > run.start:
+        raise ValueError(f"stop = {run.stop:g} s must be after start = {run.start:g} s.")
+    for name in ("every", "first_step", "fixed_step", "max_step", "step_floor", "dwell"):
+        value = getattr(run, name)
+        if value is not None and not value > 0:
+            raise ValueError(f"{name} = {value:g} s must be above zero.")
+    n, ng = len(problem.initial), len(problem.guard_machine)
+    for name, length in (
+        *((name, n) for name in ("differential", "quadrature", "absolute", "relative", "cap", "unknown_names")),
+        ("guard_tolerance", ng),
+        ("guard_names", ng),
+        ("machine_names", len(problem.zones)),
+    ):
+        if len(getattr(problem, name)) != length:
+            raise ValueError(f"{name} has {len(getattr(problem, name))} entries; it must have {length}.")
+    for name in ("rhs", "jacobian", "mass"):
+        if not problem.callbacks.get(name):
+            raise ValueError(f"The problem has no callback {name}.")
+    unknown = set(problem.callbacks) - set(CALLBACKS)
+    if unknown:
+        raise ValueError(f"Unknown callbacks {sorted(unknown)}; there are {', '.join(CALLBACKS)}.")
+    if problem.zones.dtype != np.int64 or not problem.zones.flags.c_contiguous:
+        raise ValueError("zones must be a contiguous array of int64, because the callbacks write to it.")
+
+
+def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
+    """The memory of the run: everything the loop needs, at the start."""
+    n, ng, nz = len(problem.initial), len(problem.guard_machine), len(problem.zones)
+    n_outputs = problem.n_outputs if problem.callbacks.get("outputs") else n
+    plan = ordering.plan(problem)
+    rows = max(64, min(65536, BLOCK_NUMBERS // max(n_outputs, 1)))
+    events = max(4096, 4 * (nz + ng))
+    s = tableau.stages
+    sizes = {
+        "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
+        "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, "stages": s,
+        "row_capacity": rows, "event_capacity": events,
+    }  # fmt: skip
+    lengths = sizes | {
+        "stages_n": s * n, "three_n": 3 * n, "stages_stages": s * s, "three_stages": 3 * s,
+        "rows_outputs": rows * n_outputs, "n_plus_1": n + 1, "passes_zones": (run.max_passes + 1) * nz,
+        "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
+    }  # fmt: skip
+    memory = Memory(lengths, given_arrays(problem, tableau, plan))
+    write_numbers(memory, {**sizes, "n_outputs": n_outputs, "dense": int(plan.dense)})
+    write_numbers(memory, settings(run, tableau))
+    calls = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}
+    if not calls["call_guards"] or not calls["call_switch"]:
+        calls["call_guards"] = calls["call_switch"] = 0
+        memory.number["n_guards"] = 0
+    write_numbers(memory, {**calls, "context": problem.context})
+    memory.number["n_algebraic"] = int(n - np.count_nonzero(problem.differential))
+    memory.array["last_toggle"][:] = -NEVER
+    memory.array["blocked_until"][:] = -NEVER
+    return memory
+
+
+def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dict[str, np.ndarray]:
+    """Arrays the loop takes as they are; `zones` stays the live memory of the problem, y is a copy."""
+    nominal = np.minimum(problem.absolute + problem.relative * np.abs(problem.initial), problem.cap)
+    return {
+        "y": np.array(problem.initial, dtype=np.float64),
+        "absolute": problem.absolute, "relative": problem.relative, "cap": problem.cap,
+        "column_scale": nominal, "guard_tolerance": problem.guard_tolerance,
+        "a": tableau.a.ravel(), "C": tableau.C.ravel(), "c": tableau.c, "d": tableau.d,
+        "m": tableau.m, "e": tableau.e, "H": tableau.H.ravel(),
+        "zones": problem.zones, "guard_machine": problem.guard_machine,
+        "differential": np.asarray(problem.differential, np.int64),
+        "quadrature": np.asarray(problem.quadrature, np.int64),
+        "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
+        "jacobian_place": plan.jacobian_place,
+        "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
+        "mass_place": plan.mass_place, **plan.arrays,
+    }  # fmt: skip
+
+
+def settings(run: Run, tableau: Tableau) -> dict[str, float]:
+    """The settings of the run as the struct names them."""
+    span = run.stop - run.start
+    most = np.iinfo(np.int64).max
+    return {
+        "max_passes": run.max_passes,
+        "max_steps": most if run.max_steps is None else run.max_steps,
+        "max_events": most if run.max_events is None else run.max_events,
+        "adaptive": int(run.fixed_step is None),
+        "on_grid": int(run.every is not None),
+        "every": run.every or 0.0,
+        "on_chatter": REACTIONS[run.on_chatter],
+        "start": run.start, "t": run.start, "stop": run.stop,
+        "max_step": run.max_step,
+        "first_step": run.first_step or 0.0,
+        "h_next": run.fixed_step or 0.0,
+        "step_floor": run.step_floor if run.step_floor is not None else 1e-13 * max(span, abs(run.stop)),
+        "dwell": run.dwell if run.dwell is not None else 1e-6 * span,
+        "gamma": tableau.gamma,
+        "error_exponent": 1.0 / (tableau.error_order + 1),
+        "t_next": NEVER, "t_release": NEVER, "t_last_switch": -NEVER,
+    }  # fmt: skip
+
+
+def write_numbers(memory: Memory, values: dict[str, float]) -> None:
+    """Set single values of the struct by name."""
+    for name, value in values.items():
+        memory.number[name] = value
+
+
+def flush(memory: Memory, run: Run, take: OnBlock) -> None:
+    """Hand over what the buffers hold and empty them."""
+    number, array = memory.number, memory.array
+    rows, count_events, n_outputs = int(number["rows"]), int(number["events"]), int(number["n_outputs"])
+    number["rows"] = 0
+    number["events"] = 0
+    events = np.empty(count_events, EVENT)
+    for name in EVENT.names or ():
+        events[name] = array[f"event_{name}"][:count_events]
+    t = float(number["t"])
+    take(
+        Block(
+            t=array["row_t"][:rows].copy(),
+            values=array["row_values"][: rows * n_outputs].reshape(rows, n_outputs).copy(),
+            side=array["row_side"][:rows].astype(np.int8),
+            events=events,
+            reached=t,
+            fraction=min(1.0, max(0.0, (t - run.start) / (run.stop - run.start))),
+        )
+    )
+
+
+def replan(memory: Memory, problem: Problem, last: int) -> Status:
+    """Fresh pivots for the matrix whose planned ones failed; SINGULAR if fresh ones failed just before."""
     raise NotImplementedError
+
+
+def count(memory: Memory) -> Counters:
+    """The counters as the loop left them."""
+    return Counters(
+        **{name: int(memory.number[name]) for name in COUNTS},
+        switches_by_machine=memory.array["switches_by_machine"].copy(),
+        rejections_by_unknown=memory.array["rejections_by_unknown"].copy(),
+    )

@@ -1,0 +1,104 @@
+"""Step size: the error norm, the PI control of accepted and rejected steps, the restart after a switch.
+
+Contested choices, numbered:
+
+1. Norm. Largest weighted error over the unknowns, not the root mean square: one hundred idle blocks
+   must not loosen the error of the one that slips, and the invariant between creep and weight holds
+   for each contact. (Hairer, Wanner II, eq. IV.8.21, take the mean.)
+2. Control. PI with exponents 0.7/q and 0.4/q, q = error_order + 1 (Gustafsson, ACM TOMS 17:533, 1991);
+   pure I (1/q) after a switch or a rejection, where the last error says nothing about the next.
+3. Restart. A one-step method may keep its step across a switch, but the time scale may have changed
+   altogether (a stuck block takes any step, a slipping one a tenth of its period). See `restart`.
+"""
+
+from __future__ import annotations
+
+from math import inf, isfinite, sqrt
+
+from fairlead.integrate.foreign import compiled, indices, reals
+
+SAFETY, SHRINK_LIMIT, GROW_LIMIT = 0.9, 0.2, 8.0
+RESTART_ERROR = 1e-6
+"""Leading error, over the weight, that a restarted step of order p aims at when the solution has the
+smoothness its first two derivatives suggest; calibrated on a quarter period of an oscillator, where
+Rodas5P then takes the first step it would settle on."""
+
+
+@compiled
+def weigh(m, at_other):
+    """weight_i = min(absolute_i + relative_i max(|y_i|, |other_i|), cap_i)."""
+    y, other, weight = reals(m.at_y, m.n), reals(at_other, m.n), reals(m.at_weight, m.n)
+    absolute, relative, cap = reals(m.at_absolute, m.n), reals(m.at_relative, m.n), reals(m.at_cap, m.n)
+    for k in range(m.n):
+        weight[k] = min(absolute[k] + relative[k] * max(abs(y[k]), abs(other[k])), cap[k])
+
+
+@compiled
+def weighted_norm(m, at_v):
+    """Largest |v_i| / weight_i without quadratures; nan if any v_i is. Its place goes to `worst`."""
+    v, weight, quadrature = reals(at_v, m.n), reals(m.at_weight, m.n), indices(m.at_quadrature, m.n)
+    largest = 0.0
+    for k in range(m.n):
+        size = abs(v[k]) / weight[k]
+        if not isfinite(v[k]):
+            m.worst = k
+            return v[k] - v[k]
+        if quadrature[k] == 0 and size > largest:
+            largest = size
+            m.worst = k
+    return largest
+
+
+@compiled
+def estimate_error(m):
+    """Error of the trial step in its norm; nan if the trial is not finite anywhere."""
+    weigh(m, m.at_y_end)
+    error, y_end = reals(m.at_error_vector, m.n), reals(m.at_y_end, m.n)
+    for k in range(m.n):
+        if not isfinite(y_end[k]):
+            m.worst = k
+            return y_end[k] - y_end[k]
+    return weighted_norm(m, m.at_error_vector) + 0.0 * error[0]
+
+
+@compiled
+def step_after_rejection(m, h):
+    """A smaller step: by the error if it is a number, else a quarter."""
+    if isfinite(m.error):
+        factor = SAFETY * m.error**-m.error_exponent
+        return h * min(max(factor, SHRINK_LIMIT), 0.8)
+    return 0.25 * h
+
+
+@compiled
+def step_after_acceptance(m, h):
+    """The next step by PI control; never longer right after a rejection."""
+    error = max(m.error, 1e-10)
+    if m.last_error > 0.0 and m.retried == 0:
+        factor = SAFETY * error ** (-0.7 * m.error_exponent) * m.last_error ** (0.4 * m.error_exponent)
+    else:
+        factor = SAFETY * error**-m.error_exponent
+    upper = 1.0 if m.retried > 0 else GROW_LIMIT
+    return h * min(max(factor, SHRINK_LIMIT), upper)
+
+
+@compiled
+def restart(m, slope_size, curvature_size):
+    """The first step after a switch, from the weighted norms s of y' and c of y''.
+
+    s/c is the time scale T of the motion, s T its amplitude A (over the weight); a smooth motion of
+    that scale has a leading error A (h/T)^q, set to RESTART_ERROR^-1 of the weight. A straight motion
+    (c = 0) takes any step. Fast modes at rest make c large and this h needlessly small; so where the
+    last step was set by its error (and not idle), at least a third of that step is kept.
+    """
+    suggested = inf
+    if curvature_size > 0.0:
+        scale = slope_size / curvature_size
+        amplitude = slope_size * scale
+        if slope_size == 0.0:
+            suggested = sqrt(1.0 / curvature_size)
+        else:
+            suggested = scale * max(RESTART_ERROR * amplitude, 1e-30) ** -m.error_exponent
+    if m.error > 1e-3:
+        suggested = max(suggested, m.h_next / 3.0)
+    return suggested

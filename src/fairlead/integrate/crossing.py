@@ -1,0 +1,204 @@
+"""Where in a trial step the first guard fires.
+
+Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1;
+exactly zero at t0 does not fire. A guard that starts at zero and dips below it counts as below from
+there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
+extremum is tested. Companion rule: a guard above its tolerance that never was below zero means that
+the zones at t0 were wrong (the caller settles from there).
+
+All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of guards at once.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.foreign import compiled, copy, indices, reals
+from fairlead.integrate.guards import evaluate_guards
+from fairlead.integrate.interpolant import interpolate
+
+NONE, CROSSING, COMPANION = 0, 1, 2
+NEAR = 2.0**-10
+"""Distance in theta over which the slope of a guard at an end of the step is taken."""
+
+
+@compiled
+def guards_at(m, theta, h, at_g):
+    """Guards at theta on the interpolant."""
+    if theta == 1.0:
+        evaluate_guards(m, m.t_land if m.landing == 1 else m.t + h, m.at_y_end, at_g)
+    else:
+        interpolate(m, theta, m.at_y_probe)
+        evaluate_guards(m, m.t + theta * h, m.at_y_probe, at_g)
+
+
+@compiled
+def first_crossing(m, h):
+    """NONE, CROSSING (at `theta`, guards in `fired`) or COMPANION (guards in `fired`)."""
+    ng = m.n_guards
+    m.n_fired = 0
+    if ng == 0:
+        return NONE
+    g, end = reals(m.at_g, ng), reals(m.at_g_end, ng)
+    early, left = reals(m.at_g_early, ng), reals(m.at_g_left, ng)
+    guards_at(m, 1.0, h, m.at_g_end)
+    guards_at(m, NEAR, h, m.at_g_early)
+    right_end = 1.0
+    crossed = False
+    for i in range(ng):
+        left[i] = g[i]
+        if g[i] >= 0.0 and early[i] < 0.0:
+            left[i] = early[i]
+        crossed = crossed or (left[i] < 0.0 and end[i] >= 0.0)
+    copy(end, reals(m.at_g_right, ng))
+    bump = earliest_bump(m, h)
+    if bump < 1.0:
+        right_end = bump
+        crossed = True
+        guards_at(m, bump, h, m.at_g_right)
+    m.theta = 1.0
+    if crossed:
+        locate(m, h, right_end)
+    return collect_fired(m, crossed)
+
+
+@compiled
+def collect_fired(m, crossed):
+    """Fill `fired` from the bracket: crossings, unless a guard is positive that never was negative."""
+    ng = m.n_guards
+    left, right, tolerance = reals(m.at_g_left, ng), reals(m.at_g_right, ng), reals(m.at_guard_tolerance, ng)
+    fired, g, early = indices(m.at_fired, ng), reals(m.at_g, ng), reals(m.at_g_early, ng)
+    for i in range(ng):
+        if g[i] >= 0.0 and early[i] >= 0.0 and left[i] >= 0.0 and right[i] > tolerance[i]:
+            fired[m.n_fired] = i
+            m.n_fired += 1
+    if m.n_fired > 0:
+        return COMPANION
+    if not crossed:
+        return NONE
+    for i in range(ng):
+        if left[i] < 0.0 and right[i] >= 0.0:
+            fired[m.n_fired] = i
+            m.n_fired += 1
+    return CROSSING
+
+
+@compiled
+def earliest_bump(m, h):
+    """theta of the first interior point found at which a guard negative at both ends is not; 1 if none."""
+    ng = m.n_guards
+    left, end = reals(m.at_g_left, ng), reals(m.at_g_end, ng)
+    g, early, late = reals(m.at_g, ng), reals(m.at_g_early, ng), reals(m.at_g_late, ng)
+    rising = False
+    for i in range(ng):
+        rising = rising or (left[i] < 0.0 and end[i] < 0.0 and early[i] > g[i] and g[i] < 0.0)
+    if not rising:
+        return 1.0
+    guards_at(m, 1.0 - NEAR, h, m.at_g_late)
+    found = 1.0
+    for i in range(ng):
+        if g[i] < 0.0 and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
+            top, height = hermite_top(g[i], end[i], (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR)
+            # A quarter of the bump is the margin for what a cubic does not see.
+            if height + 0.25 * (height - max(g[i], end[i])) >= 0.0:
+                found = min(found, climb(m, h, i, top))
+    return found
+
+
+@compiled
+def hermite_top(g0, g1, s0, s1):
+    """Where, and how high, the cubic with these end values and slopes (s0 > 0 > s1) is largest on [0, 1]."""
+    lower, upper = 0.0, 1.0
+    for _ in range(30):
+        middle = 0.5 * (lower + upper)
+        slope = (
+            s0
+            + 2.0 * middle * (3.0 * (g1 - g0) - 2.0 * s0 - s1)
+            + 3.0 * middle * middle * (s0 + s1 - 2.0 * (g1 - g0))
+        )
+        if slope > 0.0:
+            lower = middle
+        else:
+            upper = middle
+    x = 0.5 * (lower + upper)
+    height = g0 + x * (s0 + x * ((3.0 * (g1 - g0) - 2.0 * s0 - s1) + x * (s0 + s1 - 2.0 * (g1 - g0))))
+    return x, height
+
+
+@compiled
+def climb(m, h, i, top):
+    """Follow guard i to its maximum by parabolas from a first guess; theta where it is not negative, else 1."""
+    ng = m.n_guards
+    probe = reals(m.at_g_probe, ng)
+    a, ga = 0.0, reals(m.at_g, ng)[i]
+    b, gb = 1.0, reals(m.at_g_end, ng)[i]
+    x = min(max(top, NEAR), 1.0 - NEAR)
+    guards_at(m, x, h, m.at_g_probe)
+    gx = probe[i]
+    for _ in range(8):
+        if gx >= 0.0:
+            return x
+        p = (b - x) * (gx - ga)
+        q = (x - a) * (gb - gx)
+        if not p - q > 0.0:
+            return 1.0
+        new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
+        new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))
+        if abs(new - x) < 1e-3 * (b - a):
+            new = x + (1e-2 * (b - x) if b - x > x - a else -1e-2 * (x - a))
+        guards_at(m, new, h, m.at_g_probe)
+        if probe[i] > gx:
+            if new > x:
+                a, ga = x, gx
+            else:
+                b, gb = x, gx
+            x, gx = new, probe[i]
+        elif new > x:
+            b, gb = new, probe[i]
+        else:
+            a, ga = new, probe[i]
+    return 1.0
+
+
+@compiled
+def locate(m, h, right_end):
+    """Close a bracket on the earliest crossing to rounding in t; `theta` is its right-hand end.
+
+    Illinois method (Dowell, Jarratt, BIT 11:168, 1971) on the whole vector: the next point is the
+    earliest secant root of all guards that cross in the bracket, so the first of them is found
+    without locating the others; a point that does not shrink the bracket well is followed by a
+    bisection.
+    """
+    ng = m.n_guards
+    left, right, probe = reals(m.at_g_left, ng), reals(m.at_g_right, ng), reals(m.at_g_probe, ng)
+    a, b = 0.0, right_end
+    bias_left, bias_right, last = 1.0, 1.0, 0
+    closeness = max(4e-16 * max(abs(m.t), abs(m.t + h)) / h, 4e-16)
+    width, slow = b - a, 0
+    while b - a > closeness:
+        x = b
+        for i in range(ng):
+            if left[i] < 0.0 and right[i] >= 0.0:
+                ga, gb = bias_left * left[i], bias_right * right[i]
+                x = min(x, b - (b - a) * (gb / (gb - ga)))
+        if slow >= 3:
+            x = 0.5 * (a + b)
+            slow = 0
+        x = min(max(x, a + 0.5 * closeness), b - 0.5 * closeness)
+        if not a < x < b:
+            break
+        guards_at(m, x, h, m.at_g_probe)
+        crossed = False
+        for i in range(ng):
+            crossed = crossed or (left[i] < 0.0 and probe[i] >= 0.0)
+        if crossed:
+            b = x
+            copy(probe, right)
+            bias_left = 0.5 * bias_left if last == 1 else 1.0
+            bias_right, last = 1.0, 1
+        else:
+            a = x
+            copy(probe, left)
+            bias_right = 0.5 * bias_right if last == -1 else 1.0
+            bias_left, last = 1.0, -1
+        slow = slow + 1 if b - a > 0.5 * width else 0
+        width = b - a
+    m.theta = b

@@ -1,0 +1,141 @@
+"""Linear systems of a step and of a consistent point: assemble, factorise, solve.
+
+    step              W = M/(h gamma) - J
+    consistent point  C = the columns of M where y_i is differential, of -J where it is algebraic
+
+Both live in `matrix`, along one fixed pattern. Below DENSE_LIMIT unknowns it is a full matrix, by
+rows, factored here with partial pivoting; above, see sparse.py. Unknowns are scaled by their error
+weight before rows are compared, so that the choice of pivots does not depend on units.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.foreign import compiled, indices, reals
+from fairlead.integrate.sparse import factorise_sparse, solve_sparse
+
+DONE, SINGULAR, INACCURATE = 0, 1, 2
+
+
+@compiled
+def assemble_step(m, scale):
+    """Write scale M - J into `matrix`."""
+    matrix = reals(m.at_matrix, m.n_matrix)
+    place, values = indices(m.at_jacobian_place, m.n_jacobian), reals(m.at_jacobian, m.n_jacobian)
+    matrix[:] = 0.0
+    for p in range(m.n_jacobian):
+        matrix[place[p]] -= values[p]
+    place, values = indices(m.at_mass_place, m.n_mass), reals(m.at_mass, m.n_mass)
+    for p in range(m.n_mass):
+        matrix[place[p]] += scale * values[p]
+
+
+@compiled
+def assemble_consistent(m):
+    """Write the matrix of the consistent point into `matrix`."""
+    matrix = reals(m.at_matrix, m.n_matrix)
+    differential = indices(m.at_differential, m.n)
+    matrix[:] = 0.0
+    starts, place = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_place, m.n_jacobian)
+    values = reals(m.at_jacobian, m.n_jacobian)
+    for j in range(m.n):
+        if differential[j] == 0:
+            for p in range(starts[j], starts[j + 1]):
+                matrix[place[p]] -= values[p]
+    place, values = indices(m.at_mass_place, m.n_mass), reals(m.at_mass, m.n_mass)
+    for p in range(m.n_mass):
+        matrix[place[p]] += values[p]
+
+
+@compiled
+def factorise(m):
+    """Factorise `matrix`; DONE, SINGULAR or INACCURATE. On SINGULAR, `culprit` is the unknown to blame."""
+    m.factorisations += 1
+    if m.dense == 1:
+        return factorise_dense(m)
+    return factorise_sparse(m)
+
+
+@compiled
+def solve(m, at_b):
+    """Overwrite the n doubles at address `at_b` with the solution for that right-hand side."""
+    m.solves += 1
+    if m.dense == 1:
+        solve_dense(m, at_b)
+    else:
+        solve_sparse(m, at_b)
+
+
+@compiled
+def factorise_dense(m):
+    """LU with partial pivoting of the scaled full matrix, by rows, pivots stored as reciprocals."""
+    n = m.n
+    a = reals(m.at_matrix, n * n)
+    row_scale, column_scale = reals(m.at_row_scale, n), reals(m.at_column_scale, n)
+    order = indices(m.at_pivot_rows, n)
+    for i in range(n):
+        largest = 0.0
+        for j in range(n):
+            a[i * n + j] *= column_scale[j]
+            largest = max(largest, abs(a[i * n + j]))
+        if not (largest > 0.0 and largest < 1e300):
+            m.culprit = i
+            return SINGULAR
+        row_scale[i] = 1.0 / largest
+        for j in range(n):
+            a[i * n + j] *= row_scale[i]
+    for k in range(n):
+        pivot_row = k
+        for i in range(k + 1, n):
+            if abs(a[i * n + k]) > abs(a[pivot_row * n + k]):
+                pivot_row = i
+        order[k] = pivot_row
+        if pivot_row != k:
+            for j in range(n):
+                a[k * n + j], a[pivot_row * n + j] = a[pivot_row * n + j], a[k * n + j]
+        if not abs(a[k * n + k]) > 1e-15:
+            m.culprit = k
+            return SINGULAR
+        inverse = 1.0 / a[k * n + k]
+        a[k * n + k] = inverse
+        for i in range(k + 1, n):
+            if a[i * n + k] != 0.0:
+                factor = a[i * n + k] * inverse
+                a[i * n + k] = factor
+                for j in range(k + 1, n):
+                    a[i * n + j] -= factor * a[k * n + j]
+    return DONE
+
+
+@compiled
+def solve_dense(m, at_b):
+    """Forward and backward substitution with the factors of `factorise_dense`."""
+    n = m.n
+    a, b = reals(m.at_matrix, n * n), reals(at_b, n)
+    row_scale, column_scale = reals(m.at_row_scale, n), reals(m.at_column_scale, n)
+    order = indices(m.at_pivot_rows, n)
+    for i in range(n):
+        b[i] *= row_scale[i]
+    for k in range(n):
+        b[k], b[order[k]] = b[order[k]], b[k]
+    for i in range(1, n):
+        total = b[i]
+        for j in range(i):
+            total -= a[i * n + j] * b[j]
+        b[i] = total
+    for i in range(n - 1, -1, -1):
+        total = b[i]
+        for j in range(i + 1, n):
+            total -= a[i * n + j] * b[j]
+        b[i] = total * a[i * n + i]
+    for i in range(n):
+        b[i] *= column_scale[i]
+
+
+@compiled
+def add_mass_times(m, at_v, at_b):
+    """b += M v, for the n doubles at the two addresses."""
+    starts, rows = indices(m.at_mass_starts, m.n + 1), indices(m.at_mass_rows, m.n_mass)
+    values, v, b = reals(m.at_mass, m.n_mass), reals(at_v, m.n), reals(at_b, m.n)
+    for j in range(m.n):
+        for p in range(starts[j], starts[j + 1]):
+            b[rows[p]] += values[p] * v[j]

@@ -1,0 +1,123 @@
+"""The memory of a run: one C struct of numbers and addresses, and the arrays they point to.
+
+The compiled loop takes the address of the struct and nothing else. So it compiles once for every
+problem, allocates nothing, and a run can leave it at any step and come back. Everything here is
+eight bytes wide. `LAYOUT` is the one list: Python and compiled code read the same names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+INTEGERS = (
+    # sizes
+    "n", "n_algebraic", "n_guards", "n_zones", "n_outputs", "n_jacobian", "n_mass", "n_matrix", "stages",
+    "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
+    # C functions of the problem, and their context
+    "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
+    "call_next_time", "call_at_time", "call_outputs",
+    # settings
+    "adaptive", "on_grid", "on_chatter", "dense",
+    # where the run is
+    "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes", "one_by_one",
+    "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
+    # counters, in the order of counters.COUNTS
+    "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
+    "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
+)  # fmt: skip
+"""Whole numbers of the struct; those beginning with call_ are addresses of C functions."""
+
+NUMBERS = (
+    # settings
+    "start", "stop", "every", "max_step", "first_step", "step_floor", "dwell", "gamma", "error_exponent",
+    # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
+    "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_release",
+    "t_last_switch", "factored_h",
+)  # fmt: skip
+"""Real numbers of the struct."""
+
+VECTORS = {
+    # unknowns (n each): the point, its derivative, the trial end, a point inside the step
+    "y": "n", "slope": "n", "y_end": "n", "y_piece": "n", "y_probe": "n", "f": "n", "ft": "n", "b": "n",
+    "x": "n", "u": "n", "v": "n", "residual": "n", "error_vector": "n", "weight": "n", "curvature": "n",
+    "K": "stages_n", "D": "three_n",
+    "absolute": "n", "relative": "n", "cap": "n", "column_scale": "n", "row_scale": "n", "factor_work": "n",
+    # matrices along their patterns; `matrix` holds W or the matrix of the consistent point
+    "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
+    "pivot": "n",
+    # the method
+    "a": "stages_stages", "C": "stages_stages", "c": "stages", "d": "stages", "m": "stages", "e": "stages",
+    "H": "three_stages",
+    # guards: at the point, at the left and right end of a bracket, and at a probe
+    "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
+    "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
+    # machines
+    "last_toggle": "n_zones", "blocked_until": "n_zones",
+    # what was recorded
+    "row_t": "row_capacity", "row_values": "rows_outputs", "event_t": "event_capacity",
+}  # fmt: skip
+"""Arrays of doubles, by the name of their length."""
+
+INDICES = {
+    "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
+    "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
+    "differential": "n", "quadrature": "n",
+    "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
+    "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
+    "switches_by_machine": "n_zones", "rejections_by_unknown": "n",
+    "row_side": "row_capacity",
+    "event_machine": "event_capacity", "event_before": "event_capacity", "event_after": "event_capacity",
+    "event_guard": "event_capacity", "event_position": "event_capacity",
+    # the plan of the sparse factorisation: pivot order, pattern of W, of L (without diagonal) and of U
+    "row_order": "n", "column_order": "n", "matrix_starts": "n_plus_1", "matrix_rows": "n_matrix",
+    "lower_starts": "n_plus_1", "lower_rows": "n_lower", "upper_starts": "n_plus_1", "upper_rows": "n_upper",
+    "pivot_rows": "n",
+}  # fmt: skip
+"""Arrays of whole numbers, by the name of their length."""
+
+LAYOUT = np.dtype(
+    [(name, "i8") for name in INTEGERS]
+    + [(name, "f8") for name in NUMBERS]
+    + [(f"at_{name}", "i8") for name in (*VECTORS, *INDICES)],
+    align=True,
+)
+"""The struct: at_<name> is the address of the array <name>."""
+
+
+class Memory:
+    """The struct and its arrays, owned by Python.
+
+    `number[...]` reads and writes single values, `array[...]` the arrays.
+    """
+
+    def __init__(self, lengths: Mapping[str, int], given: Mapping[str, np.ndarray]) -> None:
+        """Allocate by `lengths` (as named in VECTORS and INDICES); arrays in `given` are used as they are."""
+        self.struct = np.zeros(1, LAYOUT)
+        self.array: dict[str, np.ndarray] = {}
+        for table, kind in ((VECTORS, np.float64), (INDICES, np.int64)):
+            for name, length in table.items():
+                if name in given:
+                    self.point(name, given[name], kind)
+                else:
+                    self.point(name, np.zeros(lengths[length], kind), kind)
+
+    def point(self, name: str, array: np.ndarray, kind: Any) -> None:
+        """Make `name` stand for `array`, in place if it already has the right type."""
+        fitting = np.ascontiguousarray(array, dtype=kind)
+        if fitting.size == 0:
+            fitting = np.zeros(1, kind)[:0]
+        self.array[name] = fitting
+        self.struct[0][f"at_{name}"] = fitting.ctypes.data
+
+    @property
+    def number(self) -> Any:
+        """The struct as a record: number["t"]."""
+        return self.struct[0]
+
+    @property
+    def address(self) -> int:
+        """Where the struct is."""
+        return int(self.struct.ctypes.data)

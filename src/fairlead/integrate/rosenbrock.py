@@ -1,0 +1,136 @@
+"""One step of a Rosenbrock method: linear systems only, zones, M and J frozen (the minor step).
+
+    W K_i = f(t + c_i h, y + sum_j a_ij K_j) + M sum_j (C_ij/h) K_j + h d_i f_t,   W = M/(h gamma) - J
+
+See tableau.py for the letters.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, reals
+from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, assemble_step, factorise, solve
+from fairlead.integrate.sparse import backward_error
+
+REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
+"""Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
+
+
+@compiled
+def linearise(m):
+    """J and f_t at the point, once for all steps tried from it."""
+    if m.jacobian_fresh == 0:
+        jacobian_at(m.call_jacobian, (m.context, m.t, m.at_y, m.at_jacobian, m.at_ft))
+        m.jacobians += 1
+        m.jacobian_fresh = 1
+        m.factored_h = 0.0
+
+
+@compiled
+def prepare_matrix(m, h):
+    """Factorise W for the step size h, unless it is already; DONE, SINGULAR or INACCURATE."""
+    if m.factored_h == h:
+        return DONE
+    assemble_step(m, 1.0 / (h * m.gamma))
+    m.factored_h = 0.0
+    status = factorise(m)
+    if status == DONE:
+        m.factored_h = h
+    return status
+
+
+@compiled
+def take_step(m, h):
+    """Compute the stages K, the trial end `y_end` and the error estimate; DONE or why the matrix fails."""
+    n = m.n
+    linearise(m)
+    unchecked = m.factored_h != h
+    status = prepare_matrix(m, h)
+    if status != DONE:
+        return status
+    K = reals(m.at_K, m.stages * n)
+    for i in range(m.stages):
+        stage_right_side(m, h, i)
+        copy(reals(m.at_b, n), K[i * n : (i + 1) * n])
+        solve(m, m.at_K + 8 * i * n)
+        if i == 0 and unchecked and m.dense == 0:
+            status = check_solution(m, m.at_K, m.at_b)
+            if status != DONE:
+                m.factored_h = 0.0
+                return status
+    combine(m)
+    return DONE
+
+
+@compiled
+def stage_right_side(m, h, i):
+    """b = f(t + c_i h, y + sum_j a_ij K_j) + h d_i f_t + M sum_j (C_ij/h) K_j."""
+    n, stages = m.n, m.stages
+    y, u, v, f = reals(m.at_y, n), reals(m.at_u, n), reals(m.at_v, n), reals(m.at_f, n)
+    K, ft, b = reals(m.at_K, stages * n), reals(m.at_ft, n), reals(m.at_b, n)
+    a, C = reals(m.at_a, stages * stages), reals(m.at_C, stages * stages)
+    c, d = reals(m.at_c, stages), reals(m.at_d, stages)
+    moved = i == 0
+    for k in range(n):
+        u[k] = y[k]
+        v[k] = 0.0
+    for j in range(i):
+        a_ij, C_ij = a[i * stages + j], C[i * stages + j] / h
+        moved = moved or a_ij != a[(i - 1) * stages + j]
+        for k in range(n):
+            u[k] += a_ij * K[j * n + k]
+            v[k] += C_ij * K[j * n + k]
+    if moved or c[i] != c[i - 1]:
+        field_at(m.call_rhs, (m.context, m.t + c[i] * h, m.at_u, m.at_f))
+        m.rhs += 1
+    slope_weight = h * d[i]
+    for k in range(n):
+        b[k] = f[k] + slope_weight * ft[k]
+    if i > 0:
+        add_mass_times(m, m.at_v, m.at_b)
+
+
+@compiled
+def combine(m):
+    """y_end = y + sum_i m_i K_i and error_vector = sum_i e_i K_i."""
+    n, stages = m.n, m.stages
+    y, y_end, error = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_error_vector, n)
+    K, weights, differences = reals(m.at_K, stages * n), reals(m.at_m, stages), reals(m.at_e, stages)
+    for k in range(n):
+        y_end[k] = y[k]
+        error[k] = 0.0
+    for i in range(stages):
+        for k in range(n):
+            y_end[k] += weights[i] * K[i * n + k]
+        if differences[i] != 0.0:
+            for k in range(n):
+                error[k] += differences[i] * K[i * n + k]
+
+
+@compiled
+def check_solution(m, at_x, at_b):
+    """Watch the first solve after a factorisation; refine once, and report INACCURATE if that is not enough.
+
+    A planned pivot order can lose all accuracy with no small pivot to see, so the residual decides.
+    """
+    if backward_error(m, at_x, at_b) <= REFINE_ABOVE:
+        return DONE
+    x, correction = reals(at_x, m.n), reals(m.at_residual, m.n)
+    solve(m, m.at_residual)
+    for k in range(m.n):
+        x[k] += correction[k]
+    if backward_error(m, at_x, at_b) <= DISTRUST_ABOVE:
+        return DONE
+    m.culprit = -1
+    return INACCURATE
+
+
+@compiled
+def times_jacobian(m, at_v, at_b):
+    """b += J v over the differential columns, for the n doubles at the two addresses."""
+    starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
+    values, differential = reals(m.at_jacobian, m.n_jacobian), indices(m.at_differential, m.n)
+    v, b = reals(at_v, m.n), reals(at_b, m.n)
+    for j in range(m.n):
+        if differential[j] == 1:
+            for p in range(starts[j], starts[j + 1]):
+                b[rows[p]] += values[p] * v[j]

@@ -1,0 +1,144 @@
+"""Consistent points: y' of the differential and y of the algebraic unknowns, zones frozen.
+
+    find (y'_d, y_a) with M y' = f(t, y):   C (dy'_d, dy_a) = f - M y',
+    C = columns of M where differential, of -J where algebraic
+
+By Newton; linear problems take one iteration, and a second to know it. Held rows first project: at a
+capture C (dV, Lambda) = r with r = -v_rel on the rows that hold gives the impulse that brings them to
+rest and conserves momentum; dV is added to the differential unknowns, Lambda dropped.
+
+The start is staged: the same Newton from the user's guess, then damped (halving while the residual
+norm, in units of its first value by row, grows), then settling.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from fairlead.integrate.controller import weigh, weighted_norm
+from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
+from fairlead.integrate.linear import DONE, add_mass_times, assemble_consistent, factorise, solve
+from fairlead.integrate.rosenbrock import check_solution, times_jacobian
+
+NOT_CONSISTENT = 3
+SETTLED_UPDATE = 1e-6
+"""A Newton update of the algebraic unknowns below this, in units of their weights, is the last."""
+
+
+@compiled
+def prepare_consistent(m):
+    """J here, and the factors of C."""
+    jacobian_at(m.call_jacobian, (m.context, m.t, m.at_y, m.at_jacobian, m.at_ft))
+    m.jacobians += 1
+    m.jacobian_fresh = 0
+    m.factored_h = 0.0
+    assemble_consistent(m)
+    return factorise(m)
+
+
+@compiled
+def project(m):
+    """Bring held rows to rest by the impulse that conserves momentum."""
+    n = m.n
+    if m.call_slip == 0:
+        return
+    r = reals(m.at_b, n)
+    r[:] = 0.0
+    slip_at(m.call_slip, (m.context, m.t, m.at_y, m.at_b))
+    at_rest = True
+    for k in range(n):
+        at_rest = at_rest and r[k] == 0.0
+    if at_rest:
+        return
+    solve(m, m.at_b)
+    y, differential = reals(m.at_y, n), indices(m.at_differential, n)
+    for k in range(n):
+        if differential[k] == 1:
+            y[k] += r[k]
+
+
+@compiled
+def residual_here(m, at_r):
+    """r = f(t, y) - M y' at the point."""
+    n = m.n
+    field_at(m.call_rhs, (m.context, m.t, m.at_y, m.at_f))
+    m.rhs += 1
+    v, slope, r, f = reals(m.at_v, n), reals(m.at_slope, n), reals(at_r, n), reals(m.at_f, n)
+    differential = indices(m.at_differential, n)
+    for k in range(n):
+        v[k] = -slope[k] if differential[k] == 1 else 0.0
+        r[k] = f[k]
+    add_mass_times(m, m.at_v, at_r)
+
+
+@compiled
+def consistent(m, iterations):
+    """Make the point consistent for the zones in force; DONE, SINGULAR, INACCURATE or NOT_CONSISTENT."""
+    n = m.n
+    mass_at(m.call_mass, (m.context, m.at_mass))
+    status = prepare_consistent(m)
+    if status != DONE:
+        return status
+    project(m)
+    weigh(m, m.at_y)
+    previous = 1e300
+    for iteration in range(iterations):
+        if iteration >= 2:
+            status = prepare_consistent(m)
+            if status != DONE:
+                return status
+        residual_here(m, m.at_x)
+        b = reals(m.at_b, n)
+        copy(reals(m.at_x, n), b)
+        solve(m, m.at_x)
+        if iteration == 0 and m.dense == 0:
+            status = check_solution(m, m.at_x, m.at_b)
+            if status != DONE:
+                return status
+        size = update(m, 1.0)
+        if not isfinite(size):
+            return NOT_CONSISTENT
+        if m.n_algebraic == 0 or size <= SETTLED_UPDATE:
+            return DONE
+        if iterations > 12 and size > previous:
+            size = damp(m, size)
+        previous = size
+    return NOT_CONSISTENT
+
+
+@compiled
+def update(m, fraction):
+    """Add `fraction` of the Newton update in x; the weighted size of its algebraic part."""
+    n = m.n
+    x, y, slope = reals(m.at_x, n), reals(m.at_y, n), reals(m.at_slope, n)
+    differential, u = indices(m.at_differential, n), reals(m.at_u, n)
+    for k in range(n):
+        u[k] = 0.0
+        if differential[k] == 1:
+            slope[k] += fraction * x[k]
+            if not isfinite(x[k]):
+                u[k] = x[k]
+        else:
+            y[k] += fraction * x[k]
+            u[k] = x[k]
+    return weighted_norm(m, m.at_u)
+
+
+@compiled
+def damp(m, size):
+    """Take back part of an update larger than the last one: a step of the size Newton has shown it can take."""
+    update(m, -0.75)
+    return size
+
+
+@compiled
+def slope_change(m):
+    """Rate of change of the consistent point: `curvature` = y'' where differential, y' where algebraic.
+
+    Differentiating M y' = f:  C (y''_d, y'_a) = J y'_d + f_t, with J and C of the point.
+    """
+    n = m.n
+    curvature, ft = reals(m.at_curvature, n), reals(m.at_ft, n)
+    copy(ft, curvature)
+    times_jacobian(m, m.at_slope, m.at_curvature)
+    solve(m, m.at_curvature)
