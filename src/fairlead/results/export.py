@@ -1,0 +1,67 @@
+"""A result in the forms of other tools: xarray, pandas, CSV."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fairlead.results.store import SIDE, SIDE_MEANING, TIME
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from fairlead.results.trajectory import Result
+
+
+def to_xarray(result: Result, names: Iterable[str] | None = None) -> xarray.Dataset:
+    """Return signals along the coordinate `time`, one variable each, with `units` and `long_name`.
+
+    Time repeats at an event; `side` tells the two rows apart. Select one of them before
+    interpolating, for instance `data.isel(time=data.side.values >= 0)`.
+    """
+    import xarray
+
+    chosen = _chosen(result, names)
+    about = {signal.name: signal for signal in result.signals}
+    variables = {
+        name: (TIME, values, {"units": about[name].unit, "long_name": about[name].description or name})
+        for name, values in zip(chosen, result.columns(chosen).T, strict=True)
+    }
+    coordinates = {
+        TIME: (TIME, result.t, {"units": "s", "long_name": "time"}),
+        SIDE: (TIME, result.side, {"long_name": SIDE_MEANING}),
+    }
+    simple = {key: value for key, value in result.run.items() if isinstance(value, str | int | float)}
+    return xarray.Dataset(variables, coordinates, attrs=simple)
+
+
+def to_pandas(result: Result, names: Iterable[str] | None = None) -> pandas.DataFrame:
+    """Return signals as columns, indexed by time [s]; `frame.attrs["units"]` maps names to units."""
+    import pandas
+
+    chosen = _chosen(result, names)
+    index = pandas.Index(result.t, name="time [s]")
+    frame = pandas.DataFrame(result.columns(chosen), index=index, columns=chosen)
+    frame.attrs["units"] = {name: result.unit(name) for name in chosen}
+    return frame
+
+
+def to_csv(result: Result, path: str | Path, names: Iterable[str] | None = None) -> None:
+    """Write `time [s]`, `side` and one column per signal, its unit in brackets in the header.
+
+    Numbers are written with as many digits as it takes to read the same number back.
+    """
+    chosen = _chosen(result, names)
+    header = ["time [s]", SIDE, *(f"{name} [{result.unit(name)}]" for name in chosen)]
+    with Path(path).open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(header)
+        rows = zip(result.t.tolist(), result.side.tolist(), result.columns(chosen).tolist(), strict=True)
+        table.writerows((t, side, *values) for t, side, values in rows)
+
+
+def _chosen(result: Result, names: Iterable[str] | None) -> list[str]:
+    return [signal.name for signal in result.signals] if names is None else list(names)

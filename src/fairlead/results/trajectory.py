@@ -1,0 +1,219 @@
+"""What a run computed, as its reader sees it: signals by name, events, and run.json.
+
+How it is used:
+
+    result = Result.open("runs/belt")
+    result["block.v"]                  numpy array (n,), in the unit result.unit("block.v")
+    result.t                           numpy array (n,), [s]; an event's time occurs twice
+    result.match("line.*.tension")     names
+    result.at("block.v", 0.25)         a value between the recorded rows, never across an event
+    result.events                      zone changes
+    result.run                         run.json as a dict
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
+from fairlead.results import run_file
+from fairlead.results.events import Event, read_events
+from fairlead.results.retrieve import SeriesReader
+from fairlead.results.signal import Signal, matching
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Side = Literal["left", "right", "both"]
+
+
+class UnknownSignalError(FairleadError, KeyError):
+    """A name that was not recorded."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # KeyError would show the message in quotes.
+
+
+class Result:
+    """One run directory, read lazily: a signal is read when it is first asked for."""
+
+    def __init__(self, path: Path, run: Mapping[str, Any], series: SeriesReader) -> None:
+        self.path = path
+        self.run = dict(run)
+        self._series = series
+        self._signals = {signal.name: signal for signal in series.signals}
+        self._cache: dict[str, NDArray[np.float64]] = {}
+
+    @classmethod
+    def open(cls, path: str | Path) -> Result:
+        """Open a run directory, of a finished, running, failed or killed run.
+
+        Raises UsageError when there is no such directory or no series in it.
+        """
+        path = Path(path)
+        run = run_file.read(path)
+        if run is None:
+            raise UsageError(f"{path} holds no run of fairlead: there is no readable run.json in it.")
+        try:
+            series = SeriesReader(path / "series.nc")
+        except (OSError, KeyError) as error:
+            raise UsageError(f"The signals of the run in {path} cannot be read: {error}.") from error
+        return cls(path, {**run, "status": run_file.status(run)}, series)
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """All recorded signals, in the order of recording."""
+        return self._series.signals
+
+    @cached_property
+    def t(self) -> NDArray[np.float64]:
+        """Recorded times (n,) [s]; never decreasing, an event's time occurs twice."""
+        return self._series.time()
+
+    @cached_property
+    def side(self) -> NDArray[np.int8]:
+        """Return -1 in rows on the left of an event, +1 on its right, 0 elsewhere (n,)."""
+        return self._series.side()
+
+    @cached_property
+    def events(self) -> list[Event]:
+        """Zone changes in order: (t, component, zone_from, zone_to, guard)."""
+        return read_events(self.path / "events.csv")
+
+    @property
+    def status(self) -> str:
+        """How the run ended: finished, interrupted, budget, failed, killed; or running."""
+        return str(self.run["status"])
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        return self._columns([name])[:, 0]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._signals
+
+    def __len__(self) -> int:
+        return len(self._signals)
+
+    def unit(self, name: str) -> str:
+        """Return the SI unit of a signal."""
+        return self._signal(name).unit
+
+    def match(self, pattern: str) -> list[str]:
+        """Return the recorded names that fit a pattern such as `line.*.tension` (see `signal.matching`)."""
+        return matching(self._signals, pattern)
+
+    def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
+        """Return the value of a signal at the times `t` [s] (a number or an array).
+
+        Between two recorded rows the value is interpolated linearly, but never across an event: the
+        rows on both sides of it have the same time. At an event itself `side` chooses the value
+        before it (`left`), after it (`right`) or both, as a last axis of length 2.
+
+        Raises FairleadError for a time that the run did not reach.
+        """
+        times, values = np.asarray(t, dtype="f8"), self[name]
+        if not len(self.t) or not np.all((times >= self.t[0]) & (times <= self.t[-1])):
+            reached = f"from {self.t[0]:g} s to {self.t[-1]:g} s" if len(self.t) else "at no time"
+            raise FairleadError(f"{name} was recorded {reached}; there is no value at t = {times} s.")
+        if side == "both":
+            return np.stack([_before(self.t, values, times), _after(self.t, values, times)], axis=-1)
+        if side not in ("left", "right"):
+            raise FairleadError(f"side = {side!r} is none of left, right, both.")
+        found = _before(self.t, values, times) if side == "left" else _after(self.t, values, times)
+        return found if found.ndim else float(found)
+
+    def events_table(self) -> pandas.DataFrame:
+        """Return the zone changes as a table with columns t, component, zone_from, zone_to, guard."""
+        import pandas
+
+        return pandas.DataFrame(self.events, columns=list(Event._fields))
+
+    def to_xarray(self, names: Iterable[str] | None = None) -> xarray.Dataset:
+        """Return the signals (all, or those named) as a dataset along `time`, with units and `side`."""
+        from fairlead.results.export import to_xarray
+
+        return to_xarray(self, names)
+
+    def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
+        """Return the signals (all, or those named) as columns over time [s]; units are in `.attrs`."""
+        from fairlead.results.export import to_pandas
+
+        return to_pandas(self, names)
+
+    def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
+        """Write the signals (all, or those named) with units in the header; every digit is kept."""
+        from fairlead.results.export import to_csv
+
+        to_csv(self, path, names)
+
+    def columns(self, names: Iterable[str] | None = None) -> NDArray[np.float64]:
+        """Return several signals (all, or those named) side by side, (n, m)."""
+        return self._columns(list(self._signals) if names is None else list(names))
+
+    def _columns(self, names: list[str]) -> NDArray[np.float64]:
+        missing = list(dict.fromkeys(self._signal(name).name for name in names if name not in self._cache))
+        if missing:
+            values = np.asfortranarray(self._series.values(missing))
+            values.flags.writeable = False  # The cache is handed out; a caller must not change it.
+            self._cache.update(zip(missing, values.T, strict=True))
+        if len(names) == 1:
+            return self._cache[names[0]][:, None]
+        if not names:
+            return np.empty((len(self.t), 0))
+        return np.stack([self._cache[name] for name in names], axis=1)
+
+    def _signal(self, name: str) -> Signal:
+        if name in self._signals:
+            return self._signals[name]
+        several = matching(self._signals, name)
+        if several:
+            advice = f'It stands for {len(several)} signals: use result.match("{name}").'
+        else:
+            advice = did_you_mean(name, self._signals) or f"Recorded are {listing(self._signals)}."
+        raise UnknownSignalError(f"{name} was not recorded in {self.path}. {advice}")
+
+    def __repr__(self) -> str:
+        return (
+            f"Result({str(self.path)!r}: {self.run.get('name', 'run')}, {self.status}, {self._reach()}, "
+            f"{len(self.signals)} signals, zone changes: {len(self.events)})"
+        )
+
+    def _reach(self) -> str:
+        return f"t = {self.t[0]:g} ... {self.t[-1]:g} s" if len(self.t) else "no rows"
+
+    def _repr_html_(self) -> str:
+        from fairlead.results.notebook import as_html
+
+        return as_html(self)
+
+
+def _before(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> Any:
+    """Return the values at `at`; where a recorded time is hit, its first row counts."""
+    right = np.searchsorted(t, at, side="left")
+    return _between(t, values, np.maximum(right - 1, 0), right, at)
+
+
+def _after(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> Any:
+    """Return the values at `at`; where a recorded time is hit, its last row counts."""
+    left = np.searchsorted(t, at, side="right") - 1
+    return _between(t, values, left, np.minimum(left + 1, len(t) - 1), at)
+
+
+def _between(
+    t: NDArray[np.float64],
+    values: NDArray[np.float64],
+    left: NDArray[np.intp],
+    right: NDArray[np.intp],
+    at: NDArray[np.float64],
+) -> Any:
+    """Return the straight line between rows `left` and `right`; a row that is hit gives its own value."""
+    width = np.where(t[right] > t[left], t[right] - t[left], 1.0)
+    share = np.clip((at - t[left]) / width, 0.0, 1.0)
+    return (1 - share) * values[left] + share * values[right]
