@@ -67,7 +67,7 @@ class StandIn:
 
     def run(self, **settings: Any) -> SimpleNamespace:
         self._answer("run", settings)
-        return SimpleNamespace(run=self.outcome, directory=pathlib.Path("results/belt"))
+        return SimpleNamespace(run=self.outcome, path=pathlib.Path("results/belt"))
 
 
 @pytest.fixture
@@ -176,7 +176,7 @@ def test_an_unforeseen_exception_gives_lines_to_send_and_no_traceback(command: C
 
 @pytest.mark.parametrize(
     ("status", "code"),
-    [("finished", 0), ("interrupted", 130), ("max_wall", 4), ("max_steps", 4), ("not_finite", 3)],
+    [("finished", 0), ("interrupted", 130), ("budget", 4), ("failed", 3)],
 )
 def test_the_status_of_a_kept_run_becomes_the_exit_code(command: Command, status: str, code: int) -> None:
     answer = command("run", "belt", model=StandIn(run={**FINISHED, "status": status}))
@@ -202,7 +202,7 @@ def test_the_closing_table_says_what_a_run_cost_and_how_far_to_trust_it() -> Non
 
 
 def test_a_run_that_kept_little_still_gets_its_table() -> None:
-    assert dict(summary_rows({"status": "not_finite"}, "here"))["steps"] == "not known"
+    assert dict(summary_rows({"status": "failed"}, "here"))["steps"] == "not known"
 
 
 def test_json_of_a_run_is_its_record_and_directory(command: Command) -> None:

@@ -99,17 +99,18 @@ def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
 
 OWN_COMPONENT = '''
 """A component in a user's own file."""
-from fairlead.component import Component, Parameter, Translational
+from fairlead.component import Component, Law, Parameter, Translational
 
 class HardeningSpring(Component):
     """A spring that grows stiffer as it is stretched."""
-    a, b = Translational(), Translational()
-    stiffness = Parameter("N/m", above=0)
-    hardening = Parameter("1/m^2", default=0)
+    a, b = Translational("one end"), Translational("the other end")
+    stiffness = Parameter("N/m", "Tension per stretch, for small stretch.", above=0)
+    hardening = Parameter("1/m^2", "Growth of the stiffness.", default=0.0)
 
-    def flows(p, a, b):
+    def law(p, a, b):
         s = b.x - a.x
-        return -p.stiffness * s * (1 + p.hardening * s**2), p.stiffness * s * (1 + p.hardening * s**2)
+        tension = p.stiffness * s * (1 + p.hardening * s**2)
+        return Law(a=-tension, b=+tension, stored=p.stiffness * s**2 * (1 / 2 + p.hardening * s**2 / 4))
 '''
 
 OWN_MODEL = """

@@ -29,7 +29,7 @@ connections:
   - [wall.flange, spring.a]
   - [spring.b, block.flange, push.flange]
 run: {stop: 1 s, accuracy: 1e-6}
-record: {signals: [block.position]}
+record: {signals: [block.x]}
 """
 OSCILLATOR_END = 0.01 * (1 - math.cos(10.0))
 """Closed form of the block's position at 1 s, in m (undamped oscillator under a step of force)."""
@@ -155,7 +155,7 @@ def _timed_run(subject: str, netlist: pathlib.Path, out: pathlib.Path) -> Findin
     begin = time.perf_counter()
     try:
         result = fairlead.load(str(netlist)).run(out=out)
-        end = float(result["block.position"][-1])
+        end = float(result["block.x"][-1])
     except Exception as error:  # noqa: BLE001  (a doctor reports what it finds)
         return Finding(subject, f"failed: {error}", f"{REINSTALL}; if it stays, send this to the developers.")
     seconds = time.perf_counter() - begin

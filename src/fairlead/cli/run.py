@@ -11,7 +11,7 @@ from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Ve
 if TYPE_CHECKING:
     from fairlead import Model, Result
 
-EXIT_CODES = {"finished": 0, "interrupted": 130, "max_wall": 4, "max_steps": 4, "max_events": 4}
+EXIT_CODES = {"finished": 0, "interrupted": 130, "budget": 4}
 """How the status in run.json ends the process; any other status is a numerical failure."""
 NUMERICAL_FAILURE = 3
 LIMIT_BROKEN = 5
@@ -44,7 +44,7 @@ def run(
         result = model.run(out=out, force=force, progress=progress, profile=profile)
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
-        typer.echo(json.dumps({**result.run, "directory": str(result.directory)}, indent=2, default=str))
+        typer.echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
     elif not quiet:
         _print_summary(result, written, profile=profile)
     raise typer.Exit(exit_code(result.run))
@@ -64,9 +64,8 @@ def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) 
 
         written += figures.draw(result, plots)
     if csv:
-        target = pathlib.Path(result.directory) / "series.csv"
-        result.to_pandas().to_csv(target)
-        written.append(target)
+        written.append(result.path / "series.csv")
+        result.to_csv(written[-1])
     if report:
         from fairlead.report import page
 
@@ -81,7 +80,7 @@ def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bo
     from fairlead.cli.summary import summary_table
 
     console = Console(highlight=False)
-    console.print(summary_table(result.run, result.directory))
+    console.print(summary_table(result.run, result.path))
     for file in written:
         typer.echo(f"wrote {file}")
     if profile:
