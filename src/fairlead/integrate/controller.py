@@ -18,7 +18,7 @@ from math import inf, isfinite, sqrt
 from fairlead.integrate.foreign import compiled, indices, reals
 
 SAFETY, SHRINK_LIMIT, GROW_LIMIT = 0.9, 0.2, 8.0
-RESTART_ERROR = 1e-6
+RESTART_ERROR = 1e-5
 """Leading error, over the weight, that a restarted step of order p aims at when the solution has the
 smoothness its first two derivatives suggest; calibrated on a quarter period of an oscillator, where
 Rodas5P then takes the first step it would settle on."""

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
 
 import numpy as np
 
 from fairlead.integrate import ordering
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
-from fairlead.integrate.memory import INDICES, VECTORS, Memory
-from fairlead.integrate.protocol import CALLBACKS, EVENT, Block, OnBlock, Outcome, Pattern, Problem, Run, Status
+from fairlead.integrate.memory import Memory
+from fairlead.integrate.protocol import CALLBACKS, EVENT, Block, OnBlock, Outcome, Problem, Run, Status
+from fairlead.integrate.replan import replan
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.tableau import TABLEAUS, Tableau
 
@@ -47,16 +47,19 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
             inside += spent
             if status != Status.REPLAN:
                 flush(memory, run, take)
-            attempts = next_attempts(attempts, spent)
             if status == Status.REPLAN:
-                status = replan(memory, problem, replanned_at)
+                again = int(memory.number["factorisations"]) <= replanned_at + 1
+                if again or not replan(memory, problem):
+                    status = Status.SINGULAR
                 replanned_at = int(memory.number["factorisations"])
-            elif status == Status.PAUSED and run.max_wall is not None and time.perf_counter() - begun > run.max_wall:
-                status = Status.MAX_WALL
+            elif status == Status.PAUSED:
+                attempts = next_attempts(attempts, spent)
+                if run.max_wall is not None and time.perf_counter() - begun > run.max_wall:
+                    status = Status.MAX_WALL
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
         flush(memory, run, take)
-    culprits = culprits_of(status, memory, problem, blocks)
+    culprits = culprits_of(status, memory, problem)
     return Outcome(
         status=status,
         sentence=sentence_of(status, memory, problem, run, culprits),
@@ -205,11 +208,6 @@ def flush(memory: Memory, run: Run, take: OnBlock) -> None:
             fraction=min(1.0, max(0.0, (t - run.start) / (run.stop - run.start))),
         )
     )
-
-
-def replan(memory: Memory, problem: Problem, last: int) -> Status:
-    """Fresh pivots for the matrix whose planned ones failed; SINGULAR if fresh ones failed just before."""
-    raise NotImplementedError
 
 
 def count(memory: Memory) -> Counters:

@@ -1,20 +1,88 @@
-"""What a run that ended says: what happened, likely causes, what to try."""
+"""What a run that ended says: what happened, whom to look at, likely causes, what to try."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 
 from fairlead.integrate.memory import Memory
-from fairlead.integrate.protocol import Block, Problem, Run, Status
+from fairlead.integrate.protocol import Problem, Run, Status
 
 
-def culprits_of(status: Status, memory: Memory, problem: Problem, blocks: Sequence[Block]) -> tuple[str, ...]:
-    """Unknowns or machines to look at first."""
+def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, ...]:
+    """Unknowns or machines to look at first, by name."""
+    number = memory.number
+    if status in (Status.STEP_FLOOR, Status.NOT_FINITE, Status.INCONSISTENT):
+        return (problem.unknown_names[int(number["worst"])],)
+    if status == Status.SINGULAR and number["culprit"] >= 0:
+        return (problem.unknown_names[int(number["culprit"])],)
+    if status == Status.CHATTER:
+        return (problem.machine_names[int(number["culprit"])],)
+    if status == Status.NOT_SETTLED:
+        return tuple(problem.machine_names[z] for z in still_switching(memory))
     return ()
+
+
+def still_switching(memory: Memory) -> list[int]:
+    """Machines whose zone changed in the last half of the passes of the settlement that failed."""
+    patterns = last_patterns(memory)
+    return [int(z) for z in np.flatnonzero((patterns != patterns[0]).any(axis=0))]
+
+
+def last_patterns(memory: Memory) -> np.ndarray:
+    """Zones [passes, nz] after each of the last passes of the settlement."""
+    nz, passes = int(memory.number["n_zones"]), int(memory.number["passes"])
+    history = memory.array["zones_history"].reshape(-1, nz)[:passes]
+    return history[passes // 2 :]
 
 
 def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culprits: tuple[str, ...]) -> str:
     """One paragraph about the end of the run."""
-    return status.name
+    t, names = float(memory.number["t"]), ", ".join(culprits)
+    when = f"t = {t:.6g} s"
+    step = float(memory.number["h"])
+    texts = {
+        Status.FINISHED: f"Reached {when}.",
+        Status.STEP_FLOOR: (
+            f"{when}: the step size fell to its floor ({step:.2g} s) because of the error of {names}. A law may "
+            "jump inside its zone, or a Jacobian be wrong; check the component of that unknown, or loosen its "
+            "tolerance."
+        ),
+        Status.NOT_FINITE: (
+            f"{when}: {names} is not a finite number, whatever the step. A law divides by zero, takes the root "
+            "of a negative number or overflows just ahead; look at the components of that unknown."
+        ),
+        Status.NOT_SETTLED: (
+            f"{when}: zones did not settle in {int(memory.number['passes'])} passes; still switching: "
+            f"{cycle(memory, problem)}. Two laws contradict each other there; add a mass, damping or hysteresis "
+            "between them."
+        ),
+        Status.INCONSISTENT: (
+            f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. Give a "
+            "better initial value, or check that the equations have a solution in these zones."
+        ),
+        Status.SINGULAR: (
+            f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or damping, "
+            "or a contact that closes a loop of held contacts, leaves a force open; add a mass or damping there."
+        ),
+        Status.CHATTER: (
+            f"{when}: {names} switches to and fro faster than its dwell of {float(memory.number['dwell']):.2g} s. "
+            "Its zones have no consistent choice at this point; add hysteresis, or let the run hold it "
+            "(on_chatter: hold)."
+        ),
+        Status.MAX_STEPS: f"{when}: the budget of {run.max_steps} steps is used up; the results so far are kept.",
+        Status.MAX_EVENTS: f"{when}: the budget of {run.max_events} events is used up; the results so far are kept.",
+        Status.MAX_WALL: f"{when}: the budget of {run.max_wall} s is used up; the results so far are kept.",
+        Status.INTERRUPTED: f"{when}: interrupted; the results so far are kept.",
+    }
+    return texts[status]
+
+
+def cycle(memory: Memory, problem: Problem) -> str:
+    """The machines that cycle, each with the zones it goes through: pad (stuck <-> forward)."""
+    patterns = last_patterns(memory)
+    parts = []
+    for z in still_switching(memory):
+        names = problem.zone_names(z)
+        visited = " <-> ".join(names[int(zone)] for zone in dict.fromkeys(patterns[:, z].tolist()))
+        parts.append(f"{problem.machine_names[z]} ({visited})")
+    return ", ".join(parts) or "guards that fire without changing a zone"
