@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fairlead.results.store import SIDE, SIDE_MEANING, TIME
+from fairlead.results.layout import SIDE, SIDE_SIGNAL, TIME
 
 if TYPE_CHECKING:
     import pandas
@@ -32,7 +32,7 @@ def to_xarray(result: Result, names: Iterable[str] | None = None) -> xarray.Data
     }
     coordinates = {
         TIME: (TIME, result.t, {"units": "s", "long_name": "time"}),
-        SIDE: (TIME, result.side, {"long_name": SIDE_MEANING}),
+        SIDE: (TIME, result.side, {"long_name": SIDE_SIGNAL.description}),
     }
     simple = {key: value for key, value in result.run.items() if isinstance(value, str | int | float)}
     return xarray.Dataset(variables, coordinates, attrs=simple)

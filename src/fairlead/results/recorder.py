@@ -108,22 +108,22 @@ class RunDirectory:
 
         Costs nothing when it is not time yet, so it may be called often.
         """
-        now = clock.monotonic()
-        if not at_once and now - self._flushed < self._pause:
+        start = clock.monotonic()
+        if not at_once and start - self._flushed < self._pause:
             return
         with _disk(self.path):
             self._write_blocks()
             self._events.flush()
         self._flushed = clock.monotonic()
-        self._pause = max(FLUSH_PERIOD, (self._flushed - now) / LARGEST_SHARE_OF_FLUSHING)
+        self._pause = max(FLUSH_PERIOD, (self._flushed - start) / LARGEST_SHARE_OF_FLUSHING)
 
     def finish(self, status: str, summary: Mapping[str, Any]) -> None:
         """Write what is left, close the files and put `status` and `summary` into run.json."""
         if not self._open:
             raise FairleadError(f"The run in {self.path} is finished already.")
-        self.flush(at_once=True)
         self._open = False
         with _disk(self.path):
+            self._write_blocks(last=True)
             self._series.close()
             self._events.close()
             run_file.write(self.path, {**self._record, **summary, "status": status, "ended": run_file.now()})
@@ -143,11 +143,11 @@ class RunDirectory:
             with suppress(FairleadError):  # A full disk must not hide the error that came first.
                 self.finish(status, {"error": str(error)})
 
-    def _write_blocks(self) -> None:
+    def _write_blocks(self, last: bool = False) -> None:
         if not self._blocks:
             return
         t, values, side = (np.concatenate(parts) for parts in zip(*self._blocks, strict=True))
-        self._series.write(t, values, side)
+        self._series.write(t, values, side, last)
         self._blocks, self._bytes = [], 0
 
     def _check_order(self, t: NDArray[np.float64], values: Any, side: NDArray[np.int8]) -> None:

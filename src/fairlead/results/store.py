@@ -1,176 +1,134 @@
-"""The file `series.nc`: recorded signals over time in the NetCDF-4 layout, written with h5py.
+"""Writes `series.nc` so that a kill at any moment leaves a readable file.
 
-The file has one dimension, `time` [s]. Time repeats at an event: the row with `side` -1 holds the
-values on its left, the row with `side` +1 those on its right; `side` is 0 everywhere else.
+HDF5 does not replace a file's state in one go: a flush is a sequence of writes. Replaying every
+prefix of such sequences showed two kinds of flush:
 
-    up to `MOST_VARIABLES` signals    one variable per signal, under the name of the signal
-    more                              one matrix `values(time, signal)`, with the text variables
-                                      `signal`, `units` and `long_name` along its second dimension
+    within a chunk       only data and lengths change, data first: every prefix is readable
+    with a new chunk     the index points to the chunk before the file admits to be that long: a
+                         kill in between (well below a millisecond) makes a variable unreadable
 
-Readers of NetCDF spend a time on each variable that grows with the number of variables (h5netcdf
-1.8 opens 500 in 3 s and 2000 in 40 s), hence the limit. They also look through all variables for
-the length of an unlimited dimension (250 signals: 44 s), hence the bounded `MOST_ROWS`.
+Hence nothing but the first kind happens to a file in place. A file is laid out with room in its
+only chunk; when the room is used up, a copy with `GROWTH` times the room replaces the file by
+renaming. From `LARGEST_COPY` on, copying would take too long, and a new chunk of that size is
+added in place: once for so many bytes the second kind of flush is risked.
 
-A killed run leaves a readable file. Blocks are written and flushed in one go, so that between two
-flushes HDF5 has nothing to write, and chunks are not compressed, so that within a chunk nothing
-but data and lengths change on the disk. The earliest file format is used: newer ones mark a file
-as open for writing, and most readers refuse a file that still has the mark.
+Between two flushes HDF5 has nothing to write, because blocks are written and flushed together.
+Chunks are not compressed: a compressed chunk changes its place in the file with every block.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.results import layout
+from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
 from fairlead.results.signal import Signal
 
-if TYPE_CHECKING:
-    import h5py
-
-MOST_VARIABLES = 500
-MOST_ROWS = 2**40
-ROWS_IN_CHUNK = 1024
-BYTES_IN_MATRIX_CHUNK = 2**20
-TIME, SIDE, MATRIX = "time", "side", "values"
-SIDE_MEANING = "-1 left of an event, +1 right of it, 0 elsewhere"
-FORMAT = "fairlead-series-1"
+FIRST_ROOM = 1024
+GROWTH = 4
+LARGEST_COPY = 2**26
 
 
 class SeriesWriter:
-    """Writes blocks of rows to a new `series.nc`; every block is on the disk when `write` returns."""
+    """Writes blocks of rows to a new `series.nc`, which comes into being with the first block."""
 
     def __init__(self, path: Path, signals: tuple[Signal, ...]) -> None:
-        import h5py
-
-        # No lock: a notebook may look at the file while the run goes on.
-        self._file = h5py.File(path, "w", libver=("earliest", "v110"), locking=False)
-        self._file.attrs["Conventions"] = "CF-1.8"
-        self._file.attrs["format"] = FORMAT
-        self._time = _new_time(self._file)
-        self._side = _Columns(self._file, (Signal(SIDE, "1", SIDE_MEANING),), self._time, "i1")
-        layout = _Columns if len(signals) <= MOST_VARIABLES else _Matrix
-        self._values = layout(self._file, signals, self._time)
+        self.path = path
+        self._signals = signals
+        self._bytes_in_row = 8 * (len(signals) + 1) + 1
         self._rows = 0
-        self._file.flush()
+        self._room = 0
+        self._file: Any = None
 
-    def write(self, t: NDArray[np.float64], values: NDArray[np.float64], side: NDArray[np.int8]) -> None:
-        """Append `t` (k,) [s], `values` (k, m) and `side` (k,), and flush them to the disk.
+    def write(
+        self,
+        t: NDArray[np.float64],
+        values: NDArray[np.float64],
+        side: NDArray[np.int8],
+        last: bool = False,
+    ) -> None:
+        """Append `t` (k,) [s], `values` (k, m) and `side` (k,); on return they are on the disk.
 
-        Raises OSError when the disk does not take them.
+        `last` says that no more blocks follow, so that no room is left for them. Raises OSError when
+        the disk does not take the block.
         """
-        first, last = self._rows, self._rows + len(t)
-        self._values.write(first, values)
-        self._side.write(first, side[:, None])
-        self._time.resize((last,))
-        self._time[first:] = t
-        self._file.flush()
-        self._rows = last
+        rows = self._rows + len(t)
+        if self._file is None or (rows > self._room and self._room < self._most_room()):
+            room = rows if last else min(max(GROWTH * rows, FIRST_ROOM), self._most_room())
+            self._move(max(room, rows, 1), t, values, side)
+        else:
+            _append(self._file, self._signals, self._rows, t, values, side)
+            self._file.flush()
+        self._rows = rows
 
     def close(self) -> None:
-        """Close the file; writing after that is an error."""
+        """Close the file; a file that never got a block is created without rows."""
+        if self._file is None:
+            self.write(np.empty(0), np.empty((0, len(self._signals))), np.empty(0, "i1"), last=True)
         self._file.close()
 
+    def _most_room(self) -> int:
+        return max(1, LARGEST_COPY // self._bytes_in_row)
 
-class _Columns:
-    """One variable per signal, through the low-level interface of h5py, which is 3 times as fast."""
-
-    def __init__(
-        self, file: h5py.File, signals: tuple[Signal, ...], time: h5py.Dataset, kind: str = "f8"
-    ) -> None:
-        from h5py import h5d, h5ds, h5p, h5s, h5t
-
-        number = h5t.py_create(np.dtype(kind))
-        creation = h5p.create(h5p.DATASET_CREATE)
-        creation.set_chunk((ROWS_IN_CHUNK,))
-        if kind == "f8":
-            creation.set_fill_value(np.array(np.nan))
-        empty = h5s.create_simple((0,), (MOST_ROWS,))
-        self._columns = []
-        for position, signal in enumerate(signals):
-            column = h5d.create(file.id, variable_name(signal.name).encode(), number, empty, creation)
-            h5ds.attach_scale(column, time.id, 0)
-            _describe(column, signal)
-            _set_number(column, "position", position)
-            self._columns.append(column)
-
-    def write(self, first: int, values: NDArray[Any]) -> None:
-        """Append values (k, m) below row `first`; the two selections serve all columns."""
-        from h5py import h5s
-
-        rows = len(values)
-        in_memory = h5s.create_simple((rows,))
-        in_file = h5s.create_simple((first + rows,), (MOST_ROWS,))
-        in_file.select_hyperslab((first,), (rows,))
-        for column, numbers in zip(self._columns, np.ascontiguousarray(values.T), strict=True):
-            column.set_extent((first + rows,))
-            column.write(in_memory, in_file, numbers)
+    def _move(self, room: int, t: NDArray[Any], values: NDArray[Any], side: NDArray[Any]) -> None:
+        """Replace the file by a copy that has room for `room` rows, with the block appended."""
+        temporary = self.path.with_name(self.path.name + ".new")
+        layout.create(temporary, self._signals, room)
+        with open_file(temporary, "r+") as successor:
+            if self._file is not None:
+                _append(successor, self._signals, 0, *_rows_of(self._file, self._signals))
+                self._file.close()
+            _append(successor, self._signals, self._rows, t, values, side)
+        temporary.replace(self.path)
+        self._file, self._room = open_file(self.path, "r+"), room
 
 
-class _Matrix:
-    """All signals in one variable."""
-
-    def __init__(self, file: h5py.File, signals: tuple[Signal, ...], time: h5py.Dataset) -> None:
-        count = len(signals)
-        names = _new_texts(file, "signal", [signal.name for signal in signals])
-        names.make_scale("signal")
-        _new_texts(file, "units", [signal.unit for signal in signals]).dims[0].attach_scale(names)
-        _new_texts(file, "long_name", [signal.description for signal in signals]).dims[0].attach_scale(names)
-        chunk = (max(1, BYTES_IN_MATRIX_CHUNK // (8 * count)), count)
-        self._values = file.create_dataset(
-            MATRIX, (0, count), "f8", maxshape=(MOST_ROWS, count), chunks=chunk, fillvalue=np.nan
-        )
-        self._values.dims[0].attach_scale(time)
-        self._values.dims[1].attach_scale(names)
-
-    def write(self, first: int, values: NDArray[Any]) -> None:
-        """Append values (k, m) below row `first`."""
-        self._values.resize(first + len(values), axis=0)
-        self._values[first:] = values
+def _append(
+    file: Any,
+    signals: tuple[Signal, ...],
+    first: int,
+    t: NDArray[Any],
+    values: NDArray[Any],
+    side: NDArray[Any],
+) -> None:
+    """Write a block below row `first`."""
+    if not len(t):
+        return
+    if layout.is_matrix(signals):
+        file[MATRIX].resize(first + len(t), axis=0)
+        file[MATRIX][first:] = values
+    else:
+        _append_columns(file, layout.value_variables(signals), first, values)
+    _append_columns(file, [SIDE], first, side[:, None])
+    _append_columns(file, [TIME], first, t[:, None])
 
 
-def variable_name(signal: str) -> str:
-    """Return the variable of a signal: its own name, but for the slash and the name of the dimension."""
-    name = signal.replace("%", "%25").replace("/", "%2F")
-    return f"%{name}" if signal == TIME or signal.startswith(".") else name
+def _append_columns(file: Any, names: list[str], first: int, values: NDArray[Any]) -> None:
+    """Write column j of `values` (k, m) to variable `names[j]`; the two selections serve them all."""
+    from h5py import h5d, h5s
+
+    rows = len(values)
+    in_memory = h5s.create_simple((rows,))
+    in_file = h5s.create_simple((first + rows,), (layout.MOST_ROWS,))
+    in_file.select_hyperslab((first,), (rows,))
+    for name, numbers in zip(names, np.ascontiguousarray(values.T), strict=True):
+        column = h5d.open(file.id, name.encode())
+        column.set_extent((first + rows,))
+        column.write(in_memory, in_file, numbers)
 
 
-def _new_time(file: h5py.File) -> h5py.Dataset:
-    time = file.create_dataset(
-        TIME, (0,), "f8", maxshape=(MOST_ROWS,), chunks=(ROWS_IN_CHUNK,), fillvalue=np.nan
-    )
-    time.make_scale(TIME)
-    _describe(time.id, Signal(TIME, "s", "time; an event's time occurs twice"))
-    return time
-
-
-def _new_texts(file: h5py.File, name: str, texts: list[str]) -> h5py.Dataset:
-    import h5py
-
-    return file.create_dataset(name, data=np.array(texts, dtype=object), dtype=h5py.string_dtype())
-
-
-def _describe(variable: Any, signal: Signal) -> None:
-    _set_text(variable, "units", signal.unit)
-    _set_text(variable, "long_name", signal.description or signal.name)
-    _set_text(variable, "signal", signal.name)
-
-
-def _set_text(variable: Any, name: str, text: str) -> None:
-    from h5py import h5a, h5s, h5t
-
-    content = text.encode() or b"\0"
-    kind = h5t.C_S1.copy()
-    kind.set_size(len(content))
-    kind.set_cset(h5t.CSET_UTF8)
-    attribute = h5a.create(variable, name.encode(), kind, h5s.create(h5s.SCALAR))
-    attribute.write(np.array(content), mtype=kind)
-
-
-def _set_number(variable: Any, name: str, number: int) -> None:
-    from h5py import h5a, h5s, h5t
-
-    attribute = h5a.create(variable, name.encode(), h5t.NATIVE_INT32, h5s.create(h5s.SCALAR))
-    attribute.write(np.array(number, "i4"))
+def _rows_of(
+    file: Any, signals: tuple[Signal, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int8]]:
+    """Return all that a file holds: times (n,), values (n, m), sides (n,)."""
+    if layout.is_matrix(signals):
+        values = file[MATRIX][:]
+    else:
+        values = np.empty((len(file[TIME]), len(signals)), order="F")
+        for index, name in enumerate(layout.value_variables(signals)):
+            values[:, index] = file[name][:]
+    return file[TIME][:], values, file[SIDE][:]
