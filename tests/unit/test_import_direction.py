@@ -19,7 +19,7 @@ ALLOWED = {
     "quantities": {"errors"},
     "native": {"errors"},
     "netlist": {"errors", "quantities"},
-    "component": {"errors", "quantities"},
+    "component": {"errors", "quantities", "netlist"},
     "components": {"errors", "quantities", "component"},
     "flatten": {"errors", "quantities", "netlist", "component", "components"},
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native"},
