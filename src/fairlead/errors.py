@@ -111,10 +111,18 @@ def did_you_mean(word: str, allowed: Iterable[str]) -> str:
         by_key = {
             key: name for key, name in by_key.items() if key.startswith(ends[0]) or key.endswith(ends[1])
         }
-    near = difflib.get_close_matches(_key(word), [*by_key][:MOST_WORDS_COMPARED], n=1, cutoff=0.6)
+    near = _one_letter_off(_key(word), by_key)
+    if len(near) != 1:
+        near = difflib.get_close_matches(_key(word), [*by_key][:MOST_WORDS_COMPARED], n=1, cutoff=0.6)
     if not near:
         near = [key for key in by_key if len(word) > 2 and _key(word) in key]
     return f"Did you mean {by_key[near[0]]}?" if len(near) == 1 else ""
+
+
+def _one_letter_off(word: str, names: Iterable[str]) -> list[str]:
+    """Short names that differ in one letter only, where difflib would prefer a shorter one."""
+    alike = [name for name in names if len(name) == len(word) <= 3]
+    return [name for name in alike if sum(one != other for one, other in zip(word, name)) == 1]
 
 
 def _key(word: str) -> str:

@@ -36,7 +36,7 @@ CONSTANTS = {
 }
 FUNCTIONS = ("sqrt", "sin", "cos", "exp", "log", "abs", "min", "max")
 RESERVED = frozenset((*CONSTANTS, *FUNCTIONS))
-WHOLE_TEXT = re.compile(r"\{([^{}]*)\}(?: +(\S.*))?", re.DOTALL)
+WHOLE_TEXT = re.compile(r"\{([^{}]*)\}(?: +([^{}\s][^{}]*))?")
 ALLOWED = f"Allowed are parameters, numbers, + - * / ** ( ), {listing(FUNCTIONS)} and {listing(CONSTANTS)}."
 
 
@@ -85,8 +85,11 @@ def evaluate(text: str, parameters: Mapping[str, Scalar]) -> Quantity:
         raise ExpressionError(f"{{{shown(text)}}}: {error.what}", error.way_out) from None
     except ZeroDivisionError:
         raise ExpressionError(f"{{{shown(text)}}}: division by zero") from None
-    except (ValueError, OverflowError) as error:
-        raise ExpressionError(f"{{{shown(text)}}}: {error}") from None
+    except OverflowError:
+        raise ExpressionError(f"{{{shown(text)}}}: the result is too large") from None
+    except ValueError:
+        what = f"{{{shown(text)}}}: a square root or logarithm that does not exist"
+        raise ExpressionError(what) from None
     if not math.isfinite(result.value):
         raise ExpressionError(f"{{{shown(text)}}} is not finite")
     return result

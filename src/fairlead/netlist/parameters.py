@@ -17,10 +17,10 @@ from fairlead.netlist.expressions import (
     names_in,
     substitute,
 )
-from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import NUMBER, QuantityError, quantity
 
+MOST_CIRCLES = 10  # named in one go: finding each takes a pass over all parameters
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
@@ -68,16 +68,19 @@ def work_out(given: Mapping[str, Value]) -> tuple[Parameters, list[Fault]]:
 def _order(sound: Mapping[str, Value], broken: dict[str, Location], faults: list[Fault]) -> list[str]:
     """The names, each after those it needs; a circle is a fault, and its members are broken."""
     needs = {name: names_in(str(value.content)) & sound.keys() for name, value in sound.items()}
+    circles = 0
     while True:
         try:
             return [*TopologicalSorter(needs).static_order()]
         except CycleError as error:
             circle: list[str] = error.args[1]
-        what = f"parameters need each other in a circle: {shown(' -> '.join(circle))}"
+        names = circle if len(circle) < 10 else [*circle[:5], "...", circle[-1]]
+        what = f"parameters need each other in a circle: {' -> '.join(shown(name) for name in names)}"
         faults.append(Fault(sound[circle[0]].where, what))
-        broken.update({name: sound[name].where for name in circle})
-        left = needs.keys() - broken.keys() if len(faults) < MOST_FAULTS else set()
-        needs = {name: needs[name] & left for name in left}
+        circles += 1
+        hopeless = needs if circles == MOST_CIRCLES else circle
+        broken.update({name: sound[name].where for name in hopeless})
+        needs = {name: needed - broken.keys() for name, needed in needs.items() if name not in broken}
 
 
 def _mistake(name: str, value: Value) -> Fault | None:

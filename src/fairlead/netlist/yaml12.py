@@ -219,6 +219,8 @@ def _advice(line: str, column: int) -> str:
         return 'An expression goes in quotes: "{2*mu} N".'
     if re.search(r"[:\[,]\s*[*&%@`]", line):
         return 'A text that begins with one of * & % @ ` goes in quotes: "*.tension".'
+    if re.search(r"\[[^\]\"']*\w\[", line):
+        return 'A path with brackets goes in quotes inside [ ]: "line.core[2].tension".'
     if line.count(": ") > 1:
         return "A text that holds a colon and a space goes in quotes."
     return "Look here and on the line above: indentation, a missing colon, a bracket or quote left open."
