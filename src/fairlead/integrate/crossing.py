@@ -87,6 +87,7 @@ def earliest_bump(m, h):
     ng = m.n_guards
     left, end = reals(m.at_g_left, ng), reals(m.at_g_end, ng)
     g, early, late = reals(m.at_g, ng), reals(m.at_g_early, ng), reals(m.at_g_late, ng)
+    tolerance = reals(m.at_guard_tolerance, ng)
     rising = False
     for i in range(ng):
         rising = rising or (left[i] < 0.0 and end[i] < 0.0 and early[i] > g[i] and g[i] < 0.0)
@@ -99,7 +100,10 @@ def earliest_bump(m, h):
             top, height = hermite_top(g[i], end[i], (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR)
             # A quarter of the bump is the margin for what a cubic does not see.
             if height + 0.25 * (height - max(g[i], end[i])) >= 0.0:
-                found = min(found, climb(m, h, i, top))
+                # Just switched, a guard is at its limit within rounding: there, only a bump that leaves
+                # its tolerance is a crossing and not the error of the interpolant.
+                floor = tolerance[i] if g[i] >= -tolerance[i] else 0.0
+                found = min(found, climb(m, h, i, top, floor))
     return found
 
 
@@ -124,8 +128,8 @@ def hermite_top(g0, g1, s0, s1):
 
 
 @compiled
-def climb(m, h, i, top):
-    """Follow guard i to its maximum by parabolas from a first guess; theta where it is not negative, else 1."""
+def climb(m, h, i, top, floor):
+    """Follow guard i to its maximum by parabolas from a first guess; theta where it reaches `floor`, else 1."""
     ng = m.n_guards
     probe = reals(m.at_g_probe, ng)
     a, ga = 0.0, reals(m.at_g, ng)[i]
@@ -134,7 +138,7 @@ def climb(m, h, i, top):
     guards_at(m, x, h, m.at_g_probe)
     gx = probe[i]
     for _ in range(8):
-        if gx >= 0.0:
+        if gx >= floor:
             return x
         p = (b - x) * (gx - ga)
         q = (x - a) * (gb - gx)

@@ -37,7 +37,7 @@ from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, record_piece, there_is_room, write_row
 from fairlead.integrate.rosenbrock import take_step
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, block, settle
-from fairlead.integrate.start import NOT_CONSISTENT, slope_change
+from fairlead.integrate.start import NOT_CONSISTENT
 
 START, TRY, RECORD, ARRIVE, SETTLE = 0, 1, 2, 3, 4
 # The numbers of protocol.Status, spelled out because compiled code knows no enumerations.
@@ -300,7 +300,6 @@ def watch_progress(m):
 def finish_settling(m, starting):
     """Choose the step after a settlement, and write the right-hand row."""
     if m.adaptive == 1:
-        slope_change(m)
         weigh(m, m.at_y)
         keep_differential(m, m.at_slope, m.at_u)
         speed = weighted_norm(m, m.at_u)

@@ -165,12 +165,12 @@ def judge(m):
 
 @compiled
 def look_ahead(m):
-    """Guards a little later, along (1, y'), into `g_probe`."""
+    """Guards a little later, along (1, y'), into `g_probe`; algebraic unknowns move as the equations make them."""
     n = m.n
     y, slope, ahead = reals(m.at_y, n), reals(m.at_slope, n), reals(m.at_y_probe, n)
-    differential, u = indices(m.at_differential, n), reals(m.at_u, n)
+    curvature, differential, u = reals(m.at_curvature, n), indices(m.at_differential, n), reals(m.at_u, n)
     for k in range(n):
-        u[k] = slope[k] if differential[k] == 1 else 0.0
+        u[k] = slope[k] if differential[k] == 1 else curvature[k]
     speed = weighted_norm(m, m.at_u)
     distance = 1e-6 * (m.stop - m.start)
     if speed > 0.0:

@@ -73,7 +73,7 @@ def residual_here(m, at_r):
 
 @compiled
 def consistent(m, iterations):
-    """Make the point consistent for the zones in force; DONE, SINGULAR, INACCURATE or NOT_CONSISTENT."""
+    """Make the point consistent for the zones in force, with its rate of change; DONE, SINGULAR, INACCURATE or NOT_CONSISTENT."""
     n = m.n
     mass_at(m.call_mass, (m.context, m.at_mass))
     status = prepare_consistent(m)
@@ -99,6 +99,7 @@ def consistent(m, iterations):
         if not isfinite(size):
             return NOT_CONSISTENT
         if m.n_algebraic == 0 or size <= SETTLED_UPDATE:
+            slope_change(m)
             return DONE
         if iterations > 12 and size > previous:
             size = damp(m, size)
