@@ -7,6 +7,7 @@ VENV := .venv
 RUN := $(VENV)/bin/python
 MODEL ?= single_bend
 TESTS ?= tests
+BENCH ?= peer_scan.py belt
 
 .PHONY: help demo test lint types bench clean
 .DEFAULT_GOAL := help
@@ -29,7 +30,7 @@ types: $(VENV)/lint.done link-tree  ## check types with mypy
 	MYPYPATH=typing $(RUN) -m mypy -p fairlead
 
 bench: $(VENV)/bench.done  ## error, time and counters beside scipy (minutes)
-	$(RUN) -m benchmarks
+	$(RUN) benchmarks/$(BENCH)
 
 clean:  ## remove .venv, results and everything generated
 	rm -rf $(VENV) typing results build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info
