@@ -85,8 +85,9 @@ def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: 
         what = f"{shown(name)} is not a component name; names are lower_snake"
         return Fault(value.named_at, what, advice)
     if error["type"] == "too_short":
-        what = f"{subject} is {given}; at least {error['ctx']['min_length']} are needed"
-        return Fault(value.where, what, "A connection joins two or more ports: [spring.a, ground.flange].")
+        what = f"{subject} is {given}; at least {error['ctx']['min_length']} needed"
+        joins = "A connection joins two or more ports: [spring.a, ground.flange]."
+        return Fault(value.where, what, joins if error["loc"][0] == "connections" else "")
     if error["type"] in ("string_pattern_mismatch", "string_too_long") and error["loc"][0] == "connections":
         return Fault(
             value.where, f"{given} is not a port", "A port is written component.port, as in spring.a."
