@@ -155,11 +155,25 @@ def _hose_on_bend(scene: BendScene, record: Record) -> dict[str, object]:
         "hose_speed_on_bend": {f"{record.time[i]:g}": round(float(hose[i]), 4) for i in pick},
         "core_speed_on_bend": {f"{record.time[i]:g}": round(float(core[i]), 4) for i in pick},
         "hose_starts_s": round(float(record.time[moving[0]]), 4) if moving.size else None,
-        "hose_speed_range_5_15": [float(f(hose[cruise]).round(4)) for f in (np.min, np.max)]
-        if cruise.any()
-        else None,
+        "hose_speed_range_5_15": _range(hose[cruise]),
         "greatest_slip_hose_core_5_15": float(slip[cruise].max()) if cruise.any() else None,
     }
+
+
+def trajectory(record: Record, every: int = 10) -> dict[str, np.ndarray]:
+    """What a pointwise comparison needs, single precision: tension, registration, lowest hose tension."""
+    apart = (record.core - record.hose) - (record.core[0] - record.hose[0])
+    signals = {
+        "time": record.time,
+        "inboard": record.inboard,
+        "registration": np.abs(apart).max(axis=1),
+        "lowest_hose_tension": record.hose_tension.min(axis=1),
+    }
+    return {name: values[::every].astype(np.float32) for name, values in signals.items()}
+
+
+def _range(values: np.ndarray) -> list[float] | None:
+    return [round(float(values.min()), 4), round(float(values.max()), 4)] if values.size else None
 
 
 def _rounded(value: float | None) -> float | None:
