@@ -46,7 +46,7 @@ STEP_FLOOR, NOT_FINITE, UNSETTLED, INCONSISTENT, SINGULAR_MATRIX, CHATTER, MAX_S
 GO_ON = 100
 
 STALL_LIMIT = 5
-"""Switches in a row, each within a step floor of the one before, that earn a machine a dwell."""
+"""Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 
 
@@ -136,6 +136,12 @@ def propose(m):
 
 
 @compiled
+def smallest_step(m):
+    """The step floor here: what was set, but not below what t can resolve."""
+    return max(m.step_floor, 4e-15 * abs(m.t))
+
+
+@compiled
 def reject(m, h, status):
     """Shrink the step, and say whom it is due to; end the run at the step floor."""
     indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
@@ -145,7 +151,7 @@ def reject(m, h, status):
         m.rejected_nan += 1
     m.h_next = step_after_rejection(m, h)
     m.retried += 1
-    if m.h_next >= m.step_floor and m.adaptive == 1:
+    if m.adaptive == 1 and m.h_next >= smallest_step(m):
         return GO_ON
     if status == SINGULAR:
         return not_finite_here(m, SINGULAR_MATRIX)
@@ -284,7 +290,7 @@ def watch_progress(m):
     """Count switches that do not advance; when there are too many, hold the machines that fired for a dwell."""
     if m.passes > 0 or m.n_fired == 0:
         return
-    m.stalls = m.stalls + 1 if m.t - m.t_last_switch < m.step_floor else 0
+    m.stalls = m.stalls + 1 if m.t - m.t_last_switch < m.progress_floor else 0
     m.t_last_switch = m.t
     if m.stalls >= STALL_LIMIT:
         fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
@@ -307,7 +313,7 @@ def finish_settling(m, starting):
         m.h_next = restart(m, speed, weighted_norm(m, m.at_u))
         if starting and m.first_step > 0.0:
             m.h_next = m.first_step
-        m.h_next = max(min(m.h_next, 0.1 * (m.stop - m.start)), 2.0 * m.step_floor)
+        m.h_next = max(min(m.h_next, 0.1 * (m.stop - m.start)), 4.0 * smallest_step(m))
     m.last_error = 0.0
     m.retried = 0
     m.jacobian_fresh = 0

@@ -32,7 +32,7 @@ INTEGERS = (
 
 NUMBERS = (
     # settings
-    "start", "stop", "every", "max_step", "first_step", "step_floor", "dwell", "gamma", "error_exponent",
+    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "gamma", "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_release",
     "t_last_switch", "factored_h",

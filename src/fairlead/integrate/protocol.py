@@ -105,7 +105,8 @@ class Run:
     fixed_step: float | None = None
     """Take this step without error control; events are still located and time events landed on."""
     step_floor: float | None = None
-    """Smallest step; None: 1e-13 of the span."""
+    """Smallest step, and what several switches in a row must advance; None: what time can resolve (1e-18
+    of the span at least) for steps, 1e-12 of the span for switches."""
     max_steps: int | None = None
     max_events: int | None = None
     max_wall: float | None = None

@@ -40,6 +40,7 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
     t, names = float(memory.number["t"]), ", ".join(culprits)
     when = f"t = {t:.6g} s"
     step = float(memory.number["h"])
+    cycling = cycle(memory, problem) if status == Status.NOT_SETTLED else ""
     texts = {
         Status.FINISHED: f"Reached {when}.",
         Status.STEP_FLOOR: (
@@ -53,7 +54,7 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         ),
         Status.NOT_SETTLED: (
             f"{when}: zones did not settle in {int(memory.number['passes'])} passes; still switching: "
-            f"{cycle(memory, problem)}. Two laws contradict each other there; add a mass, damping or hysteresis "
+            f"{cycling}. Two laws contradict each other there; add a mass, damping or hysteresis "
             "between them."
         ),
         Status.INCONSISTENT: (
