@@ -75,15 +75,18 @@ def variable_name(signal: str) -> str:
 
 def read_signals(file: h5py.File) -> tuple[Signal, ...]:
     """Return the signals of a file in the order in which they were declared."""
+    from h5py import h5d
+
     if file.attrs["layout"] == "matrix":
-        texts = zip(*(file[name].asstr()[:] for name in ("signal", "units", "long_name")), strict=True)
-        return tuple(Signal(*row) for row in texts)
+        names, units, meanings = (file[name].asstr()[:] for name in ("signal", "units", "long_name"))
+        return tuple(map(Signal, names, units, meanings))
     found = {}
-    for name, variable in file.items():
+    for name in file:  # HDF5 lists them by name.
         if name not in (TIME, SIDE):
-            texts = (variable.attrs[key].decode() for key in ("signal", "units", "long_name"))
-            found[int(variable.attrs["position"])] = Signal(*texts)
-    return tuple(found[position] for position in sorted(found))  # HDF5 lists them by name.
+            column = h5d.open(file.id, name.encode())
+            signal = Signal(*(_text(column, key) for key in ("signal", "units", "long_name")))
+            found[int(_attribute(column, "position"))] = signal
+    return tuple(found[position] for position in sorted(found))
 
 
 def _add_columns(file: h5py.File, signals: tuple[Signal, ...], kind: str, rows_in_chunk: int) -> None:
@@ -142,3 +145,16 @@ def _set_number(variable: Any, name: str, number: int) -> None:
 
     attribute = h5a.create(variable, name.encode(), h5t.NATIVE_INT32, h5s.create(h5s.SCALAR))
     attribute.write(np.array(number, "i4"))
+
+
+def _text(variable: Any, name: str) -> str:
+    return bytes(_attribute(variable, name)).rstrip(b"\0").decode()
+
+
+def _attribute(variable: Any, name: str) -> Any:
+    from h5py import h5a
+
+    attribute = h5a.open(variable, name.encode())
+    content = np.empty((), dtype=attribute.dtype)
+    attribute.read(content, mtype=attribute.get_type())
+    return content[()]

@@ -1,0 +1,153 @@
+"""Draws recorded signals over time: PNG files in the run directory.
+
+    draw(result, plots)      the figures a netlist names, or a default set, one per quantity
+
+Signals of one unit share a panel; the panels of a figure stand above each other on one time axis.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fairlead.errors import UsageError, did_you_mean
+from fairlead.report.panel import draw_panel
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from fairlead.results import Result, Signal
+
+MOST_DEFAULT_FIGURES = 8
+WIDTH, PANEL_HEIGHT, TITLE_HEIGHT = 8.0, 2.7, 0.7  # inches
+DOTS_PER_INCH = 120
+STYLE: dict[Any, Any] = {
+    "font.size": 9,
+    "figure.titlesize": 11,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "0.4",
+    "axes.grid": True,
+    "grid.color": "0.92",
+    "axes.axisbelow": True,
+    "xtick.color": "0.3",
+    "ytick.color": "0.3",
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.3,
+    "axes.formatter.useoffset": False,
+    "axes.formatter.limits": (-4, 6),
+}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One figure to draw: its title, the signals in it (by name), and its file name."""
+
+    title: str
+    signals: tuple[str, ...]
+    file: str
+
+
+def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
+    """Draw `plots` into the directory of `result`; without plots, one figure per quantity.
+
+    A plot has `signals` (patterns), and perhaps a `title` and a `file`, as attributes or keys. A
+    pattern that fits no recorded signal is warned of, and a plot of such patterns alone left out.
+    Returns the paths of the figures. Raises UsageError for a file outside the run directory.
+    """
+    import matplotlib
+
+    plots = list(plots)
+    pictures = _asked_for(result, plots) if plots else _by_quantity(result)
+    paths = []
+    with matplotlib.rc_context({**STYLE, "backend": "agg"}):
+        for picture in pictures:
+            path = result.path / picture.file
+            # The mark tells a later run in this directory that the picture may go.
+            _figure(result, picture).savefig(path, dpi=DOTS_PER_INCH, metadata={"Software": "fairlead"})
+            paths.append(path)
+    return paths
+
+
+def _figure(result: Result, picture: Picture) -> Figure:
+    from matplotlib.figure import Figure
+
+    about = {signal.name: signal for signal in result.signals}
+    panels = _by_unit([about[name] for name in picture.signals])
+    height = TITLE_HEIGHT + PANEL_HEIGHT * len(panels)
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    for ax, signals in zip(axes, panels, strict=True):
+        draw_panel(ax, result, signals)
+    figure.suptitle(picture.title, x=0.01, horizontalalignment="left", parse_math=False)
+    axes[-1].set_xlabel("time [s]")
+    return figure
+
+
+def _by_unit(signals: Sequence[Signal]) -> list[list[Signal]]:
+    panels: dict[str, list[Signal]] = {}
+    for signal in signals:
+        panels.setdefault(signal.unit, []).append(signal)
+    return list(panels.values())
+
+
+def _asked_for(result: Result, plots: list[Any]) -> list[Picture]:
+    pictures: list[Picture] = []
+    for plot in plots:
+        patterns = _entry(plot, "signals") or []
+        patterns = [patterns] if isinstance(patterns, str) else list(patterns)
+        names = _found(result, patterns)
+        if names:
+            title = _entry(plot, "title") or ", ".join(patterns)
+            taken = {picture.file for picture in pictures}
+            pictures.append(Picture(title, names, _file_name(_entry(plot, "file") or title, taken)))
+    return pictures
+
+
+def _entry(plot: Any, key: str) -> Any:
+    return plot.get(key) if isinstance(plot, Mapping) else getattr(plot, key, None)
+
+
+def _found(result: Result, patterns: Iterable[str]) -> tuple[str, ...]:
+    names: dict[str, None] = {}
+    for pattern in patterns:
+        matched = result.match(pattern)
+        if not matched:
+            advice = did_you_mean(pattern, [signal.name for signal in result.signals])
+            warnings.warn(f"plot: no recorded signal fits {pattern}. {advice}".rstrip(), stacklevel=3)
+        names.update(dict.fromkeys(matched))
+    return tuple(names)
+
+
+def _by_quantity(result: Result) -> list[Picture]:
+    """Return one figure per last word of a name and unit: all tensions, all slips, ..."""
+    groups: dict[tuple[str, str], list[str]] = {}
+    for signal in result.signals:
+        quantity = signal.name.rpartition(".")[2].partition("[")[0]
+        groups.setdefault((quantity, signal.unit), []).append(signal.name)
+    pictures: list[Picture] = []
+    for (quantity, _), names in list(groups.items())[:MOST_DEFAULT_FIGURES]:
+        taken = {picture.file for picture in pictures}
+        pictures.append(Picture(quantity.replace("_", " "), tuple(names), _file_name(quantity, taken)))
+    return pictures
+
+
+def _file_name(wanted: str, taken: set[str]) -> str:
+    """Return a file name for a figure: the one that was asked for, or one made from its title."""
+    if wanted.lower().endswith(".png"):
+        if Path(wanted).name != wanted:
+            raise UsageError(
+                f"plot file {wanted} is not a plain file name; figures stay in the run directory."
+            )
+        stem = wanted[:-4]
+    else:
+        stem = re.sub(r"[^\w.-]+", "_", wanted).strip("_.")[:60] or "figure"
+    name, number = f"{stem}.png", 2
+    while name in taken:
+        name, number = f"{stem}_{number}.png", number + 1
+    return name

@@ -1,0 +1,122 @@
+"""Draws the signals of one unit into one pair of axes.
+
+A few signals get a colour and a legend entry each. The elements of a line (`line.core[*].tension`),
+when there are many, get one colour scale that runs along the line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.results.signal import family
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from fairlead.results import Result, Signal
+
+MOST_IN_LEGEND = 8
+SCALES = ("viridis", "plasma", "cividis")
+MOST_POINTS = 8000  # some ten for each pixel column
+MOST_TICKS = 1000
+# Okabe and Ito (2008), Color Universal Design: told apart by colour-blind readers as well.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B")
+
+
+def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
+    """Draw `signals`, all of one unit, over time, and the run's zone changes as ticks at the top.
+
+    A jump at an event is drawn as a vertical line: the event's time occurs twice in the record.
+    """
+    single, scaled = _split(signals)
+    for number, names in enumerate(scaled.values()):
+        _draw_family(ax, result, names, SCALES[number % len(SCALES)])
+    for number, name in enumerate(single):
+        ax.plot(*thinned(result.t, result[name]), color=COLOURS[number % len(COLOURS)], label=name)
+    if single:
+        # Above the axes: inside, it would sooner or later hide what the reader looks for.
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0.2, handlelength=1.4)
+    ax.set_ylabel(_label(signals), parse_math=False)
+    if len(result.t) > 1 and result.t[-1] > result.t[0]:
+        ax.set_xlim(result.t[0], result.t[-1])
+    _draw_ticks(ax, np.array([event.t for event in result.events]))
+
+
+def thinned(t: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return fewer points (t, y) that look the same: of every run of rows its lowest and its highest."""
+    if len(t) <= MOST_POINTS:
+        return t, y
+    length = -(-2 * len(t) // MOST_POINTS)
+    runs = len(t) // length
+    rows = np.where(np.isnan(y), -np.inf, y)[: runs * length].reshape(runs, length)
+    starts = np.arange(runs) * length
+    ends = np.arange(runs * length, len(t))
+    kept = np.unique(np.concatenate([[0], starts + rows.argmin(1), starts + rows.argmax(1), ends]))
+    return t[kept], y[kept]
+
+
+def _split(signals: Sequence[Signal]) -> tuple[list[str], dict[str, list[str]]]:
+    """Return the names that get a colour each, and the families that get a colour scale."""
+    families: dict[str, list[str]] = {}
+    for signal in signals:
+        families.setdefault(family(signal.name)[0], []).append(signal.name)
+    if len(signals) <= MOST_IN_LEGEND:
+        return [signal.name for signal in signals], {}
+    scaled = {name: members for name, members in families.items() if len(members) > 3}
+    loose = [name for members in families.values() if len(members) <= 3 for name in members]
+    if len(loose) > MOST_IN_LEGEND:
+        return [], {**scaled, "signals in order": loose}
+    return loose, scaled
+
+
+def _draw_family(ax: Axes, result: Result, names: list[str], scale: str) -> None:
+    from matplotlib.collections import LineCollection
+
+    elements = [family(name)[1] for name in names]
+    numbers = [index if element is None else element for index, element in enumerate(elements)]
+    lines = LineCollection(
+        [np.column_stack(thinned(result.t, result[name])) for name in names], cmap=scale, linewidths=0.8
+    )
+    lines.set_array(np.array(numbers, dtype=float))
+    ax.add_collection(lines)
+    ax.autoscale_view()
+    bar = ax.figure.colorbar(lines, ax=ax, pad=0.01, fraction=0.04, aspect=30)
+    bar.outline.set_visible(False)
+    bar.set_label(_family_label(names), size=8)
+
+
+def _family_label(names: list[str]) -> str:
+    families = {family(name)[0] for name in names}
+    return families.pop() if len(families) == 1 else f"{len(names)} signals, in order"
+
+
+def _label(signals: Sequence[Signal]) -> str:
+    quantities = {signal.name.rpartition(".")[2].partition("[")[0] for signal in signals}
+    words = quantities.pop().replace("_", " ") if len(quantities) == 1 else ""
+    unit = signals[0].unit
+    return f"{words} [{unit}]".strip() if unit not in ("", "1") else words
+
+
+def _draw_ticks(ax: Axes, times: NDArray[np.float64]) -> None:
+    """Mark zone changes faintly below the upper edge; a dense band where there are many."""
+    if len(times) > MOST_TICKS:
+        low, high = times.min(), times.max()
+        width = (high - low) / MOST_TICKS or 1.0
+        times = low + width * np.unique(np.round((times - low) / width))
+    ax.plot(
+        times,
+        np.full_like(times, 0.975),
+        linestyle="none",
+        marker="|",
+        markersize=7,
+        markeredgewidth=0.6,
+        color="0.45",
+        alpha=0.5,
+        transform=ax.get_xaxis_transform(),
+        clip_on=True,
+        zorder=3,
+    )
