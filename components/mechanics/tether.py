@@ -1,7 +1,6 @@
 """A line that pulls and cannot push."""
 
-from fairlead.component import Component, Output, Parameter, Translational, Zones, guard, zone
-from fairlead.component.declare import Law
+from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
 
 
 class Tether(Component):

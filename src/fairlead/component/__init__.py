@@ -1,6 +1,6 @@
 """All that a component author imports: declarations, laws and the functions to write them with."""
 
-from fairlead.component.base import Child, Component, Composite, Declared, Expansion
+from fairlead.component.base import Component, Composite, Declared, Expansion, Family
 from fairlead.component.declare import (
     Block, Choice, Count, Electrical, Hydraulic, Input, Law, Output, Parameter, Part, Path, Rotational, State,
     Stations, Table, Translational, Unknown, Waveform, Zones, derived, guard, hold, zone,
@@ -8,7 +8,7 @@ from fairlead.component.declare import (
 from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tanh
 
 __all__ = [
-    "Block", "Child", "Choice", "Component", "Composite", "Count", "Declared", "Electrical", "Expansion", "Hydraulic",
+    "Block", "Choice", "Component", "Composite", "Count", "Declared", "Electrical", "Expansion", "Family", "Hydraulic",
     "Input", "Law", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Table", "Translational",
     "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "exp", "guard", "hold", "log", "pi", "sin", "sqrt", "tanh",
     "zone",

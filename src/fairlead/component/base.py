@@ -90,9 +90,9 @@ class Family(Declared, abstract=True):
     def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
         """Collect declarations, and join the family."""
         super().__init_subclass__(abstract=abstract, **keywords)
-        if abstract:
-            cls.members = cls.__dict__.get("members", {})
-        else:
+        if abstract and "key" in cls.__dict__:
+            cls.members = {}
+        elif not abstract:
             cls.word = cls.__dict__.get("word") or _snake(cls.__name__)
             cls.members[cls.word] = cls
 
@@ -106,25 +106,18 @@ class Component(Declared, abstract=True):
 
 
 class Composite(Declared, abstract=True):
-    """A component made of others: `expand(p)` returns an Expansion of children and connections."""
-
-
-@dataclass(frozen=True)
-class Child:
-    """One child of a composite: its class and its parameters, already in SI."""
-
-    type: type[Declared]
-    parameters: dict[str, Any]
+    """A component made of others: `expand(p, scene)` returns an Expansion of children and connections."""
 
 
 @dataclass(frozen=True)
 class Expansion:
     """What a composite turns into. Connections join paths such as ("hose[0].b", "node[1].flange").
 
-    `ports` maps each outer port to an inner one; `outputs` gives inner outputs an outer name.
+    `children` holds the Values of each child, as `scene.make(Type, ...)` returns them. `ports` maps
+    each outer port to an inner one; `outputs` gives inner outputs an outer name.
     """
 
-    children: dict[str, Child]
+    children: dict[str, Any]
     connections: list[tuple[str, ...]]
     ports: dict[str, str]
     outputs: dict[str, str] = field(default_factory=dict)

@@ -46,8 +46,8 @@ def read(
     return values, _contradictions(kind, values, raw, path, where)
 
 
-def defaults(kind: type[Declared], **given: Any) -> Values:
-    """Values with the declared defaults, numbers given in SI: for composites, tests and tools."""
+def make(kind: type[Declared], **given: Any) -> Values:
+    """Values from numbers in SI and ready parts, tables and waves: for composites, tests and tools."""
     model = model_of(kind).model_validate(given, context={"folder": pathlib.Path()})
     return _values(kind, model)
 
@@ -57,7 +57,7 @@ def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
     fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
     if issubclass(kind, Family) and kind.key:
-        fields[kind.key] = (Literal[kind.word], Field(default=kind.word, description=_first_line(kind)))
+        fields[kind.key] = (Literal[kind.word], Field(default=kind.word, description=(kind.__doc__ or kind.word).split("\n")[0]))
     return create_model(kind.__name__, __config__=STRICT, **fields)
 
 
@@ -71,6 +71,8 @@ def family_type(family: type[Family], keep: Callable[[type[Family]], Any] | None
 
 def _with_word(family: type[Family], value: Any) -> Any:
     """Write out the short forms: a bare number, a bare word, a map without the word."""
+    if isinstance(value, Values):
+        return {family.key: value.type.word, **value.given}  # type: ignore[attr-defined]
     if isinstance(value, str) and value in family.members:
         return {family.key: value}
     if not isinstance(value, Mapping) and family.bare is not None:

@@ -71,7 +71,7 @@ def pieces(borders: Sequence[float], coefficients: Sequence[Sequence[float]]) ->
     """From inner borders b1..bk-1 and k coefficient lists, each about the left border of its piece."""
     edges = [-FAR, *borders, FAR]
     rows = np.zeros((len(coefficients), STRIDE))
-    for row, left, right, terms in zip(rows, edges, edges[1:], coefficients, strict=True):
+    for row, left, right, terms in zip(rows, edges[:-1], edges[1:], coefficients, strict=True):
         reference = left if left > -FAR else (right if right < FAR else 0.0)
         row[:3] = left, right, reference
         row[3 : 3 + len(terms)] = terms

@@ -13,7 +13,7 @@ import warnings
 from collections.abc import Iterable, Mapping
 from types import ModuleType
 
-from fairlead.component.base import Component, Composite, Declared
+from fairlead.component.base import Component, Composite, Declared, Family
 from fairlead.errors import Fault, ModelError
 
 ENTRY_POINTS = "fairlead.components"
@@ -47,19 +47,19 @@ def _bundled() -> dict[str, type[Declared]]:
 
 
 def _types_in(module: object) -> dict[str, type[Declared]]:
-    """Concrete component classes a module defines itself (or a class given directly)."""
+    """Component classes a module defines itself: leaves, composites and the heads of families."""
     if isinstance(module, type):
         return {module.__name__: module}
-    return {
-        name: value
-        for name, value in vars(module).items()
-        if isinstance(value, type)
-        and issubclass(value, Component | Composite)
-        and value.__module__ == getattr(module, "__name__", None)
-        and not name.startswith("_")
-        and (value.declaration.laws or issubclass(value, Composite) or value.declaration.ports)
-        and not value.__dict__.get("hidden", False)
-    }
+    found = {n: v for n, v in vars(module).items() if isinstance(v, type) and issubclass(v, Component | Composite)}
+    here = getattr(module, "__name__", None)
+    return {n: v for n, v in found.items() if v.__module__ == here and not n.startswith("_") and _is_type(v)}
+
+
+def _is_type(kind: type[Declared]) -> bool:
+    """True for what a netlist may name: not a half-model, and not a member of a family (its head is named)."""
+    if issubclass(kind, Family) and kind.key:
+        return "members" in kind.__dict__
+    return "declaration" in kind.__dict__
 
 
 def load_library(path: str) -> ModuleType:

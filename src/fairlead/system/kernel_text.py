@@ -22,7 +22,7 @@ from sympy.printing.pycode import PythonCodePrinter
 from fairlead.component.piecewise import DEGREE, STRIDE
 from fairlead.component.trace import Traced, TracedGuard, TracedZone, symbol
 from fairlead.system import layout
-from fairlead.system.kernels import Structure
+from fairlead.system.structure import Structure
 
 HEAD = """def kernel(mode, block, start, stop, z, zones, tables, out):
     par = f8(block[{PAR}]); zi = i8(block[{IN_INDEX}]); zc = f8(block[{IN_COEF}]); zo = f8(block[{IN_OFFSET}])

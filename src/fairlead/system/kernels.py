@@ -17,64 +17,36 @@ from typing import Any
 
 from fairlead.component.dependencies import dependencies
 from fairlead.component.values import Variant
-from fairlead.native import Build, digest, load_or_compile
-from fairlead.system import layout
-
-TABLE_FIELDS = {"left": 0, "right": 1}  # then reference and coefficients, see component/piecewise.py
-
-
-@dataclass(frozen=True)
-class Structure:
-    """What a kernel reads and writes, by position. Keys of inputs are those of `component/trace.py`."""
-
-    inputs: list[str]
-    parameters: list[str]
-    tables: list[str]
-    time_tables: list[str]
-    zones: list[str]
-    machines: int
-    outputs: list[str]
-    targets: list[str]  # "port:a", "own:force": where flows, rates and balances go
-    ledger: list[str]
-    d_signals: list[tuple[int, int]]  # (output, input) of every derivative that may be non-zero
-    d_flows: list[tuple[int, int]]
-    d_ledger: list[tuple[int, int]]
-    mass: list[tuple[str, int]]  # (unknown, input) of the mass entries of hold rows
-    holds: dict[str, list[str]]  # unknown -> zones that hold
-    guards: dict[str, list[dict[str, Any]]]  # zone -> its guards in slot order
-    slots: int
-    equations: dict[str, list[str]]  # zone -> its laws as text
-    flow_inputs: dict[str, dict[str, list[str]]]  # zone -> target -> input keys it depends on
-    reaches: dict[str, dict[str, str]]  # zone -> table -> input or expression it is read at
+from fairlead.native import Build, Native, digest, load_or_compile
+from fairlead.system.structure import Structure
 
 
 @dataclass(frozen=True)
 class Kernel:
-    """Compiled code of a class variant."""
+    """Compiled code of a class variant; `native` owns the memory it lies in."""
 
     variant: Variant
     structure: Structure
-    address: int
-    cached: bool
+    native: Native
+
+    @property
+    def address(self) -> int:
+        """Where the code begins."""
+        return self.native.address["kernel"]
 
 
 @functools.cache
 def kernel(variant: Variant) -> Kernel:
     """The kernel of a class variant, from the cache or traced and compiled. Raises TraceError."""
     native = load_or_compile(digest(dependencies(variant)), lambda: _build(variant))
-    return Kernel(variant, Structure(**native.meta), native.address["kernel"], native.cached)
+    return Kernel(variant, Structure(**native.meta), native)
 
 
 def _build(variant: Variant) -> Build:
-    import numba
-
-    from fairlead.system import addresses
+    from fairlead.system.lowering import lower
 
     source, structure = write_source(variant)
-    functions = _functions("math") | {"f8": addresses.f8, "i8": addresses.i8}
-    exec(compile(source, f"<kernel {variant.label}>", "exec"), functions)  # noqa: S102 - our own text, from SymPy
-    made = numba.cfunc(addresses.KERNEL, error_model="numpy")(functions["kernel"])
-    return Build(asdict(structure), {"kernel": made})
+    return Build(asdict(structure), {"kernel": lower(source, "kernel")})
 
 
 def _functions(module: str) -> dict[str, Any]:
@@ -98,8 +70,3 @@ def evaluate(variant: Variant, **arrays: Any) -> Callable[..., None]:
     names = _functions("cmath") | {"f8": lambda a: arrays["f8"][a], "i8": lambda a: arrays["i8"][a], "abs": abs}
     exec(compile(source, f"<kernel {variant.label}>", "exec"), names)  # noqa: S102
     return names["kernel"]
-
-
-def block_offsets() -> dict[str, int]:
-    """Positions of a kernel's block by name, for listings."""
-    return {name: value for name, value in vars(layout).items() if name.isupper() and isinstance(value, int)}

@@ -2,7 +2,7 @@
 
 z, the vector every law reads from:
 
-    [ y (n) | signals (m) | reactions (r) | 0 | t | accelerations (n) ]
+    [ y (n) | signals (m) | reactions (r) | 0 | t | accelerations (n) | dump ]
 
 w, the vector every law adds to:  [ rows of f (n) | reactions (r) | dump ].
 
@@ -36,3 +36,55 @@ SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS,
 
 DISSIPATED, SUPPLIED = "dissipated", "supplied"
 NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
+
+# Positions in the context, the int64 vector that every callback of the driver gets. Sizes first, then
+# addresses of C-contiguous arrays.
+N = 0  # unknowns
+N_SIGNALS = 1
+N_REACTIONS = 2
+N_BLOCKS = 3  # kernels, one per class variant
+N_SCHEDULE = 4  # calls of kernels for signals, in order of rank
+N_GUARDS = 5
+N_PAIRS = 6  # kinematic rows x' = v
+N_PROGRAM = 7  # multiply-adds that assemble the Jacobian from partial derivatives
+N_JACOBIAN = 8  # stored entries of df/dy
+N_WORK = 9  # length of the accumulators the program adds to
+N_MASS = 10
+N_MASS_PROGRAM = 11
+N_HOLDS = 12
+N_TIME = 13  # machines that follow time
+N_SELECTED = 14  # recorded outputs
+N_STORED = 15  # instances that state their stored energy
+T_AT = 16  # where in z the time lies
+ACCELERATION_AT = 17  # where in z the accelerations begin
+REACTION_AT = 18  # where in z the reactions begin
+ALWAYS_HELD = 19  # hold rows that hold in every zone
+Z = 20  # float64, see the top
+W = 21
+ZONES = 22
+TABLES = 23
+KERNELS = 24  # int64 (blocks,)       addresses of kernels
+BLOCKS = 25  # int64 (blocks, BLOCK)
+COUNTS = 26  # int64 (blocks,)
+SCHEDULE = 27  # int64 (schedule, 3)   block, first instance, one past the last
+PAIRS = 28  # int64 (pairs, 2)       unknown x, unknown v
+INVERSE_MASS = 29  # float64 (n,)          1/M of rows with mass, else 0
+REACTION_MASS = 30  # float64 (reactions,)  mass at a prescribed node
+REACTION_A = 31  # int64 (reactions,)    where in z its acceleration lies
+PARTIALS = 32  # float64               partial derivatives; the first is 1
+WORK = 33  # float64               the first is 1, then d(signal)/dy, d(signal)/dt, df/dy, df/dt
+PROGRAM = 34  # int64 (program, 3)    work[a] += coefficient * partials[b] * work[c]
+PROGRAM_COEF = 35  # float64 (program,)
+JACOBIAN_AT = 36  # int64 (1,)            where in work df/dy begins; df/dt follows it
+MASS_STATIC = 37  # float64 (mass,)
+MASS_PROGRAM = 38  # int64 (k, 2)          mass[a] += coefficient * partials[b]
+MASS_COEF = 39  # float64 (k,)
+HOLDS = 40  # int64 (holds, 2)      position in zones, zone that holds
+GUARD_PLACE = 41  # int64 (guards, 4)    zone position (or -1), first entry of its class in GUARD_TO, slots, slot
+GUARD_TO = 42  # int64 (., 3)          zone it leads to (-1: none), machine, step of a table's piece
+GUARD_MACHINES = 43  # int64 (guards,)   first position in `zones` of the instance
+TIME_PLACE = 44  # int64 (time, 3)       position in zones, base in tables, pieces
+OUTPUTS_ALL = 45  # float64 (all,)
+SELECTED = 46  # int64 (selected,)     position in all outputs, or -1 - position in z
+STORED = 47  # int64 (stored,)       positions in all outputs
+CONTEXT = 48

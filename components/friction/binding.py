@@ -1,0 +1,207 @@
+"""Binding friction: stuck surfaces are bound by a very high viscous coefficient.
+
+After Tomlinson, Cooke and Cosserat (2003), Proc. IMechE Part I 217, 139, DOI 10.1177/095965180321700207.
+The sign change of the sliding force is replaced by a steep line through zero slip, in force only while
+the applied force is below stiction; so the force never jumps when the slip changes sign, and many
+contacts stay cheap. The price is creep: a stuck contact under load af slips at about creep * af/F_s.
+"""
+
+from fairlead.component import Choice, Input, Law, Output, Parameter, Zones, derived, guard, zone
+from fairlead.components.friction.binding_law import BOUND, IN_CONTACT, applied_force, direction, friction_in
+from fairlead.components.friction.contact import Contact
+
+FORMS = {
+    "robust": {"cap": "on", "latch": "on", "hysteresis": 0.1, "applied_force": "aggregate"},
+    "literal": {"cap": "off", "latch": "off", "hysteresis": 0.0, "applied_force": "aggregate"},
+}
+
+
+class Binding(Contact):
+    """T = S(v) + f v: a sliding part S and a viscous part f that is very large while the contact binds.
+
+    plateau   |v| <= v_m, |af| <= F_s        f = F_s/creep,  S = N mu(v_n) v/v_n
+    ramp      v_m < |v| < v_n, |af| <= F_s   f falls linearly to nothing
+    slide     |v| >= v_n                     T = +-N mu(|v|)
+    transit   |v| < v_n, |af| > F_s          T = S
+    break     broke away (latch)             T = +-N mu(v_n) until |v| >= v_n
+    off       N = 0                          T = 0
+
+    The applied force is what the contact would have to carry to hold, af = T + M a_rel. `form: robust`
+    caps the bound force at F_s, latches a break-away, and binds again only below (1 - hysteresis) F_s;
+    `form: literal` does none of this, as printed. Each can be set by itself.
+    """
+
+    word = "binding"
+    form = Choice(("robust", "literal"), "The repaired law or the printed one.", default="robust")
+    creep = Parameter("m/s", "Slip speed at which the viscous part alone carries F_s.", default=1e-4, above=0)
+    plateau_width = Parameter("1", "v_m over creep.", default=2.0, above=0)
+    ramp_width = Parameter("1", "v_n over creep.", default=4.0, above=0)
+    cap = Choice(("on", "off"), "Limit the bound force to F_s.", default=None)
+    latch = Choice(("on", "off"), "Keep the full sliding force from break-away on.", default=None)
+    hysteresis = Parameter("1", "Bind only below (1 - hysteresis) F_s.", default=None, least=0, below=1)
+    applied_force = Choice(("aggregate", "reduced", "naive"), "Which mass the applied force counts.", default=None)
+    partner_mass_a = Parameter("kg", "Mass that joins a while a's other contact is bound.", default=0.0, least=0)
+    partner_mass_b = Parameter("kg", "Mass that joins b while b's other contact is bound.", default=0.0, least=0)
+    bound_a = Input("1", "1 while the other contact of a is bound.", default=0.0)
+    bound_b = Input("1", "1 while the other contact of b is bound.", default=0.0)
+    bound = Output("1", "1 while the contact is bound.")
+    zones = Zones(*IN_CONTACT, "off")
+
+    def prepare(given):
+        """What is not set by itself follows from the form."""
+        chosen = FORMS[given["form"]]
+        return {**given, **{name: value for name, value in chosen.items() if given[name] is None}}
+
+    def check(p):
+        """The ramp begins before it ends."""
+        if p.plateau_width >= p.ramp_width:
+            yield "ramp_width", f"ramp_width {p.ramp_width:g} is not above plateau_width {p.plateau_width:g}", "Raise it."
+
+    @derived
+    def v_m(p):
+        """Slip speed where the ramp begins [m/s]."""
+        return p.plateau_width * p.creep
+
+    @derived
+    def v_n(p):
+        """Slip speed where binding ends [m/s]."""
+        return p.ramp_width * p.creep
+
+    @derived
+    def mu_n(p):
+        """Sliding coefficient at v_n."""
+        return p.curve.coefficient(p.v_n)
+
+    @derived
+    def mu_s(p):
+        """Coefficient of stiction."""
+        return p.curve.breakaway()
+
+    @derived
+    def border(p):
+        """Slip speed where the plateau ends [m/s]: at v_m, or where the cap is reached if that comes first."""
+        steep = p.mu_s / p.creep + p.mu_n / p.v_n
+        return min(p.v_m, p.mu_s / steep) if p.cap == "on" and p.mu_s > 0 else p.v_m
+
+    @zone(*IN_CONTACT)
+    def touching(p, a, b, normal, zone):
+        """The force of the zone; what counts as creep is the slip of a bound contact."""
+        slip, bound = b.v - a.v, 1 if zone in BOUND else 0
+        friction = friction_in(p, zone, slip, normal)
+        return Law(a=-friction, b=+friction, slip=slip, friction=friction, bound=bound, creep_rate=bound * slip,
+                   dissipated=friction * slip)  # fmt: skip
+
+    @zone("off")
+    def off(p, a, b):
+        """No force passes."""
+        return Law(a=0, b=0, slip=b.v - a.v)
+
+    @guard("plateau", "ramp_forward", to="break_forward", unit="N")
+    def breaks_forward(p, a, b, normal, bound_a, bound_b, zone):
+        """The applied force passes stiction."""
+        return applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s if p.latch == "on" else -1
+
+    @guard("plateau", "ramp_backward", to="break_backward", unit="N")
+    def breaks_backward(p, a, b, normal, bound_a, bound_b, zone):
+        """The same the other way."""
+        return -applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s if p.latch == "on" else -1
+
+    @guard(*BOUND, to="transit", unit="N")
+    def lets_go(p, a, b, normal, bound_a, bound_b, zone):
+        """Without the latch, or against the creep of a ramp, the contact goes through zero slip instead."""
+        load = applied_force(p, zone, a, b, normal, bound_a, bound_b)
+        if p.latch == "off":
+            return abs(load) - normal * p.mu_s
+        return -1 if zone == "plateau" else -direction(zone) * load - normal * p.mu_s
+
+    @guard("plateau", to="ramp_forward", unit="m/s")
+    def climbs_forward(p, a, b):
+        """The plateau ends."""
+        return b.v - a.v - p.border
+
+    @guard("plateau", to="ramp_backward", unit="m/s")
+    def climbs_backward(p, a, b):
+        """The same the other way."""
+        return a.v - b.v - p.border
+
+    @guard("ramp_forward", "ramp_backward", to="plateau", unit="m/s")
+    def settles(p, a, b, zone):
+        """Back on the plateau."""
+        return p.border - direction(zone) * (b.v - a.v)
+
+    @guard("ramp_forward", "transit", "break_forward", "break_backward", to="slide_forward", unit="m/s")
+    def slides_forward(p, a, b):
+        """Fast enough to slide."""
+        return b.v - a.v - p.v_n
+
+    @guard("ramp_backward", "transit", "break_forward", "break_backward", to="slide_backward", unit="m/s")
+    def slides_backward(p, a, b):
+        """The same the other way."""
+        return a.v - b.v - p.v_n
+
+    @guard("slide_forward", to="ramp_forward", unit="m/s")
+    def caught_forward(p, a, b, normal, bound_a, bound_b, zone):
+        """Slow, and the load is one the contact can hold."""
+        return p.v_n - (b.v - a.v), _spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("slide_backward", to="ramp_backward", unit="m/s")
+    def caught_backward(p, a, b, normal, bound_a, bound_b, zone):
+        """The same the other way."""
+        return p.v_n + (b.v - a.v), _spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("slide_forward", "slide_backward", to="transit", unit="m/s")
+    def reverses(p, a, b, normal, bound_a, bound_b, zone):
+        """Slow, and driven on through zero slip."""
+        slow = p.v_n - direction(zone) * (b.v - a.v)
+        return slow, -_spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("transit", to="plateau", unit="m/s")
+    def binds(p, a, b, normal, bound_a, bound_b, zone):
+        """Almost no slip, and a load the contact can hold."""
+        return p.border - abs(b.v - a.v), _spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("transit", to="ramp_forward", unit="m/s")
+    def binds_forward(p, a, b, normal, bound_a, bound_b, zone):
+        """A load the contact can hold, above the plateau."""
+        return b.v - a.v - p.border, _spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("transit", to="ramp_backward", unit="m/s")
+    def binds_backward(p, a, b, normal, bound_a, bound_b, zone):
+        """The same the other way."""
+        return a.v - b.v - p.border, _spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("break_forward", "break_backward", to="plateau", unit="m/s")
+    def gives_up(p, a, b, normal, bound_a, bound_b, zone):
+        """The break-away came to nothing."""
+        slow = p.border / 2 - direction(zone) * (b.v - a.v)
+        return slow, _spare(p, zone, a, b, normal, bound_a, bound_b)
+
+    @guard("break_forward", "break_backward", to="transit", unit="N")
+    def turns(p, a, b, normal, bound_a, bound_b, zone):
+        """Driven hard the other way."""
+        return -direction(zone) * applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s
+
+    @guard(*IN_CONTACT, to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more."""
+        return p.lift - normal
+
+    @guard("off", to="slide_forward", unit="m/s")
+    def lands_forward(p, a, b, normal):
+        """Pressed again while slipping."""
+        return normal - 2 * p.lift, b.v - a.v - p.v_n
+
+    @guard("off", to="slide_backward", unit="m/s")
+    def lands_backward(p, a, b, normal):
+        """The same the other way."""
+        return normal - 2 * p.lift, a.v - b.v - p.v_n
+
+    @guard("off", to="transit", unit="m/s")
+    def lands(p, a, b, normal):
+        """Pressed again, slow."""
+        return normal - 2 * p.lift, p.v_n - abs(b.v - a.v)
+
+
+def _spare(p, zone, a, b, normal, bound_a, bound_b):
+    """How far the applied force is below what binds again, (1 - hysteresis) F_s - |af| [N]."""
+    return (1 - p.hysteresis) * normal * p.mu_s - abs(applied_force(p, zone, a, b, normal, bound_a, bound_b))

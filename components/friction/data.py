@@ -1,0 +1,39 @@
+"""Friction coefficient measured over slip speed."""
+
+from fairlead.component import Table, derived
+from fairlead.components.friction.curve import Curve
+
+
+class Data(Curve):
+    """mu(v) from points: straight lines (one zone per interval) or a monotone cubic; constant beyond the last.
+
+    The first point must be at zero speed; its value is the coefficient to start sliding.
+    """
+
+    word = "table"
+    points = Table("m/s", "1", "Slip speed and coefficient, first point at zero speed.")
+
+    def coefficient(p, v):
+        """The interval in force decides."""
+        return p.points(v)
+
+    @derived
+    def rest(p):
+        """Coefficient at zero speed."""
+        return p.points(0.0)
+
+    def breakaway(p):
+        """Coefficient at zero speed."""
+        return p.rest
+
+    def scale(p):
+        """The first interval."""
+        inner = p.points.rows[1:, 0]
+        return float(inner[1] - inner[0]) if len(inner) > 1 else None
+
+    def check(p):
+        """Speeds from zero on, no negative coefficient."""
+        if p.points.rows[0, 1] != 0.0:
+            yield "points", f"the first speed is {p.points.rows[0, 1]:g} m/s", "Begin the table at 0 m/s."
+        if (p.points.rows[:, 3] < 0).any():
+            yield "points", "a coefficient is negative", "A negative coefficient would drive the slip."

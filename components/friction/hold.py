@@ -1,0 +1,91 @@
+"""Exact hold: while the contact sticks its force is an unknown and the slip is zero."""
+
+from fairlead.component import Law, Output, Parameter, Unknown, Zones, guard, hold, zone
+from fairlead.components.friction.contact import Contact
+
+
+class Hold(Contact):
+    """Set-valued friction, the reference for every other treatment.
+
+    held:      slip = 0, T = whatever holds, |T| <= N mu_s
+    forward:   T = +N mu(v) + viscous v          backward: T = -N mu(-v) + viscous v
+    off:       T = 0, the surfaces are apart
+
+    Sliding ends when the slip reaches zero: the contact is then tried as held, and lets go again in
+    the direction of its force if that is above the limit. Holding does not creep.
+    """
+
+    word = "hold"
+    force = Unknown("N", "Friction T.")
+    stick_speed = Parameter("m/s", "A contact that lands with less slip than this sticks.", default=1e-6, above=0)
+    bound = Output("1", "1 while the contact holds.")
+    zones = Zones("held", "forward", "backward", "off")
+
+    @zone("held")
+    def held(p, a, b, force):
+        """The force is what keeps the slip at zero."""
+        return Law(a=-force, b=+force, force=hold(b.v - a.v), slip=b.v - a.v, friction=force, creep_rate=b.v - a.v,
+                   bound=1, dissipated=force * (b.v - a.v))  # fmt: skip
+
+    @zone("forward", "backward")
+    def sliding(p, a, b, force, normal, zone):
+        """The curve gives the force, against the slip."""
+        d = 1 if zone == "forward" else -1
+        slip = b.v - a.v
+        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
+        return Law(a=-force, b=+force, force=force - friction, slip=slip, friction=force, dissipated=force * slip)
+
+    @zone("off")
+    def off(p, a, b, force):
+        """No force passes."""
+        return Law(a=0, b=0, force=force, slip=b.v - a.v)
+
+    @guard("held", to="forward", unit="N")
+    def breaks_forward(p, force, normal):
+        """The force needed is more than stiction."""
+        return force - normal * p.curve.breakaway()
+
+    @guard("held", to="backward", unit="N")
+    def breaks_backward(p, force, normal):
+        """The same the other way."""
+        return -force - normal * p.curve.breakaway()
+
+    @guard("held", to="forward", unit="m/s")
+    def torn_forward(p, a, b):
+        """A jump of a prescribed speed tears the contact loose."""
+        return b.v - a.v - p.stick_speed
+
+    @guard("held", to="backward", unit="m/s")
+    def torn_backward(p, a, b):
+        """The same the other way."""
+        return a.v - b.v - p.stick_speed
+
+    @guard("forward", to="held", unit="m/s")
+    def stops_forward(p, a, b):
+        """The slip has come to zero."""
+        return -(b.v - a.v)
+
+    @guard("backward", to="held", unit="m/s")
+    def stops_backward(p, a, b):
+        """The same the other way."""
+        return b.v - a.v
+
+    @guard("held", "forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more."""
+        return p.lift - normal
+
+    @guard("off", to="forward", unit="1")
+    def lands_forward(p, a, b, normal):
+        """Pressed again while slipping."""
+        return (normal - 2 * p.lift) / p.lift, (b.v - a.v - p.stick_speed) / p.stick_speed
+
+    @guard("off", to="backward", unit="1")
+    def lands_backward(p, a, b, normal):
+        """The same the other way."""
+        return (normal - 2 * p.lift) / p.lift, (a.v - b.v - p.stick_speed) / p.stick_speed
+
+    @guard("off", to="held", unit="1")
+    def lands_still(p, a, b, normal):
+        """Pressed again without slip."""
+        return (normal - 2 * p.lift) / p.lift, 1 - abs(b.v - a.v) / p.stick_speed

@@ -1,0 +1,259 @@
+"""Second stage: entries of a netlist become component instances with parameters in SI.
+
+    assembly = instantiate(netlist, types)
+
+Composites are expanded here, so that the next stage sees leaves only. All mistakes are reported at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairlead.component.base import Composite, Declared, Expansion
+from fairlead.component.declare import PATH, Input, Output, Port
+from fairlead.component.parameters import read
+from fairlead.component.scene import FRAMEWORK_EFFECTS, SWITCH, Scene, _is_switch, is_head
+from fairlead.component.values import Values, Variant, variant_of
+from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
+from fairlead.netlist.netlist import EndPoint, Netlist, Value
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One leaf component: its path in the model, its class and numbers, and where it was written."""
+
+    path: str
+    values: Values
+    where: Location
+    variant: Variant
+
+    @property
+    def type(self) -> type[Declared]:
+        """The component class."""
+        return self.values.type
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.variant.label}    {self.where}"
+
+
+@dataclass(frozen=True)
+class PortRef:
+    """A port, input or output of a leaf."""
+
+    instance: str
+    port: str
+
+    def __str__(self) -> str:
+        return f"{self.instance}.{self.port}"
+
+
+@dataclass(frozen=True)
+class Join:
+    """Ports that were written as connected, and where."""
+
+    ports: tuple[PortRef, ...]
+    where: Location
+
+
+@dataclass(frozen=True)
+class Line:
+    """A composite that runs along a route: its path, what it says of itself, and where it was written."""
+
+    path: str
+    values: Values
+    line: Any
+    where: Location
+
+
+@dataclass
+class Assembly:
+    """All leaves of a model with their joins; lines and routes wait for the flattening."""
+
+    netlist: Netlist
+    scene: Scene
+    instances: dict[str, Instance] = field(default_factory=dict)
+    joins: list[Join] = field(default_factory=list)
+    lines: dict[str, Line] = field(default_factory=dict)
+    routings: list[tuple[str, str, Location]] = field(default_factory=list)  # paths of two ends of a `path` connection
+    aliases: dict[str, PortRef] = field(default_factory=dict)  # outer name of an output or port -> the inner one
+
+    def add(self, path: str, values: Values, where: Location) -> None:
+        """Add a leaf."""
+        self.instances[path] = Instance(path, values, where, variant_of(values))
+
+    def __str__(self) -> str:
+        joins = (f"{' -- '.join(map(str, join.ports))}    {join.where}" for join in self.joins)
+        return "\n".join([*map(str, self.instances.values()), *joins])
+
+
+def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assembly:
+    """Build all instances. Raises ModelError with every mistake of the netlist."""
+    scene = Scene(netlist.friction, netlist.effects, netlist.path.parent)
+    assembly = Assembly(netlist, scene)
+    faults: list[Fault] = []
+    broken: set[str] = set()
+    for entry in netlist.components.values():
+        kind = types.get(entry.type)
+        if kind is None:
+            broken.add(entry.name)
+            what = f"{entry.name}: there is no component type {shown(entry.type)}. {did_you_mean(entry.type, types)}"
+            faults.append(Fault(entry.type_where, what.rstrip(), "`fairlead describe` lists the types; --library adds a file of yours."))
+            continue
+        found = _read(scene, kind, entry.parameters, entry.name, entry.where, faults)
+        if found is None:
+            broken.add(entry.name)
+        else:
+            _place(assembly, entry.name, found, entry.where)
+    faults += _unknown_effects(assembly) + _unknown_friction(netlist, types)
+    for ends in netlist.connections:
+        faults += _connect(assembly, ends, broken)
+    if faults:
+        raise ModelError(sorted(faults, key=lambda f: (f.where is None, f.where)))
+    return assembly
+
+
+def _read(
+    scene: Scene, kind: type[Declared], given: Mapping[str, Value], name: str, where: Location, faults: list[Fault]
+) -> Values | None:
+    member = scene.member(kind, given)
+    if is_head(member):
+        key, words = member.key, list(member.members)  # type: ignore[attr-defined]
+        chosen = given.get(key) or scene.friction[key]
+        what = f"{name}.{key}: there is no {key} {shown(chosen.plain())}. {did_you_mean(str(chosen.plain()), words)}"
+        faults.append(Fault(chosen.where, what.rstrip(), f"There are {listing(words)}."))
+        return None
+    values, found = read(member, {**scene.defaults(kind, given), **given}, name, where, scene.folder)
+    faults += found
+    return None if found else values
+
+
+def _place(assembly: Assembly, path: str, values: Values, where: Location) -> None:
+    """Add a leaf, or expand a composite into its children, however deep."""
+    if not issubclass(values.type, Composite):
+        assembly.add(path, values, where)
+        return
+    expansion: Expansion = values.type.expand(values, assembly.scene)  # type: ignore[attr-defined]
+    for name, child in expansion.children.items():
+        _place(assembly, f"{path}.{name}", child, where)
+    for ends in expansion.connections:
+        refs = tuple(_inner(assembly, f"{path}.{end}") for end in ends)
+        assembly.joins.append(Join(refs, where))
+    for outer, inner in {**expansion.ports, **expansion.outputs}.items():
+        assembly.aliases[f"{path}.{outer}"] = _inner(assembly, f"{path}.{inner}")
+    if expansion.line is not None:
+        assembly.lines[path] = Line(path, values, expansion.line, where)
+
+
+def _inner(assembly: Assembly, text: str) -> PortRef:
+    instance, _, port = text.rpartition(".")
+    return assembly.aliases.get(text) or PortRef(instance, port)
+
+
+def _connect(assembly: Assembly, ends: tuple[EndPoint, ...], broken: set[str]) -> list[Fault]:
+    """Resolve the ends of one connection; a path connection is noted for the flattening."""
+    refs, faults = [], []
+    for end in ends:
+        if end.component in broken:
+            return []
+        found = resolve(assembly, end)
+        if isinstance(found, Fault):
+            faults.append(found)
+        else:
+            refs.append(found)
+    if faults:
+        return faults
+    if all(isinstance(ref, str) for ref in refs):
+        if len(refs) != 2:
+            return [Fault(ends[0].where, f"a path joins two ends, here are {len(refs)}", "Join one line with one route.")]
+        assembly.routings.append((refs[0], refs[1], ends[0].where))
+    elif any(isinstance(ref, str) for ref in refs):
+        return [Fault(ends[0].where, f"{ends[0].text} -- {ends[1].text}: a path can only be joined with a path.")]
+    else:
+        assembly.joins.append(Join(tuple(refs), ends[0].where))
+    return []
+
+
+def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
+    """The port an end point names; the component's path alone when it is a `path` port."""
+    owner, _, port = end.text.rpartition(".")
+    line = assembly.lines.get(owner)
+    if line is not None and port in line.values.type.declaration.ports:
+        if line.values.type.declaration.ports[port].domain == PATH:
+            return owner
+    if end.text in assembly.aliases:
+        return assembly.aliases[end.text]
+    instance = assembly.instances.get(owner)
+    if instance is None:
+        return _no_such(assembly, end, owner, port)
+    has = instance.type.declaration
+    connectable = {**has.ports, **has.inputs, **has.outputs}
+    if port not in connectable:
+        what = f"{end.text}: {_label(instance)} has {_listing(connectable)}."
+        near = did_you_mean(port, connectable)
+        return Fault(end.where, f"{what} {near.replace('mean ', f'mean {owner}.')}".rstrip())
+    return PortRef(owner, port)
+
+
+def _label(instance: Instance) -> str:
+    return instance.type.__name__
+
+
+def _listing(connectable: Mapping[str, Any]) -> str:
+    kinds = {"ports": Port, "inputs": Input, "outputs": Output}
+    parts = []
+    for word, kind in kinds.items():
+        names = [n for n, d in connectable.items() if isinstance(d, kind)]
+        if names:
+            parts.append(f"{word} {listing(names)}")
+    return "; ".join(parts) or "no ports"
+
+
+def _no_such(assembly: Assembly, end: EndPoint, owner: str, port: str) -> Fault:
+    if not owner:
+        entry = assembly.netlist.components.get(end.text)
+        ports = [t.rpartition(".")[2] for t in assembly.aliases if t.startswith(end.text + ".")]
+        if end.text in assembly.instances:
+            ports = list(assembly.instances[end.text].type.declaration.ports)
+        if entry is not None:
+            return Fault(end.where, f"{end.text}: a port is missing; {entry.type} has {listing(ports)}.",
+                         f"Write {end.text}.{ports[0] if ports else 'port'}.")  # fmt: skip
+    outer = [name for name in assembly.aliases if name.rpartition(".")[0] == owner]
+    if owner in assembly.netlist.components:
+        kind = assembly.netlist.components[owner].type
+        known = [name.rpartition(".")[2] for name in outer]
+        near = did_you_mean(port, known).replace("mean ", f"mean {owner}.")
+        return Fault(end.where, f"{end.text}: {kind} has ports {listing(known)}. {near}".rstrip())
+    names = [*assembly.netlist.components, *assembly.instances]
+    near = did_you_mean(owner or end.text, names)
+    return Fault(end.where, f"{end.text}: there is no component {shown(owner or end.text)}. {near}".rstrip(),
+                 "" if near else f"There are {listing(assembly.netlist.components)}.")  # fmt: skip
+
+
+def _unknown_effects(assembly: Assembly) -> list[Fault]:
+    """Effects that nothing in the scene knows, and values that are not on or off."""
+    values = [instance.values for instance in assembly.instances.values()]
+    values += [line.values for line in assembly.lines.values()]
+    declared = {n for v in values for n, d in v.type.declaration.parameters.items() if _is_switch(d)}
+    known = sorted({*FRAMEWORK_EFFECTS, *declared})
+    faults = []
+    for name, value in assembly.netlist.effects.items():
+        if name not in known:
+            what = f"effects.{name}: nothing in this scene has such an effect. {did_you_mean(name, known)}"
+            faults.append(Fault(value.named_at, what.rstrip(), f"It has {listing(known)}."))
+        elif value.plain() not in (*SWITCH, True, False):
+            faults.append(Fault(value.where, f"effects.{name} = {shown(value.plain())} is neither on nor off."))
+    return faults
+
+
+def _unknown_friction(netlist: Netlist, types: Mapping[str, type[Declared]]) -> list[Fault]:
+    """Scene-wide friction settings that no treatment knows."""
+    members = [m for kind in types.values() if is_head(kind) for m in kind.members.values()]  # type: ignore[attr-defined]
+    known = {n for member in members for n in (*member.declaration.parameters, member.key)}
+    return [
+        Fault(value.named_at, f"friction.{name}: no friction method has such a setting. {did_you_mean(name, known)}".rstrip(),
+              f"They have {listing(sorted(known))}.")  # fmt: skip
+        for name, value in netlist.friction.items()
+        if members and name not in known
+    ]

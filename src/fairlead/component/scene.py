@@ -1,0 +1,63 @@
+"""What a whole scene says to its components: friction treatment, effects, and how to make children."""
+
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairlead.component.base import Declared, Family
+from fairlead.component.declare import Choice
+from fairlead.component.parameters import make
+from fairlead.component.values import Values
+from fairlead.netlist.netlist import Value
+
+FRAMEWORK_EFFECTS = ("energy",)
+SWITCH = ("on", "off")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Scene-wide settings, as written in the netlist."""
+
+    friction: Mapping[str, Value] = field(default_factory=dict)
+    effects: Mapping[str, Value] = field(default_factory=dict)
+    folder: pathlib.Path = field(default_factory=pathlib.Path)
+
+    def make(self, kind: type[Declared], **given: Any) -> Values:
+        """Values of a child, numbers in SI. A family head stands for the member the scene chose."""
+        plain = {name: value.plain() for name, value in self.defaults(kind, given).items()}
+        return make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
+
+    def member(self, kind: type[Declared], given: Mapping[str, Any]) -> type[Declared]:
+        """The class itself, or for the head of a family the member named by the word in `given` or the scene."""
+        if not is_head(kind):
+            return kind
+        chosen = given.get(_key(kind), self.friction.get(_key(kind)))
+        word = chosen.plain() if isinstance(chosen, Value) else chosen
+        return kind.members.get(word or kind.default_word, kind)  # type: ignore[attr-defined, no-any-return]
+
+    def defaults(self, kind: type[Declared], given: Mapping[str, Any]) -> dict[str, Value]:
+        """Scene-wide settings that an instance of `kind` takes because it does not give them itself."""
+        declared = self.member(kind, given).declaration.parameters
+        wanted = {name: value for name, value in self.friction.items() if _is_family(kind) and name in declared}
+        wanted |= {n: v for n, v in self.effects.items() if _is_switch(declared.get(n))}
+        return {name: value for name, value in wanted.items() if name not in given}
+
+
+def is_head(kind: type[Declared]) -> bool:
+    """True for the abstract head of a family, such as `Contact`."""
+    return issubclass(kind, Family) and "members" in kind.__dict__
+
+
+def _is_family(kind: type[Declared]) -> bool:
+    return issubclass(kind, Family) and bool(kind.key)
+
+
+def _key(kind: type[Declared]) -> str:
+    return kind.key if issubclass(kind, Family) else ""
+
+
+def _is_switch(declared: Any) -> bool:
+    return isinstance(declared, Choice) and declared.options == SWITCH

@@ -1,0 +1,79 @@
+"""The flat model: nodes, kinematic groups and signal links of all leaves. Frozen, printable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from fairlead.component.declare import Domain
+from fairlead.component.instantiate import Assembly, Instance, PortRef
+
+
+@dataclass(frozen=True)
+class Node:
+    """Ports joined together: one motion, pressure or voltage; what they take in sums to zero."""
+
+    ports: tuple[PortRef, ...]
+    domain: Domain
+
+    @property
+    def name(self) -> str:
+        """The ports in braces, as messages name a node."""
+        shown = ", ".join(map(str, self.ports[:6]))
+        return "{" + shown + (", ..." if len(self.ports) > 6 else "") + "}"
+
+
+@dataclass(frozen=True)
+class Prescribed:
+    """Motion given by an instance: its outputs for position, rate and acceleration, or rest (None)."""
+
+    by: PortRef
+    outputs: tuple[str, str, str] | None
+
+
+@dataclass(frozen=True)
+class Group:
+    """Nodes tied rigidly together: one degree of freedom.
+
+    Node k moves with  ratio_k * group + offset_k,  and what its ports take in counts ratio_k times.
+    """
+
+    name: str
+    domain: Domain
+    nodes: tuple[int, ...]
+    ratios: tuple[float, ...]
+    offsets: tuple[float, ...]
+    mass: float  # inertia at the group [kg, kg m^2, or capacity]
+    start: tuple[float, float]  # position (or potential) and rate at the start
+    prescribed: Prescribed | None
+
+    @property
+    def free(self) -> bool:
+        """True when the motion is unknown."""
+        return self.prescribed is None
+
+
+@dataclass(frozen=True)
+class FlatModel:
+    """All that is needed to write equations; `str()` lists it."""
+
+    assembly: Assembly
+    instances: tuple[Instance, ...]
+    nodes: tuple[Node, ...]
+    groups: tuple[Group, ...]
+    node_of: dict[PortRef, int]
+    group_of: dict[int, tuple[int, float, float]]  # node -> group, ratio, offset
+    sources: dict[PortRef, PortRef] = field(default_factory=dict)  # input -> output that feeds it
+
+    def place(self, port: PortRef) -> tuple[int, float, float]:
+        """Group, ratio and offset of a port."""
+        return self.group_of[self.node_of[port]]
+
+    def __str__(self) -> str:
+        free = sum(group.free for group in self.groups)
+        lines = [f"{len(self.instances)} components, {len(self.nodes)} nodes, {free} free of {len(self.groups)} groups"]
+        for group in self.groups:
+            how = "free" if group.free else f"prescribed by {group.prescribed.by}"  # type: ignore[union-attr]
+            nodes = "; ".join(self.nodes[n].name for n in group.nodes)
+            lines.append(f"  {group.name}: {how}, inertia {group.mass:g}, {nodes}")
+        lines += [f"  {target} <- {source}" for target, source in self.sources.items()]
+        return "\n".join(lines)

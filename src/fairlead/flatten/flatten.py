@@ -1,0 +1,80 @@
+"""Third stage: from component instances to nodes, groups and links; a chain of named passes.
+
+    flat = flatten(assembly)       route -> wire -> group -> check
+"""
+
+from __future__ import annotations
+
+from fairlead.component.instantiate import Assembly, PortRef
+from fairlead.errors import Fault, ModelError
+from fairlead.flatten.flat_model import FlatModel, Group
+from fairlead.flatten.kinematics import group
+from fairlead.flatten.routing import lay
+from fairlead.flatten.wiring import port_graph, wire
+
+
+def flatten(assembly: Assembly) -> FlatModel:
+    """Nodes, groups and links of all leaves. Raises ModelError with everything wrong with the graph."""
+    faults = lay(assembly)
+    _fail_on(faults)
+    nodes, links, faults = wire(assembly, port_graph(assembly))
+    _fail_on(faults)
+    node_of = {port: number for number, node in enumerate(nodes) for port in node.ports}
+    groups, group_of, faults = group(assembly, nodes, node_of)
+    flat = FlatModel(assembly, tuple(assembly.instances.values()), tuple(nodes), tuple(groups), node_of, group_of, links)
+    _fail_on(faults + _contacts_between_prescribed(flat) + _missing_inputs(flat))
+    _start_sources(flat)
+    return flat
+
+
+def _fail_on(faults: list[Fault]) -> None:
+    if faults:
+        raise ModelError(sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what)))
+
+
+def _contacts_between_prescribed(flat: FlatModel) -> list[Fault]:
+    """A contact that may hold needs one side whose motion is unknown, else its force is not determined."""
+    faults = []
+    for instance in flat.instances:
+        has = instance.type.declaration
+        if not has.unknowns or not {"a", "b"} <= set(has.ports):
+            continue
+        sides = [flat.groups[flat.place(PortRef(instance.path, port))[0]] for port in ("a", "b")]
+        if all(not side.free for side in sides):
+            who = " and ".join(str(side.prescribed.by) for side in sides if side.prescribed)
+            what = f"{instance.path} lies between two prescribed motions ({who}); the force while it holds is not determined."
+            faults.append(Fault(instance.where, what, "Put a Mass and a Spring between, or use method: binding."))
+        elif sides[0] is sides[1]:
+            what = f"{instance.path} has both sides on one rigid body ({sides[0].name}); it can never slip."
+            faults.append(Fault(instance.where, what, "Remove it, or the rigid link round it."))
+    return faults
+
+
+def _missing_inputs(flat: FlatModel) -> list[Fault]:
+    faults = []
+    for instance in flat.instances:
+        for name, declared in instance.type.declaration.inputs.items():
+            if PortRef(instance.path, name) in flat.sources:
+                continue
+            default = declared.default
+            if default is None or (isinstance(default, str) and getattr(instance.values, default) is None):
+                give = f", or give {default}" if isinstance(default, str) else ""
+                faults.append(Fault(instance.where, f"{instance.path}.{name}: nothing is connected to this input.",
+                                    f"Connect an output to it{give}."))  # fmt: skip
+    return faults
+
+
+def _start_sources(flat: FlatModel) -> None:
+    """A velocity without a given origin starts where the driven body is."""
+    for made in flat.groups:
+        if made.prescribed is not None and made.prescribed.outputs is not None:
+            _shift(flat, made)
+
+
+def _shift(flat: FlatModel, made: Group) -> None:
+    assert made.prescribed is not None
+    source = flat.assembly.instances[made.prescribed.by.instance]
+    shift = getattr(source.type, "starts_at", None)
+    if shift is not None:
+        _, ratio, offset = flat.place(made.prescribed.by)
+        shift(source.values, ratio * made.start[0] + offset)

@@ -1,0 +1,141 @@
+"""Kinematic groups: nodes tied by rigid links and gears become one degree of freedom.
+
+A union-find whose links carry a ratio and an offset,  position_b = ratio * position_a + offset.
+Inertias add with the ratio squared. A loop that contradicts itself is an error that names the loop.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import networkx as nx
+
+from fairlead.component.instantiate import Assembly, Instance, PortRef
+from fairlead.errors import Fault
+from fairlead.flatten.flat_model import Group, Node, Prescribed
+
+AGREES = 1e-9  # relative; ratios and offsets of a loop are products of a few rounded numbers
+
+
+@dataclass
+class Ties:
+    """Union-find over nodes. Each node knows its parent and how it moves with it."""
+
+    parent: list[int]
+    ratio: list[float] = field(default_factory=list)
+    offset: list[float] = field(default_factory=list)
+
+    def root(self, node: int) -> tuple[int, float, float]:
+        """Root of a node, and ratio and offset of the node with respect to it."""
+        ratio, offset = 1.0, 0.0
+        while self.parent[node] != node:
+            ratio, offset = ratio * self.ratio[node], ratio * self.offset[node] + offset
+            node = self.parent[node]
+        return node, ratio, offset
+
+    def tie(self, a: int, b: int, ratio: float, offset: float) -> bool:
+        """Demand b = ratio * a + offset; False if that contradicts what is tied already."""
+        root_a, ra, oa = self.root(a)
+        root_b, rb, ob = self.root(b)
+        if root_a == root_b:
+            agrees = math.isclose(rb, ratio * ra, rel_tol=AGREES)
+            return agrees and math.isclose(ob, ratio * oa + offset, rel_tol=AGREES, abs_tol=AGREES)
+        self.parent[root_b] = root_a  # rb * root_b + ob = ratio * (ra * root_a + oa) + offset
+        self.ratio[root_b] = ratio * ra / rb
+        self.offset[root_b] = (ratio * oa + offset - ob) / rb
+        return True
+
+
+def group(assembly: Assembly, nodes: list[Node], node_of: dict[PortRef, int]) -> tuple[list[Group], dict[int, Any], list[Fault]]:
+    """Merge tied nodes; returns groups, node -> (group, ratio, offset), and contradictions."""
+    count = len(nodes)
+    ties = Ties(list(range(count)), [1.0] * count, [0.0] * count)
+    faults = _apply_ties(assembly, node_of, ties)
+    members: dict[int, list[tuple[int, float, float]]] = {}
+    for node in range(count):
+        root, ratio, offset = ties.root(node)
+        members.setdefault(root, []).append((node, ratio, offset))
+    facts = _facts(assembly, node_of)
+    groups, group_of = [], {}
+    for number, inside in enumerate(members.values()):
+        made, wrong = _group(nodes, inside, facts)
+        groups.append(made)
+        faults += wrong
+        group_of |= {node: (number, ratio, offset) for node, ratio, offset in inside}
+    return groups, group_of, faults
+
+
+def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> list[Fault]:
+    faults, written = [], nx.Graph()
+    for instance in assembly.instances.values():
+        for a, b, ratio, offset in _ties(instance):
+            one, two = node_of[PortRef(instance.path, a)], node_of[PortRef(instance.path, b)]
+            if not ties.tie(one, two, ratio, offset):
+                loop = nx.shortest_path(written, one, two) if one in written and two in written else []
+                names = [written.edges[x, y]["path"] for x, y in zip(loop, loop[1:], strict=False)]
+                what = f"the rigid loop {' - '.join([instance.path, *names])} contradicts itself"
+                faults.append(Fault(instance.where, what, "Its ratios and lengths must agree all round, or one link must go."))
+            written.add_edge(one, two, path=instance.path)
+    return faults
+
+
+def _ties(instance: Instance) -> Any:
+    ties = getattr(instance.type, "ties", None)
+    return ties(instance.values) if ties else ()
+
+
+def _facts(assembly: Assembly, node_of: dict[PortRef, int]) -> dict[int, list[tuple[str, Instance, PortRef, Any]]]:
+    """Per node: inertias, start values and prescriptions of its components."""
+    facts: dict[int, list[tuple[str, Instance, PortRef, Any]]] = {}
+    for instance in assembly.instances.values():
+        for kind in ("inertia", "start"):
+            method = getattr(instance.type, kind, None)
+            for port, value in (method(instance.values) if callable(method) else {}).items():
+                ref = PortRef(instance.path, port)
+                facts.setdefault(node_of[ref], []).append((kind, instance, ref, value))
+        prescribes = getattr(instance.type, "prescribes", None)
+        for port, outputs in (prescribes() if prescribes else {}).items():
+            ref = PortRef(instance.path, port)
+            facts.setdefault(node_of[ref], []).append(("prescribes", instance, ref, outputs))
+    return facts
+
+
+def _group(nodes: list[Node], inside: list[tuple[int, float, float]], facts: Any) -> tuple[Group, list[Fault]]:
+    mass, starts, prescribed, faults, name = 0.0, [], [], [], ""
+    for node, ratio, offset in inside:
+        for kind, instance, ref, value in facts.get(node, ()):
+            if kind == "inertia":
+                mass += ratio**2 * value
+                name = name or instance.path
+            elif kind == "start":
+                starts.append((instance, ref, *_at_group(value, ratio, offset)))
+            else:
+                prescribed.append((instance, Prescribed(ref, value)))
+    if len(prescribed) > 1:
+        paths = " and ".join(instance.path for instance, _ in prescribed)
+        faults.append(Fault(prescribed[1][0].where, f"{paths} both prescribe the motion of one body.", "Keep one of them."))
+    position, wrong = _agreed(starts, 2)
+    rate, also = _agreed(starts, 3)
+    made = Group(
+        name or str(nodes[inside[0][0]].ports[0]), nodes[inside[0][0]].domain,
+        tuple(n for n, _, _ in inside), tuple(r for _, r, _ in inside), tuple(o for _, _, o in inside),
+        mass, (position, rate), prescribed[0][1] if prescribed else None,
+    )  # fmt: skip
+    return made, faults + wrong + also
+
+
+def _at_group(value: Any, ratio: float, offset: float) -> tuple[float | None, float | None]:
+    position, rate = value if isinstance(value, tuple) else (value, None)
+    return None if position is None else (position - offset) / ratio, None if rate is None else rate / ratio
+
+
+def _agreed(starts: list[Any], column: int) -> tuple[float, list[Fault]]:
+    """The start value that all who give one agree on; zero when nobody does."""
+    given = [s for s in starts if s[column] is not None]
+    for other in given[1:]:
+        if not math.isclose(other[column], given[0][column], rel_tol=1e-9, abs_tol=1e-12):
+            what = f"{given[0][1]} starts at {given[0][column]:g}, {other[1]} of the same body at {other[column]:g}."
+            return given[0][column], [Fault(other[0].where, what, "Give one of them, or the same value.")]
+    return (given[0][column] if given else 0.0), []

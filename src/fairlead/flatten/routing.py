@@ -1,0 +1,20 @@
+"""Lines laid along routes: every node of a line gets its contacts with the devices it may meet."""
+
+from __future__ import annotations
+
+from fairlead.component.instantiate import Assembly
+from fairlead.errors import Fault
+
+
+def lay(assembly: Assembly) -> list[Fault]:
+    """Add to the assembly the contacts of every line with its route; returns what does not fit."""
+    faults: list[Fault] = []
+    for one, two, where in assembly.routings:
+        ends = {path: assembly.lines[path] for path in (one, two)}
+        lines = [end for end in ends.values() if hasattr(end.line, "lay")]
+        routes = [end for end in ends.values() if not hasattr(end.line, "lay")]
+        if len(lines) != 1 or len(routes) != 1:
+            faults.append(Fault(where, f"{one}.path -- {two}.path joins no line with a route.", "Join an ArrayModule with a Route."))
+            continue
+        faults += lines[0].line.lay(assembly, lines[0], routes[0])
+    return faults

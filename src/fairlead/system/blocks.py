@@ -1,0 +1,190 @@
+"""The instances of every class variant laid out for their kernel: indices, coefficients, parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
+from fairlead.component.values import Wave
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.kernels import Kernel
+from fairlead.system.unknowns import LEDGER, Numbering
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+MASSLESS = 1e12  # inverse mass of a node without mass: light beside everything else
+NEVER = -1
+
+
+@dataclass
+class Tables:
+    """All tables of the model in one vector; the same table is stored once."""
+
+    rows: list[Floats] = field(default_factory=list)
+    at: dict[int, int] = field(default_factory=dict)
+    length: int = 0
+
+    def place(self, table: PiecewisePolynomial) -> int:
+        """Where a table starts."""
+        if id(table) not in self.at:
+            self.at[id(table)] = self.length
+            self.rows.append(table.rows)
+            self.length += table.rows.size
+        return self.at[id(table)]
+
+    def vector(self) -> Floats:
+        """All rows, flat."""
+        return np.concatenate([r.ravel() for r in self.rows]) if self.rows else np.zeros(STRIDE)
+
+
+@dataclass
+class Block:
+    """Instances of one variant, in the order of their signal rank."""
+
+    kernel: Kernel
+    instances: list[Instance]
+    ranks: list[int]
+    parameters: Floats
+    in_index: Integers
+    in_coef: Floats
+    in_offset: Floats
+    machines: Integers
+    table_base: Integers
+    sig_index: Integers
+    flow_index: Integers
+    flow_coef: Floats
+    ledger_index: Integers
+
+    @property
+    def count(self) -> int:
+        """How many instances."""
+        return len(self.instances)
+
+
+def build_blocks(flat: FlatModel, kernels: dict[str, Kernel], numbering: Numbering, ranks: dict[str, int], tau: float) -> tuple[list[Block], Tables, list[tuple[str, int]]]:
+    """Blocks, tables, and the machines in the order of their positions in `zones`: (instance, number in it)."""
+    grouped: dict[int, list[Instance]] = {}
+    for instance in flat.instances:
+        grouped.setdefault(kernels[instance.path].address, []).append(instance)
+    tables = Tables()
+    machines: list[tuple[str, int]] = []
+    blocks = []
+    for instances in grouped.values():
+        instances.sort(key=lambda instance: ranks.get(instance.path, 0))
+        kernel = kernels[instances[0].path]
+        blocks.append(_block(flat, kernel, instances, numbering, ranks, tables, machines, tau))
+    return blocks, tables, machines
+
+
+def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering: Numbering, ranks: dict[str, int],
+           tables: Tables, machines: list[tuple[str, int]], tau: float) -> Block:  # fmt: skip
+    s = kernel.structure
+    inputs = [[_input(flat, numbering, instance, key) for key in s.inputs] for instance in instances]
+    flows = [[_target(flat, numbering, instance, target) for target in s.targets] for instance in instances]
+    slots = []
+    for instance in instances:
+        slots.append([len(machines) + k for k in range(s.machines)])
+        machines += [(instance.path, k) for k in range(s.machines)]
+    signals = [[_signal(numbering, PortRef(i.path, name)) for name in s.outputs] for i in instances]
+    return Block(
+        kernel, instances, [ranks.get(i.path, 0) for i in instances],
+        _floats([[_parameter(flat, i, name, tau) for name in s.parameters] for i in instances]),
+        _integers([[z for z, _, _ in row] for row in inputs]), _floats([[c for _, c, _ in row] for row in inputs]),
+        _floats([[o for _, _, o in row] for row in inputs]), _integers(slots),
+        _integers([[tables.place(_polynomial(i.values.path(name))) for name in s.tables] for i in instances]),
+        _integers(signals), _integers([[w for w, _ in row] for row in flows]), _floats([[c for _, c in row] for row in flows]),
+        np.array([numbering.ledger.get(line, numbering.w_dump) for line in LEDGER], dtype=np.int64),
+    )  # fmt: skip
+
+
+def _floats(rows: Iterable[Iterable[float]]) -> Floats:
+    return np.array(list(rows), dtype=np.float64)
+
+
+def _integers(rows: Iterable[Iterable[int]]) -> Integers:
+    return np.array(list(rows), dtype=np.int64)
+
+
+def _polynomial(value: Any) -> PiecewisePolynomial:
+    return value.polynomial if isinstance(value, Wave) else value
+
+
+def _signal(numbering: Numbering, output: PortRef) -> int:
+    place = numbering.signals.get(output)
+    return numbering.dump if place is None else numbering.n + place
+
+
+def _input(flat: FlatModel, numbering: Numbering, instance: Instance, key: str) -> tuple[int, float, float]:
+    """Where an input lies in z, its coefficient and its offset."""
+    kind, _, rest = key.partition(":")
+    if kind == "t":
+        return numbering.time, 1.0, 0.0
+    if kind == "own":
+        return numbering.own[instance.path, rest], 1.0, 0.0
+    if kind == "in":
+        return _signal_input(flat, numbering, instance, rest)
+    port, variable = rest.split(":")
+    return _port_input(flat, numbering, PortRef(instance.path, port), variable)
+
+
+def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, name: str) -> tuple[int, float, float]:
+    source = flat.sources.get(PortRef(instance.path, name))
+    if source is not None:
+        return numbering.n + numbering.signals[source], 1.0, 0.0
+    default = instance.type.declaration.inputs[name].default
+    value = getattr(instance.values, default) if isinstance(default, str) else default
+    return numbering.zero, 0.0, float(value or 0.0)
+
+
+def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
+    """x position or potential, v rate, a acceleration, A prescribed acceleration, R reaction."""
+    index, ratio, offset = flat.place(port)
+    group, nothing = flat.groups[index], (numbering.zero, 0.0, 0.0)
+    if variable == "R":
+        return (numbering.first_reaction + numbering.reactions[index], 1.0, 0.0) if not group.free else nothing
+    if group.free:
+        if variable == "x":
+            return numbering.position[index], ratio, offset
+        rate = numbering.rate.get(index)
+        if rate is None or variable == "A":
+            return nothing
+        return (rate if variable == "v" else numbering.acceleration + rate), ratio, 0.0
+    assert group.prescribed is not None
+    if group.prescribed.outputs is None:
+        return numbering.zero, 0.0, ratio * group.start[0] + offset if variable == "x" else 0.0
+    _, own_ratio, own_offset = flat.place(group.prescribed.by)
+    output = group.prescribed.outputs["xva".index(variable.lower())]
+    signal = numbering.n + numbering.signals[PortRef(group.prescribed.by.instance, output)]
+    scale = ratio / own_ratio
+    return signal, scale, offset - scale * own_offset if variable == "x" else 0.0
+
+
+def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: str) -> tuple[int, float]:
+    """Row of w and coefficient of a flow, rate or balance. A balance is written  M v' = -sum of flows."""
+    kind, name = target.split(":")
+    if kind == "own":
+        return numbering.own[instance.path, name], 1.0
+    index, ratio, _ = flat.place(PortRef(instance.path, name))
+    if flat.groups[index].free:
+        return numbering.balance[index], -ratio
+    return numbering.n + numbering.reactions[index], ratio
+
+
+def _parameter(flat: FlatModel, instance: Instance, name: str, tau: float) -> float:
+    if name == "@tau":
+        return tau
+    if name.endswith(".inverse_mass"):
+        index, ratio, _ = flat.place(PortRef(instance.path, name.split(".")[0]))
+        group = flat.groups[index]
+        if not group.free:
+            return 0.0
+        return ratio**2 / group.mass if group.mass > 0 else MASSLESS
+    path, _, part = name.partition(":")
+    value = instance.values.path(path)
+    return float(getattr(value.sine, part) if part else value)

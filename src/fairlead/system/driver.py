@@ -1,0 +1,216 @@
+"""The callbacks of a System: they call kernels in order and gather what those say.
+
+Plain functions over flat memory, in the small subset of Python that `lowering.py` makes into machine
+code; compiled once, not once per model. Names in capitals are positions, see `layout.py`.
+
+    rhs        signals by rank, flows of all, reactions, ledger; rows x' = v
+    jacobian   the same, then partial derivatives of all kernels, then one list of multiply-adds that
+               eliminates the signals: work[a] += coefficient * partials[b] * work[c]
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from pathlib import Path
+
+from fairlead.native import Build, Native, digest, load_or_compile
+
+SIGNATURES = {
+    "rhs": (("I8", "float", "F8", "F8"), "None"),
+    "jacobian": (("I8", "float", "F8", "F8", "F8"), "None"),
+    "mass": (("I8", "F8"), "None"),
+    "guards": (("I8", "float", "F8", "F8"), "None"),
+    "switch": (("I8", "float", "F8", "I8", "int"), "int"),
+    "slip": (("I8", "float", "F8", "F8"), "int"),
+    "next_time": (("I8", "float"), "float"),
+    "at_time": (("I8", "float", "F8"), "int"),
+    "outputs": (("I8", "float", "F8", "F8"), "None"),
+}
+
+
+def evaluate(ctx, t, y):
+    """Signals, flows and ledger at (t, y): fills z and w."""
+    n, z, w, zones, tables = ctx[N], f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for i in range(0, n):
+        z[i] = y[i]
+    z[ctx[T_AT]] = t
+    schedule = i8(ctx[SCHEDULE])
+    for s in range(0, ctx[N_SCHEDULE]):
+        b = schedule[3 * s]
+        call_kernel(kernels[b], SIGNALS, i8(blocks + 8 * BLOCK * b), schedule[3 * s + 1], schedule[3 * s + 2], z, zones, tables, z)
+    for i in range(0, n + ctx[N_REACTIONS] + 1):
+        w[i] = 0.0
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], FLOWS, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, zones, tables, w)
+    mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
+    for r in range(0, ctx[N_REACTIONS]):
+        z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], LEDGER, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, zones, tables, w)
+    pairs = i8(ctx[PAIRS])
+    for k in range(0, ctx[N_PAIRS]):
+        w[pairs[2 * k]] = y[pairs[2 * k + 1]]
+
+
+def accelerate(ctx, t, y):
+    """As evaluate, and the accelerations in force, for guards and outputs."""
+    evaluate(ctx, t, y)
+    z, w, inverse, first = f8(ctx[Z]), f8(ctx[W]), f8(ctx[INVERSE_MASS]), ctx[ACCELERATION_AT]
+    for i in range(0, ctx[N]):
+        z[first + i] = w[i] * inverse[i]
+
+
+def rhs(ctx, t, y, f):
+    """f(t, y) in the zones in force."""
+    evaluate(ctx, t, y)
+    w = f8(ctx[W])
+    for i in range(0, ctx[N]):
+        f[i] = w[i]
+
+
+def jacobian(ctx, t, y, values, ft):
+    """df/dy along the pattern, and df/dt."""
+    evaluate(ctx, t, y)
+    z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for b in range(0, ctx[N_BLOCKS]):
+        block = i8(blocks + 8 * BLOCK * b)
+        call_kernel(kernels[b], PARTIALS_SIGNALS, block, 0, counts[b], z, zones, tables, partials)
+        call_kernel(kernels[b], PARTIALS_FLOWS, block, 0, counts[b], z, zones, tables, partials)
+        call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
+    work, program, coefficient = f8(ctx[WORK]), i8(ctx[PROGRAM]), f8(ctx[PROGRAM_COEF])
+    for i in range(1, ctx[N_WORK]):
+        work[i] = 0.0
+    for k in range(0, ctx[N_PROGRAM]):
+        work[program[3 * k]] += coefficient[k] * partials[program[3 * k + 1]] * work[program[3 * k + 2]]
+    first, entries = ctx[JACOBIAN_AT], ctx[N_JACOBIAN]
+    for i in range(0, entries):
+        values[i] = work[first + i]
+    for i in range(0, ctx[N]):
+        ft[i] = work[first + entries + i]
+
+
+def mass(ctx, values):
+    """M along its pattern: inertias, and the rows of held contacts."""
+    zones, partials, static = i8(ctx[ZONES]), f8(ctx[PARTIALS]), f8(ctx[MASS_STATIC])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], MASS, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), partials)
+    for i in range(0, ctx[N_MASS]):
+        values[i] = static[i]
+    program, coefficient = i8(ctx[MASS_PROGRAM]), f8(ctx[MASS_COEF])
+    for k in range(0, ctx[N_MASS_PROGRAM]):
+        values[program[2 * k]] += coefficient[k] * partials[program[2 * k + 1]]
+
+
+def guards(ctx, t, y, g):
+    """All guards; -1 where the zone in force has none."""
+    accelerate(ctx, t, y)
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], GUARD, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g)
+
+
+def switch(ctx, t, y, fired, n_fired):
+    """Follow the fired guards; of several of one instance the first counts."""
+    place, to, machines, zones = i8(ctx[GUARD_PLACE]), i8(ctx[GUARD_TO]), i8(ctx[GUARD_MACHINES]), i8(ctx[ZONES])
+    changed, last = 0, -1
+    for k in range(0, n_fired):
+        g = 4 * fired[k]
+        first = machines[fired[k]]
+        fresh = 1
+        if first == last:
+            fresh = 0
+        if fresh == 1:
+            last = first
+            zone = 0
+            if place[g] >= 0:
+                zone = zones[place[g]]
+            entry = 3 * (place[g + 1] + zone * place[g + 2] + place[g + 3])
+            machine = first + to[entry + 1]
+            if to[entry] >= 0:
+                zones[machine] = to[entry]
+            if to[entry] < 0:
+                zones[machine] += to[entry + 2]
+            changed += 1
+    return changed
+
+
+def slip(ctx, t, y, r):
+    """-slip on the rows that hold, zero elsewhere; how many rows hold."""
+    evaluate(ctx, t, y)
+    zones, holds = i8(ctx[ZONES]), i8(ctx[HOLDS])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    held = ctx[ALWAYS_HELD]
+    for k in range(0, ctx[N_HOLDS]):
+        if zones[holds[2 * k]] == holds[2 * k + 1]:
+            held += 1
+    for i in range(0, ctx[N]):
+        r[i] = 0.0
+    if held > 0:
+        for b in range(0, ctx[N_BLOCKS]):
+            call_kernel(kernels[b], SLIP, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), r)
+    return held
+
+
+def next_time(ctx, t):
+    """The end of the piece in force that comes first."""
+    place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    soonest = 1e309
+    for k in range(0, ctx[N_TIME]):
+        right = tables[place[3 * k + 1] + 8 * zones[place[3 * k]] + 1]
+        if right > t:
+            if right < soonest:
+                soonest = right
+    return soonest
+
+
+def at_time(ctx, t, y):
+    """Move to the pieces that hold from t on."""
+    place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    changed = 0
+    for k in range(0, ctx[N_TIME]):
+        for q in range(0, place[3 * k + 2]):
+            if tables[place[3 * k + 1] + 8 * zones[place[3 * k]] + 1] <= t:
+                zones[place[3 * k]] += 1
+                changed = 1
+    return changed
+
+
+def outputs(ctx, t, y, out):
+    """The recorded outputs, then the stored energy of all."""
+    accelerate(ctx, t, y)
+    z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], OUTPUT, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)
+    for k in range(0, ctx[N_SELECTED]):
+        if selected[k] >= 0:
+            out[k] = everything[selected[k]]
+        if selected[k] < 0:
+            out[k] = z[-1 - selected[k]]
+    total = 0.0
+    for k in range(0, ctx[N_STORED]):
+        total += everything[stored[k]]
+    out[ctx[N_SELECTED]] = total
+
+
+@functools.cache
+def callbacks() -> Native:
+    """The compiled driver; `address` holds the C address of every callback."""
+    sources = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("driver.py", "lowering.py", "layout.py")]
+    return load_or_compile(digest(*sources), _build)
+
+
+def _build() -> Build:
+    from fairlead.system.lowering import lower
+
+    shared = [inspect.getsource(function) for function in (evaluate, accelerate)]
+    here = globals()
+    made = {
+        name: lower(inspect.getsource(here[name]), name, kinds, returns, shared=shared)
+        for name, (kinds, returns) in SIGNATURES.items()
+    }
+    return Build({}, made)

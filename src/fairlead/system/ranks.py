@@ -1,0 +1,54 @@
+"""In which order signals are computed: an output after the outputs its value depends on."""
+
+from __future__ import annotations
+
+import networkx as nx
+
+from fairlead.component.instantiate import PortRef
+from fairlead.errors import Fault, ModelError
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.kernels import Kernel
+
+
+def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
+    """Rank of every instance that gives a signal. Raises ModelError for a loop of signals without delay."""
+    graph = nx.DiGraph()
+    needed = set(flat.sources.values())
+    for group in flat.groups:
+        if group.prescribed is not None and group.prescribed.outputs is not None:
+            needed |= {PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs}
+    for output in needed:
+        graph.add_node(output.instance)
+        for source in _read_by(flat, kernels[output.instance], output):
+            graph.add_edge(source.instance, output.instance)
+    try:
+        return {path: rank for rank, layer in enumerate(nx.topological_generations(graph)) for path in layer}
+    except nx.NetworkXUnfeasible:
+        loop = [a for a, _ in nx.find_cycle(graph)]
+        where = flat.assembly.instances[loop[0]].where
+        what = f"signals run in a loop without delay: {' -> '.join([*loop, loop[0]])}."
+        raise ModelError([Fault(where, what, "Break it with a State or a sampled component.")]) from None
+
+
+def _read_by(flat: FlatModel, kernel: Kernel, output: PortRef) -> list[PortRef]:
+    """Outputs whose values decide this one, through signal inputs and prescribed motions."""
+    s = kernel.structure
+    wanted = s.outputs.index(output.port)
+    found = []
+    for k, j in s.d_signals:
+        if k != wanted:
+            continue
+        kind, _, rest = s.inputs[j].partition(":")
+        if kind == "in":
+            source = flat.sources.get(PortRef(output.instance, rest))
+            found += [source] if source else []
+        elif kind == "port":
+            found += _prescribing(flat, PortRef(output.instance, rest.split(":")[0]))
+    return [source for source in found if source.instance != output.instance]
+
+
+def _prescribing(flat: FlatModel, port: PortRef) -> list[PortRef]:
+    group = flat.groups[flat.place(port)[0]]
+    if group.prescribed is None or group.prescribed.outputs is None:
+        return []
+    return [PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs]

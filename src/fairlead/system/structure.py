@@ -1,0 +1,31 @@
+"""What a compiled kernel reads and writes: stored with its machine code, so a warm start needs no SymPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What a kernel reads and writes, by position. Keys of inputs are those of `component/trace.py`."""
+
+    inputs: list[str]
+    parameters: list[str]
+    tables: list[str]
+    time_tables: list[str]
+    zones: list[str]
+    machines: int
+    outputs: list[str]
+    targets: list[str]  # "port:a", "own:force": where flows, rates and balances go
+    ledger: list[str]
+    d_signals: list[tuple[int, int]]  # (output, input) of every derivative that may be non-zero
+    d_flows: list[tuple[int, int]]
+    d_ledger: list[tuple[int, int]]
+    mass: list[tuple[str, int]]  # (unknown, input) of the mass entries of hold rows
+    holds: dict[str, list[str]]  # unknown -> zones that hold
+    guards: dict[str, list[dict[str, Any]]]  # zone -> its guards in slot order
+    slots: int
+    equations: dict[str, list[str]]  # zone -> its laws as text
+    flow_inputs: dict[str, dict[str, list[str]]]  # zone -> target -> input keys it depends on
+    reaches: dict[str, dict[str, str]]  # zone -> table -> input or expression it is read at

@@ -1,0 +1,124 @@
+"""The compiled model: everything an engine asks for, by the shape of `integrate.protocol.Problem`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system import layout
+from fairlead.system.blocks import Block
+from fairlead.system.unknowns import Numbering
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+class Pattern(NamedTuple):
+    """Where a sparse matrix has entries, by columns (CSC)."""
+
+    starts: Integers
+    rows: Integers
+
+
+@dataclass(frozen=True)
+class OutputSignal:
+    """One recordable output."""
+
+    name: str
+    unit: str
+    doc: str
+    at: int  # position among all outputs, or -1 - position in z
+
+
+@dataclass
+class System:
+    """A model as flat arrays and addresses of compiled callbacks. `memory` keeps the arrays alive."""
+
+    flat: FlatModel
+    numbering: Numbering
+    blocks: list[Block]
+    callbacks: dict[str, int]
+    context: int
+    initial: Floats
+    pattern: Pattern
+    mass_pattern: Pattern
+    zones: Integers
+    differential: NDArray[np.bool_]
+    quadrature: NDArray[np.bool_]
+    absolute: Floats
+    relative: Floats
+    cap: Floats
+    guard_tolerance: Floats
+    guard_machine: Integers
+    machine_names: Sequence[str]
+    guard_names: Sequence[str]
+    machine_zones: list[Sequence[str]]
+    machine_guards: list[Any]  # per machine: the block and the instance it belongs to
+    signals: list[OutputSignal]
+    memory: dict[str, NDArray[Any]] = field(repr=False)
+    recorded: list[OutputSignal] = field(default_factory=list)
+
+    @property
+    def n(self) -> int:
+        """How many unknowns."""
+        return len(self.initial)
+
+    @property
+    def unknown_names(self) -> list[str]:
+        """Names of the unknowns, in order."""
+        return [unknown.name for unknown in self.numbering.unknowns]
+
+    @property
+    def n_outputs(self) -> int:
+        """Recorded outputs, and the stored energy at the end."""
+        return len(self.recorded) + 1
+
+    def zone_names(self, machine: int) -> Sequence[str]:
+        """Names of the zones of one machine."""
+        return self.machine_zones[machine]
+
+    def guard_name(self, guard: int, machine: int, before: int) -> str:
+        """Name of the guard that fired, given the zone it left."""
+        if guard < 0:
+            return "time"
+        first = int(self.memory["guard_machines"][guard])
+        slot = int(self.memory["guard_place"][guard, 3])
+        block, _ = self.machine_guards[first]
+        s = block.kernel.structure
+        zone = s.zones[before] if machine == first and len(s.zones) > 1 and before < len(s.zones) else None
+        named = s.guards[zone] if zone else next((g for g in s.guards.values() if slot < len(g)), [])
+        return named[slot]["name"] if slot < len(named) else ""
+
+    def record(self, patterns: Iterable[str]) -> list[OutputSignal]:
+        """Choose what is recorded; always also the ledger and the creep of every contact, at the end."""
+        wanted = [re.compile(glob(pattern)) for pattern in patterns]
+        chosen = [s for s in self.signals if any(w.fullmatch(s.name) for w in wanted)]
+        hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s not in chosen]
+        self.recorded = chosen + hidden
+        self.memory["selected"] = np.array([s.at for s in self.recorded], dtype=np.int64)
+        context = self.memory["context"]
+        context[layout.N_SELECTED] = len(self.recorded)
+        context[layout.SELECTED] = self.memory["selected"].ctypes.data
+        return chosen
+
+    def __str__(self) -> str:
+        unknowns = self.numbering.unknowns
+        algebraic = sum(not u.differential for u in unknowns)
+        lines = [
+            f"{self.n} unknowns, {algebraic} of them algebraic; {len(self.pattern.rows)} entries in df/dy; "
+            f"{len(self.zones)} machines with zones; {len(self.guard_tolerance)} guard slots; {len(self.blocks)} kernels"
+        ]
+        lines += [f"  kernel {b.kernel.variant.label}: {b.count} instances" for b in self.blocks]
+        lines += [f"  unknown {u.name} [{u.unit}] {'' if u.differential else 'algebraic'}".rstrip() for u in unknowns]
+        return "\n".join(lines)
+
+
+def glob(pattern: str) -> str:
+    """A name pattern with * and ? as a regular expression; brackets mean themselves (`core[12]`)."""
+    return re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")

@@ -1,0 +1,63 @@
+"""One number, the accuracy, turned into weights and tolerances; and the checks that keep them in order.
+
+The error weight of unknown i is  min(absolute_i + relative_i |y_i|, cap_i).  Positions get no relative
+part: a stiff line far from the origin would lose its tension in it. The speeds of a binding contact are
+capped at a tenth of its creep: with a weight as large as the creep itself a run never ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.component.instantiate import PortRef
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.unknowns import Numbering, Unknown
+
+Floats = NDArray[np.float64]
+
+# Sizes that matter in a scene of handling equipment, by unit; the accuracy is relative to these.
+NOMINAL = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "rad": 1e-2, "rad/s": 1.0, "N*m": 10.0, "Pa": 1e5, "V": 1.0, "A": 1.0}
+CREEP_SHARE = 0.1  # weight of a speed at a binding contact, in creeps
+# What a guard may exceed zero by at an accepted point: rounding of quantities of its unit, no more.
+GUARD_ROUNDING = {"m/s": 1e-10, "rad/s": 1e-9, "m": 1e-10, "rad": 1e-9, "N": 1e-7, "N*m": 1e-7, "Pa": 1e-2}
+
+
+@dataclass(frozen=True)
+class Weights:
+    """absolute, relative and cap of every unknown, shape (n,) each."""
+
+    absolute: Floats
+    relative: Floats
+    cap: Floats
+
+
+def weights(flat: FlatModel, numbering: Numbering, accuracy: float) -> Weights:
+    """Weights for an accuracy."""
+    unknowns = numbering.unknowns
+    absolute = np.array([accuracy * nominal(u) for u in unknowns])
+    relative = np.array([0.0 if u.kind in ("position", "ledger") else accuracy for u in unknowns])
+    cap = np.full(len(unknowns), np.inf)
+    for instance in flat.instances:
+        creep = instance.values.given.get("creep")
+        if not isinstance(creep, float):
+            continue
+        for port in ("a", "b"):
+            rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
+            if rate is not None:
+                cap[rate] = min(cap[rate], CREEP_SHARE * creep)
+    return Weights(absolute, relative, cap)
+
+
+def nominal(unknown: Unknown) -> float:
+    """The size of an unknown that counts as 1."""
+    return NOMINAL.get(unknown.unit, 1.0)
+
+
+def guard_tolerances(units: Sequence[str], cap: Floats) -> Floats:
+    """Per guard: the rounding of its unit, but at most a tenth of the smallest speed weight."""
+    least = cap.min(initial=np.inf) * 0.1
+    return np.array([min(GUARD_ROUNDING.get(unit, 1e-9), least) for unit in units])

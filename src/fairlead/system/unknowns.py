@@ -1,0 +1,148 @@
+"""Numbering: which unknown, signal or reaction lies where in z and w, and what every unknown is called."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from fairlead.component.instantiate import Instance, PortRef
+from fairlead.flatten.flat_model import FlatModel, Group
+from fairlead.system.structure import Structure
+
+LEDGER = ("dissipated", "supplied")
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """One entry of y."""
+
+    name: str
+    unit: str
+    differential: bool
+    mass: float  # its diagonal entry of M, 0 when algebraic
+    start: float
+    kind: str  # position, rate, potential, state, multiplier, ledger
+
+
+@dataclass
+class Numbering:
+    """Positions in z and w. `zero` always holds 0, `dump` takes what nobody reads."""
+
+    unknowns: list[Unknown] = field(default_factory=list)
+    position: dict[int, int] = field(default_factory=dict)  # group -> unknown
+    rate: dict[int, int] = field(default_factory=dict)
+    balance: dict[int, int] = field(default_factory=dict)  # group -> row of its balance
+    own: dict[tuple[str, str], int] = field(default_factory=dict)
+    ledger: dict[str, int] = field(default_factory=dict)
+    pairs: list[tuple[int, int]] = field(default_factory=list)
+    signals: dict[PortRef, int] = field(default_factory=dict)  # output -> position among signals
+    reactions: dict[int, int] = field(default_factory=dict)  # prescribed group -> position among reactions
+
+    @property
+    def n(self) -> int:
+        """How many unknowns."""
+        return len(self.unknowns)
+
+    @property
+    def first_reaction(self) -> int:
+        """Where the reactions begin in z."""
+        return self.n + len(self.signals)
+
+    @property
+    def zero(self) -> int:
+        """Where z holds 0."""
+        return self.first_reaction + len(self.reactions)
+
+    @property
+    def time(self) -> int:
+        """Where z holds t."""
+        return self.zero + 1
+
+    @property
+    def acceleration(self) -> int:
+        """Where the accelerations begin in z."""
+        return self.zero + 2
+
+    @property
+    def dump(self) -> int:
+        """Last position of z."""
+        return self.acceleration + self.n
+
+    @property
+    def w_dump(self) -> int:
+        """Last position of w."""
+        return self.n + len(self.reactions)
+
+    def add(self, unknown: Unknown) -> int:
+        """Append an unknown and say where it is."""
+        self.unknowns.append(unknown)
+        return self.n - 1
+
+
+def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool) -> Numbering:
+    """Number all unknowns of the model: groups, own unknowns of components, ledger."""
+    made = Numbering()
+    damped = _groups_with_rate_forces(flat, structures)
+    for index, group in enumerate(flat.groups):
+        if group.free:
+            _number_group(made, index, group, rate_matters=index in damped)
+        else:
+            made.reactions[index] = len(made.reactions)
+    for instance in flat.instances:
+        _number_own(made, instance)
+    if energy:
+        for line in LEDGER:
+            made.ledger[line] = made.add(Unknown(f"energy.{line}", "J", True, 1.0, 0.0, "ledger"))
+    for output in _connected_outputs(flat):
+        made.signals[output] = len(made.signals)
+    return made
+
+
+def _number_group(made: Numbering, index: int, group: Group, *, rate_matters: bool) -> None:
+    (x, x_unit), *rest = group.domain.across
+    if not rest:  # one potential: pressure or voltage
+        row = made.add(Unknown(f"{group.name}.{x}", x_unit, group.mass > 0, group.mass, group.start[0], "potential"))
+        made.position[index] = made.balance[index] = row
+        return
+    v, v_unit = rest[0]
+    if group.mass == 0 and not rate_matters:  # springs alone: the balance gives the position itself
+        row = made.add(Unknown(f"{group.name}.{x}", x_unit, False, 0.0, group.start[0], "position"))
+        made.position[index] = made.balance[index] = row
+        return
+    made.position[index] = made.add(Unknown(f"{group.name}.{x}", x_unit, True, 1.0, group.start[0], "position"))
+    made.rate[index] = made.add(Unknown(f"{group.name}.{v}", v_unit, group.mass > 0, group.mass, group.start[1], "rate"))
+    made.balance[index] = made.rate[index]
+    made.pairs.append((made.position[index], made.rate[index]))
+
+
+def _number_own(made: Numbering, instance: Instance) -> None:
+    has = instance.type.declaration
+    for name, state in has.states.items():
+        start = getattr(instance.values, state.start) if isinstance(state.start, str) else state.start
+        made.own[instance.path, name] = made.add(
+            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, float(start), "state")
+        )
+    for name, unknown in has.unknowns.items():
+        made.own[instance.path, name] = made.add(
+            Unknown(f"{instance.path}.{name}", unknown.unit, False, 0.0, 0.0, "multiplier")
+        )
+
+
+def _groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
+    """Groups on which some law's flow depends on the rate: a node without mass keeps its rate then."""
+    found = set()
+    for instance in flat.instances:
+        for uses in structures[instance.path].flow_inputs.values():
+            for target, keys in uses.items():
+                if target.startswith("port:"):
+                    found |= {flat.place(PortRef(instance.path, k.split(":")[1]))[0] for k in keys if k.endswith(":v")}
+    return found
+
+
+def _connected_outputs(flat: FlatModel) -> list[PortRef]:
+    """Outputs that feed an input or prescribe a motion, each once."""
+    found = dict.fromkeys(flat.sources.values())
+    for group in flat.groups:
+        if group.prescribed is not None and group.prescribed.outputs is not None:
+            found |= dict.fromkeys(PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs)
+    return list(found)
