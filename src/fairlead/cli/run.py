@@ -59,17 +59,18 @@ def exit_code(outcome: dict[str, Any]) -> int:
 def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> list[pathlib.Path]:
     """What is made from the results: figures the netlist names, and CSV and a page when asked."""
     written = []
-    if plots := model.netlist.record.plots:
+    plots = model.netlist.record.plots
+    if report:
+        from fairlead.report import page
+
+        written.append(page.write(result, plots))  # draws the figures as well
+    elif plots:
         from fairlead.report import figures
 
         written += figures.draw(result, plots)
     if csv:
         written.append(result.path / "series.csv")
         result.to_csv(written[-1])
-    if report:
-        from fairlead.report import page
-
-        written.append(page.write(result, plots))
     return written
 
 
