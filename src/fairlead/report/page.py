@@ -33,11 +33,13 @@ PAGE = Template("""<!DOCTYPE html>
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>$title</title>
 <style>
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; }
+body { max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.6rem; margin-bottom: 0; }
 h2 { font-size: 1.15rem; margin-top: 2.2rem; }
 table { border-collapse: collapse; font-size: .9rem; }
-th, td { text-align: left; padding: .2rem 1.2rem .2rem 0; border-bottom: 1px solid #e5e5e5; vertical-align: top; }
+th, td { text-align: left; vertical-align: top; }
+th, td { padding: .2rem 1.2rem .2rem 0; border-bottom: 1px solid #e5e5e5; }
 th { font-weight: 600; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
 img { width: 100%; margin: .6rem 0; }

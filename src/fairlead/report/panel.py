@@ -54,7 +54,7 @@ def thinned(t: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[NDArray[Any
     runs = len(t) // length
     rows = np.where(np.isnan(y), -np.inf, y)[: runs * length].reshape(runs, length)
     starts = np.arange(runs) * length
-    ends = np.arange(runs * length, len(t))
+    ends = np.arange(min(runs * length, len(t) - 1), len(t))
     kept = np.unique(np.concatenate([[0], starts + rows.argmin(1), starts + rows.argmax(1), ends]))
     return t[kept], y[kept]
 

@@ -6,9 +6,11 @@ from pathlib import Path
 
 from fairlead.errors import UsageError
 from fairlead.results import run_file
+from fairlead.results.events import EVENT_FILE
+from fairlead.results.store import SERIES_FILE, TEMPORARY
 
 REPLACEABLE = (run_file.KILLED, "failed")
-OWN_FILES = ("series.nc", "events.csv", "report.html")
+OWN_FILES = (SERIES_FILE, TEMPORARY, EVENT_FILE, "report.html")
 FIGURE_MARK = b"Software\0fairlead"
 WAY_OUT = "Choose another directory with --out, or replace it with --force."
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
+EVENT_FILE = "events.csv"
 HEADER = ("t [s]", "component", "from", "to", "guard")
 
 

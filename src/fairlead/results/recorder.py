@@ -28,9 +28,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fairlead.errors import FairleadError, listing
 from fairlead.results import claim, run_file
-from fairlead.results.events import Event, EventWriter
+from fairlead.results.events import EVENT_FILE, Event, EventWriter
 from fairlead.results.signal import Signal
-from fairlead.results.store import SeriesWriter
+from fairlead.results.store import SERIES_FILE, SeriesWriter
 
 FLUSH_PERIOD = 0.5
 LARGEST_SHARE_OF_FLUSHING = 0.05
@@ -58,8 +58,8 @@ class RunDirectory:
         self._open = True
         with _disk(path):
             run_file.write(path, self._record)
-            self._series = SeriesWriter(path / "series.nc", signals)
-            self._events = EventWriter(path / "events.csv")
+            self._series = SeriesWriter(path / SERIES_FILE, signals)
+            self._events = EventWriter(path / EVENT_FILE)
 
     @classmethod
     def create(
@@ -123,10 +123,16 @@ class RunDirectory:
             raise FairleadError(f"The run in {self.path} is finished already.")
         self._open = False
         with _disk(self.path):
-            self._write_blocks(last=True)
-            self._series.close()
-            self._events.close()
-            run_file.write(self.path, {**self._record, **summary, "status": status, "ended": run_file.now()})
+            try:
+                self._write_blocks(last=True)
+            except BaseException:
+                status = "failed"  # Rows are missing.
+                raise
+            finally:
+                end = {"status": status, "ended": run_file.now()}
+                run_file.write(self.path, {**self._record, **summary, **end})
+                self._events.close()
+                self._series.close()
 
     def __enter__(self) -> RunDirectory:
         return self
@@ -173,8 +179,8 @@ def _disk(path: Path) -> Iterator[None]:
     """Turn a refusal of the operating system into a message that names the directory."""
     try:
         yield
-    except OSError as error:
-        reason = error.strerror or str(error)
+    except (OSError, RuntimeError) as error:  # h5py raises either.
+        reason = getattr(error, "strerror", None) or str(error)
         raise FairleadError(
             f"Results cannot be written to {path}: {reason}.\n"
             "    Make room or choose another directory with --out; what was written before is kept."

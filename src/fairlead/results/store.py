@@ -18,6 +18,7 @@ Chunks are not compressed: a compressed chunk changes its place in the file with
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +29,11 @@ from fairlead.results import layout
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
 from fairlead.results.signal import Signal
 
+SERIES_FILE, TEMPORARY = "series.nc", "series.nc.new"
 FIRST_ROOM = 1024
 GROWTH = 4
 LARGEST_COPY = 2**26
+BYTES_OF_LAYOUT = 4096  # for each variable; measured: 2700
 
 
 class SeriesWriter:
@@ -41,7 +44,8 @@ class SeriesWriter:
         self._signals = signals
         self._bytes_in_row = 8 * (len(signals) + 1) + 1
         self._rows = 0
-        self._room = 0
+        self._room = 0  # rows in the chunks there are
+        self._chunk = 0  # rows in one chunk
         self._file: Any = None
 
     def write(
@@ -54,13 +58,17 @@ class SeriesWriter:
         """Append `t` (k,) [s], `values` (k, m) and `side` (k,); on return they are on the disk.
 
         `last` says that no more blocks follow, so that no room is left for them. Raises OSError when
-        the disk does not take the block.
+        the disk is full, OSError or RuntimeError (h5py decides) when it fails otherwise.
         """
         rows = self._rows + len(t)
         if self._file is None or (rows > self._room and self._room < self._most_room()):
             room = rows if last else min(max(GROWTH * rows, FIRST_ROOM), self._most_room())
             self._move(max(room, rows, 1), t, values, side)
         else:
+            if rows > self._room:
+                chunks = -(-(rows - self._room) // self._chunk)
+                self._probe(chunks * self._chunk)
+                self._room += chunks * self._chunk
             _append(self._file, self._signals, self._rows, t, values, side)
             self._file.flush()
         self._rows = rows
@@ -76,15 +84,33 @@ class SeriesWriter:
 
     def _move(self, room: int, t: NDArray[Any], values: NDArray[Any], side: NDArray[Any]) -> None:
         """Replace the file by a copy that has room for `room` rows, with the block appended."""
-        temporary = self.path.with_name(self.path.name + ".new")
+        temporary = self.path.with_name(TEMPORARY)
+        self._probe(room)
         layout.create(temporary, self._signals, room)
         with open_file(temporary, "r+") as successor:
             if self._file is not None:
                 _append(successor, self._signals, 0, *_rows_of(self._file, self._signals))
-                self._file.close()
             _append(successor, self._signals, self._rows, t, values, side)
+        if self._file is not None:
+            self._file.close()
         temporary.replace(self.path)
-        self._file, self._room = open_file(self.path, "r+"), room
+        self._file, self._room, self._chunk = open_file(self.path, "r+"), room, room
+
+    def _probe(self, rows: int) -> None:
+        """Raise OSError when the disk has no place for so many rows more.
+
+        HDF5 must not find out: after a write that failed it cannot close the file any more, and the
+        process ends with a segmentation fault. Within the room of a chunk it needs no new place.
+        """
+        if not hasattr(os, "posix_fallocate"):
+            return
+        probe = self.path.with_name(TEMPORARY)
+        with probe.open("wb") as file:
+            size = rows * self._bytes_in_row + BYTES_OF_LAYOUT * (len(self._signals) + 10)
+            try:
+                os.posix_fallocate(file.fileno(), 0, size)
+            finally:
+                probe.unlink()
 
 
 def _append(

@@ -23,9 +23,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
 from fairlead.results import run_file
-from fairlead.results.events import Event, read_events
+from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.signal import Signal, matching
+from fairlead.results.store import SERIES_FILE
 
 if TYPE_CHECKING:
     import pandas
@@ -62,7 +63,7 @@ class Result:
         if run is None:
             raise UsageError(f"{path} holds no run of fairlead: there is no readable run.json in it.")
         try:
-            series = SeriesReader(path / "series.nc")
+            series = SeriesReader(path / SERIES_FILE)
         except (OSError, KeyError) as error:
             raise UsageError(f"The signals of the run in {path} cannot be read: {error}.") from error
         return cls(path, {**run, "status": run_file.status(run)}, series)
@@ -85,7 +86,7 @@ class Result:
     @cached_property
     def events(self) -> list[Event]:
         """Zone changes in order: (t, component, zone_from, zone_to, guard)."""
-        return read_events(self.path / "events.csv")
+        return read_events(self.path / EVENT_FILE)
 
     @property
     def status(self) -> str:

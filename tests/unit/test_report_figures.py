@@ -1,0 +1,144 @@
+"""Figures and the page: what is drawn, under which name, and what happens to odd records."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fairlead.errors import UsageError
+from fairlead.report import figures, page, panel
+from fairlead.results import Result, RunDirectory, Signal
+
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+SIGNALS = (
+    Signal("haul.force", "N", "pull of the haul"),
+    Signal("block.v", "m/s", "speed of the block"),
+    *(Signal(f"line.core[{i}].tension", "N", "pull in the core") for i in range(12)),
+)
+
+
+@pytest.fixture
+def result(tmp_path: Path) -> Result:
+    header = {"name": "bend <1>", "description": "A line & a bend.", "settings": {"accuracy": 1e-3}}
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, header)
+    t = np.linspace(0, 1, 50)
+    run.append(t, np.outer(t, np.arange(len(SIGNALS))), np.r_[np.zeros(49), -1])
+    run.append(t + 1, np.outer(t, np.arange(len(SIGNALS))) + 3, np.r_[1, np.zeros(49)])
+    run.event(1.0, "line.bulkhead[2]", "stuck", "forward", "slides")
+    run.finish("finished", {"steps": 99, "limits_broken": ["line.core[3].tension = 7 N is above 6 N"]})
+    return Result.open(tmp_path / "run")
+
+
+def is_picture(path: Path) -> bool:
+    return path.read_bytes().startswith(PNG_SIGNATURE)
+
+
+def test_a_plot_of_the_netlist_becomes_a_picture_in_the_run_directory(result: Result) -> None:
+    (path,) = figures.draw(result, [{"signals": ["line.*.tension", "block.v"], "file": "pull.png"}])
+    assert path == result.path / "pull.png"
+    assert is_picture(path)
+
+
+def test_plots_with_one_title_get_different_files(result: Result) -> None:
+    plots = [{"title": "Pull / N", "signals": "haul.force"}, {"title": "Pull / N", "signals": "block.v"}]
+    assert [path.name for path in figures.draw(result, plots)] == ["Pull_N.png", "Pull_N_2.png"]
+
+
+def test_without_plots_every_quantity_gets_a_figure(result: Result) -> None:
+    assert [path.name for path in figures.draw(result)] == ["force.png", "v.png", "tension.png"]
+
+
+def test_a_pattern_that_fits_nothing_is_warned_of(result: Result) -> None:
+    with pytest.warns(UserWarning, match=r"no recorded signal fits block\.vv\. Did you mean block\.v\?"):
+        assert figures.draw(result, [{"signals": ["block.vv"]}]) == []
+
+
+@pytest.mark.parametrize("file", ["../out.png", "/out.png", "sub/out.png"])
+def test_a_picture_stays_in_the_run_directory(result: Result, file: str) -> None:
+    with pytest.raises(UsageError, match="plain file name"):
+        figures.draw(result, [{"signals": ["block.v"], "file": file}])
+
+
+def test_signals_of_different_units_get_panels_of_their_own(result: Result) -> None:
+    panels = figures._by_unit(result.signals)
+    assert [{signal.unit for signal in panel} for panel in panels] == [{"N"}, {"m/s"}]
+
+
+def test_a_jump_is_drawn_as_a_vertical(result: Result) -> None:
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    panel.draw_panel(ax, result, [SIGNALS[1]])
+    t, y = ax.lines[0].get_data()
+    rows = np.flatnonzero(t == 1.0)
+    np.testing.assert_array_equal(y[rows], [1.0, 3.0])
+
+
+def test_axes_carry_quantity_and_unit_and_few_signals_a_legend(result: Result) -> None:
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    panel.draw_panel(ax, result, SIGNALS[2:5])
+    assert ax.get_ylabel() == "tension [N]"
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == [s.name for s in SIGNALS[2:5]]
+
+
+def test_many_elements_share_a_colour_scale_and_no_legend(result: Result) -> None:
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    panel.draw_panel(ax, result, SIGNALS[2:])
+    assert ax.get_legend() is None
+    assert len(ax.collections[0].get_segments()) == 12
+
+
+def test_thinning_keeps_every_extreme_value() -> None:
+    rng = np.random.default_rng(1)
+    t, y = np.linspace(0, 1, 100_000), rng.normal(size=100_000)
+    y[12_345], y[67_890] = 50.0, -50.0
+    few_t, few_y = panel.thinned(t, y)
+    assert len(few_t) <= panel.MOST_POINTS + 100
+    assert (few_y.max(), few_y.min()) == (50.0, -50.0)
+    assert (few_t[0], few_t[-1]) == (0.0, 1.0)
+
+
+def test_a_run_without_rows_is_drawn_empty(tmp_path: Path) -> None:
+    RunDirectory.create(tmp_path / "run", SIGNALS, {}).finish("failed", {})
+    assert all(is_picture(path) for path in figures.draw(Result.open(tmp_path / "run")))
+
+
+def test_infinite_and_missing_values_do_not_stop_a_figure(tmp_path: Path) -> None:
+    with RunDirectory.create(tmp_path / "run", SIGNALS[:1], {}) as run:
+        run.append([0.0, 1.0, 2.0], [[np.nan], [np.inf], [1.0]], [0, 0, 0])
+    assert is_picture(figures.draw(Result.open(tmp_path / "run"))[0])
+
+
+def test_a_later_run_removes_the_pictures_of_an_earlier_one(result: Result) -> None:
+    (path,) = figures.draw(result, [{"signals": ["block.v"], "file": "v.png"}])
+    RunDirectory.create(result.path, SIGNALS, {}, force=True).finish("finished", {})
+    assert not path.exists()
+
+
+def test_the_page_is_self_contained_and_escapes_what_users_wrote(result: Result) -> None:
+    text = page.write(result).read_text(encoding="utf-8")
+    assert "<h1>bend &lt;1&gt;</h1>" in text
+    assert "A line &amp; a bend." in text
+    sources = re.findall(r'(?:src|href)="([^"]{0,30})', text)
+    assert sources
+    assert all(source.startswith("data:image/png;base64,") for source in sources)
+
+
+def test_the_page_tells_run_limits_zones_and_ranges(result: Result) -> None:
+    text = page.write(result).read_text(encoding="utf-8")
+    assert "line.core[3].tension = 7 N is above 6 N" in text
+    assert "<td>settings accuracy</td><td>0.001</td>" in text
+    assert "stuck → forward (1)" in text
+    assert '<td>line.core[*].tension</td><td class="number">12</td><td>N</td>' in text
+
+
+def test_the_page_of_a_run_without_signals_says_so(tmp_path: Path) -> None:
+    RunDirectory.create(tmp_path / "run", (), {}).finish("failed", {})
+    assert "Nothing was recorded." in page.write(Result.open(tmp_path / "run")).read_text(encoding="utf-8")

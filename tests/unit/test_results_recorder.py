@@ -1,0 +1,162 @@
+"""The run directory: which places are taken, what a finished and an unfinished run leave."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fairlead.errors import FairleadError, UsageError
+from fairlead.results import Result, RunDirectory, Signal, recorder, run_file
+
+SIGNALS = (Signal("block.v", "m/s", "speed of the block"),)
+
+
+def finished(path: Path, status: str = "finished") -> None:
+    run = RunDirectory.create(path, SIGNALS, {"name": "first"})
+    run.append([0.0], [[1.0]], [0])
+    run.finish(status, {"steps": 1})
+
+
+def run_that_raises(path: Path, error: BaseException) -> None:
+    with RunDirectory.create(path, SIGNALS, {}) as run:
+        run.append([0.0], [[1.0]], [0])
+        raise error
+
+
+def pretend_killed(path: Path) -> None:
+    """Leave run.json as a killed process leaves it: status running, and no such process any more."""
+    record = run_file.read(path)
+    assert record is not None
+    run_file.write(path, {**record, "status": "running", "process": 2**22 + 1})  # beyond Linux's pid_max
+
+
+@pytest.mark.parametrize("status", ["finished", "interrupted", "budget"])
+def test_a_run_with_results_to_keep_is_not_overwritten(tmp_path: Path, status: str) -> None:
+    finished(tmp_path / "run", status)
+    with pytest.raises(UsageError, match="--force"):
+        RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    assert len(Result.open(tmp_path / "run")["block.v"]) == 1
+
+
+def test_force_replaces_a_finished_run(tmp_path: Path) -> None:
+    finished(tmp_path / "run")
+    RunDirectory.create(tmp_path / "run", SIGNALS, {"name": "second"}, force=True).finish("finished", {})
+    result = Result.open(tmp_path / "run")
+    assert result.run["name"] == "second"
+    assert len(result.t) == 0
+    assert "steps" not in result.run
+
+
+def test_a_failed_run_is_replaced_without_force(tmp_path: Path) -> None:
+    finished(tmp_path / "run", "failed")
+    RunDirectory.create(tmp_path / "run", SIGNALS, {}).finish("finished", {})
+
+
+def test_a_killed_run_is_replaced_without_force(tmp_path: Path) -> None:
+    finished(tmp_path / "run")
+    pretend_killed(tmp_path / "run")
+    assert Result.open(tmp_path / "run").status == "killed"
+    RunDirectory.create(tmp_path / "run", SIGNALS, {}).finish("finished", {})
+
+
+def test_a_run_that_goes_on_is_not_overwritten(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    with pytest.raises(UsageError, match="is being written by process"):
+        RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    run.finish("finished", {})
+
+
+def test_a_folder_of_something_else_is_not_used(tmp_path: Path) -> None:
+    (tmp_path / "thesis.tex").write_text("")
+    with pytest.raises(UsageError, match="holds no run of fairlead"):
+        RunDirectory.create(tmp_path, SIGNALS, {})
+
+
+def test_a_file_in_the_place_of_the_directory_is_never_replaced(tmp_path: Path) -> None:
+    (tmp_path / "run").write_text("mine")
+    with pytest.raises(UsageError, match="is a file"):
+        RunDirectory.create(tmp_path / "run", SIGNALS, {}, force=True)
+
+
+def test_only_files_of_a_run_are_removed(tmp_path: Path) -> None:
+    finished(tmp_path / "run")
+    (tmp_path / "run" / "notes.txt").write_text("mine")
+    (tmp_path / "run" / "photo.png").write_bytes(b"\x89PNG mine")
+    (tmp_path / "run" / "report.html").write_text("of the earlier run")
+    RunDirectory.create(tmp_path / "run", SIGNALS, {}, force=True).finish("finished", {})
+    names = {file.name for file in (tmp_path / "run").iterdir()}
+    assert names == {"notes.txt", "photo.png", "run.json", "series.nc", "events.csv"}
+
+
+def test_run_json_has_header_status_and_summary(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {"name": "belt", "hash": "ab"})
+    assert json.loads((tmp_path / "run" / "run.json").read_text())["status"] == "running"
+    run.finish("budget", {"steps": np.int64(3), "worst_creep": {"value": float("nan")}})
+    record = json.loads((tmp_path / "run" / "run.json").read_text())
+    assert (record["status"], record["name"], record["steps"]) == ("budget", "belt", 3)
+    assert record["worst_creep"]["value"] is None  # JSON has no NaN.
+
+
+def test_an_exception_ends_the_run_as_failed_and_keeps_its_rows(tmp_path: Path) -> None:
+    with pytest.raises(ZeroDivisionError):
+        run_that_raises(tmp_path / "run", ZeroDivisionError("at t = 0 s"))
+    result = Result.open(tmp_path / "run")
+    assert (result.status, result.run["error"], len(result.t)) == ("failed", "at t = 0 s", 1)
+
+
+def test_an_interrupt_keeps_the_rows(tmp_path: Path) -> None:
+    with pytest.raises(KeyboardInterrupt):
+        run_that_raises(tmp_path / "run", KeyboardInterrupt())
+    assert Result.open(tmp_path / "run").status == "interrupted"
+
+
+def test_rows_are_copied_because_the_integrator_uses_its_buffers_again(tmp_path: Path) -> None:
+    t, values, side = np.zeros(1), np.ones((1, 1)), np.zeros(1, np.int8)
+    with RunDirectory.create(tmp_path / "run", SIGNALS, {}) as run:
+        run.append(t, values, side)
+        values[:] = 7.0
+    assert Result.open(tmp_path / "run")["block.v"].tolist() == [1.0]
+
+
+def test_flushed_rows_are_readable_while_the_run_goes_on(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    run.append([0.0, 1.0], [[1.0], [2.0]], [0, 0])
+    run.event(1.0, "pad", "stuck", "forward", "slides")
+    run.flush(at_once=True)
+    result = Result.open(tmp_path / "run")
+    assert (result.status, result["block.v"].tolist(), len(result.events)) == ("running", [1.0, 2.0], 1)
+    run.finish("finished", {})
+
+
+def test_a_block_too_large_for_memory_goes_to_the_disk_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recorder, "MOST_BYTES_IN_MEMORY", 100)
+    monkeypatch.setattr(recorder, "FLUSH_PERIOD", 1e9)
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    run.append(np.arange(20.0), np.ones((20, 1)), np.zeros(20))
+    assert len(Result.open(tmp_path / "run").t) == 20
+    run.finish("finished", {})
+
+
+@pytest.mark.parametrize("times", [[1.0, 0.5], [float("nan")]])
+def test_times_that_run_backwards_are_refused(tmp_path: Path, times: list[float]) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    with pytest.raises(FairleadError, match="must not run backwards"):
+        run.append(times, np.zeros((len(times), 1)), np.zeros(len(times)))
+    run.finish("failed", {})
+
+
+def test_two_signals_of_one_name_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(FairleadError, match=r"same name: block\.v"):
+        RunDirectory.create(tmp_path / "run", SIGNALS * 2, {})
+
+
+def test_a_run_is_finished_once(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    run.finish("finished", {})
+    with pytest.raises(FairleadError, match="finished already"):
+        run.finish("finished", {})
