@@ -57,7 +57,7 @@ def record_piece(m):
         t = m.start + m.grid_next * m.every
         theta = (t - m.t) / m.h
         if t >= m.t_piece - 1e-12 * max(abs(m.t_piece), m.every):
-            write_row(m, t, m.at_y_piece, ORDINARY)
+            write_row(m, min(t, m.t_piece), m.at_y_piece, ORDINARY)  # never later than an event there
         else:
             interpolate(m, theta, m.at_y_probe)
             write_row(m, t, m.at_y_probe, ORDINARY)

@@ -1,0 +1,1 @@
+"""What a run tells beyond its signals: energy closure, creep of stuck contacts, broken limits."""

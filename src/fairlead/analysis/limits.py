@@ -1,0 +1,90 @@
+"""Limits of a netlist: which recorded signals leave the range they were given.
+
+    limits: {"line.hose[*].tension": {above: -160 N}}       the signal must stay above -160 N
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.errors import Fault, ModelError, did_you_mean, listing, shown
+from fairlead.netlist.netlist import Value
+from fairlead.quantities import QuantityError, si
+from fairlead.system.system import OutputSignal, glob
+
+SENSES = {"above": -1.0, "below": +1.0}
+
+
+@dataclass
+class Limit:
+    """One bound on some recorded columns: sense * (value - bound) must not become positive."""
+
+    text: str
+    columns: NDArray[np.int64]
+    names: Sequence[str]
+    sense: float
+    bound: float
+    unit: str
+    worst: float = 0.0
+    broken: str = ""
+
+    def watch(self, t: NDArray[np.float64], rows: NDArray[np.float64]) -> None:
+        """Take recorded rows (k, m)."""
+        if not len(rows):
+            return
+        beyond = self.sense * (rows[:, self.columns] - self.bound)
+        k, j = np.unravel_index(int(beyond.argmax()), beyond.shape)
+        if beyond[k, j] > self.worst:
+            self.worst = float(beyond[k, j])
+            value = rows[k, self.columns[j]]
+            self.broken = f"{self.names[j]} = {value:.6g} {self.unit} at t = {t[k]:.6g} s, allowed: {self.text}"
+
+
+@dataclass
+class Limits:
+    """All limits of a run."""
+
+    limits: list[Limit] = field(default_factory=list)
+
+    def watch(self, t: NDArray[np.float64], rows: NDArray[np.float64]) -> None:
+        """Take recorded rows."""
+        for limit in self.limits:
+            limit.watch(t, rows)
+
+    def broken(self) -> list[str]:
+        """A sentence for every limit that was broken, at its worst."""
+        return [limit.broken for limit in self.limits if limit.broken]
+
+
+def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) -> Limits:
+    """Bind the limits of a netlist to recorded columns. Raises ModelError."""
+    import re
+
+    found, faults = Limits(), []
+    for pattern, value in given.items():
+        wanted = re.compile(glob(pattern))
+        columns = [k for k, signal in enumerate(recorded) if wanted.fullmatch(signal.name)]
+        if not columns:
+            near = did_you_mean(pattern, [signal.name for signal in recorded])
+            faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip()))
+            continue
+        for word, bound in value.entries.items():
+            unit = recorded[columns[0]].unit
+            if word not in SENSES:
+                what = f"limits.{pattern}.{word}: a limit is above or below. {did_you_mean(word, SENSES)}"
+                faults.append(Fault(bound.named_at, what.rstrip(), f"Write {listing(SENSES)}."))
+                continue
+            try:
+                number = si(bound.plain(), unit)
+            except QuantityError as error:
+                faults.append(Fault(bound.where, f"limits.{pattern}.{word} = {shown(bound.plain())}: {error}"))
+                continue
+            names = [recorded[k].name for k in columns]
+            found.limits.append(Limit(f"{word} {bound.plain()}", np.array(columns), names, SENSES[word], number, unit))
+    if faults:
+        raise ModelError(faults)
+    return found

@@ -1,0 +1,145 @@
+"""One run: the engine is started, what it records goes to disk, and the summary is drawn up."""
+
+from __future__ import annotations
+
+import pathlib
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fairlead.analysis.creep import WorstCreep
+from fairlead.analysis.energy import Ledger
+from fairlead.analysis.limits import Limits, read_limits
+from fairlead.integrate import Block, Outcome, Run, integrate
+from fairlead.integrate.protocol import Status
+from fairlead.netlist.netlist import Netlist
+from fairlead.netlist.settings import RunSettings
+from fairlead.results import Result, RunDirectory, Signal
+
+if TYPE_CHECKING:
+    from fairlead.system.system import OutputSignal, System
+
+LOOSE = 1e-2  # from this accuracy on the method of order 3 is cheaper
+SIDES = np.array([0, -1, +1], dtype=np.int8)  # of the engine: ordinary, before an event, after it
+
+
+@dataclass
+class Watch:
+    """Receives blocks of the engine: writes them down and keeps the figures of the summary."""
+
+    system: System
+    directory: RunDirectory
+    chosen: int
+    ledger: Ledger
+    creep: WorstCreep
+    limits: Limits
+    progress: Callable[[float, float, Any], None] | None
+
+    def __call__(self, block: Block) -> None:
+        """Take one block."""
+        columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
+        self.directory.append(block.t, block.values[:, : self.chosen], SIDES[block.side])
+        self.directory.events(_named(self.system, row) for row in block.events)
+        self.creep.watch(block.t, block.values[:, [columns[name] for name in self.creep.names]])
+        self.limits.watch(block.t, block.values)
+        if "energy.supplied" in columns:
+            self.ledger.watch(block.values[:, [columns["energy.dissipated"], columns["energy.supplied"], -1]])
+        if self.progress is not None:
+            self.progress(block.fraction, block.reached, None)
+
+
+def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
+        progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float) -> Result:  # fmt: skip
+    """Run a compiled model and return its results. Raises ModelError, UsageError; a run that fails keeps its results."""
+    chosen = system.record(_patterns(netlist))
+    limits = read_limits(netlist.limits, system.recorded)
+    creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
+    compiled = time.perf_counter() - begun
+    directory = RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force)
+    watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress)
+    try:
+        outcome = integrate(system, _engine_settings(netlist, settings), watch)
+    except BaseException:
+        directory.finish("failed", {})
+        raise
+    summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
+    if profile:
+        summary["profile"] = _profile(system, outcome)
+    directory.finish(_status(outcome), summary)
+    return Result.open(path)
+
+
+def _patterns(netlist: Netlist) -> list[str]:
+    """What to record: what is asked for, and what plots and limits need."""
+    plotted = [pattern for plot in netlist.record.plots for pattern in plot.signals]
+    return [*netlist.record.signals, *plotted, *netlist.limits]
+
+
+def _signals(chosen: list[OutputSignal]) -> list[Signal]:
+    return [Signal(signal.name, signal.unit, signal.doc) for signal in chosen]
+
+
+def _engine_settings(netlist: Netlist, settings: RunSettings) -> Run:
+    method = settings.method if settings.method != "auto" else ("rodas3p" if settings.accuracy >= LOOSE else "rodas5p")
+    return Run(
+        stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
+        first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
+        max_steps=settings.max_steps, max_events=settings.max_events, max_wall=settings.max_wall,
+        dwell=settings.dwell, on_chatter=settings.chatter,
+    )  # fmt: skip
+
+
+def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str, Any]:
+    return {
+        "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest, "description": netlist.description,
+        "settings": settings.model_dump(), "engine": "rodas", "engine_reason": "the only engine of this version",
+        "effects": {name: value.plain() for name, value in netlist.effects.items()},
+        "unknowns": system.n, "machines": len(system.zones),
+    }  # fmt: skip
+
+
+def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> dict[str, Any]:
+    counters = outcome.counters
+    counts = {n: v for n, v in vars(counters).items() if isinstance(v, int)}
+    return {
+        "end_time": outcome.t, "sentence": outcome.sentence, "culprits": list(outcome.culprits),
+        "chattering": list(outcome.chattering), "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
+        "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
+        "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
+    }  # fmt: skip
+
+
+def _status(outcome: Outcome) -> str:
+    if outcome.status == Status.INTERRUPTED:
+        return "interrupted"
+    if outcome.status.is_budget:
+        return "budget"
+    return "finished" if outcome.ok else "failed"
+
+
+def _named(system: System, row: Any) -> tuple[float, str, str, str, str]:
+    """One zone change with names."""
+    machine, before, after = int(row["machine"]), int(row["before"]), int(row["after"])
+    zones = system.zone_names(machine)
+    guard = system.guard_name(int(row["guard"]), machine, before)
+    return float(row["t"]), system.machine_names[machine], zones[before], zones[after], guard
+
+
+def _profile(system: System, outcome: Outcome) -> str:
+    """Who made the run slow: the machines that switched most, the unknowns that rejected steps."""
+    counters = outcome.counters
+    lines = ["zone switches by component:"]
+    for k in np.argsort(-counters.switches_by_machine, kind="stable")[:10]:
+        if counters.switches_by_machine[k]:
+            lines.append(f"  {counters.switches_by_machine[k]:8d}  {system.machine_names[k]}")
+    lines.append("rejected steps by the unknown with the largest error:")
+    for k in np.argsort(-counters.rejections_by_unknown, kind="stable")[:10]:
+        if counters.rejections_by_unknown[k]:
+            lines.append(f"  {counters.rejections_by_unknown[k]:8d}  {system.unknown_names[k]}")
+    steps, switches = counters.steps, counters.switches
+    advice = "Most steps end at a switch: loosen the accuracy or lower the number of contacts." if switches * 3 > steps else (
+        "Few switches: the smooth motion sets the step; damping of fast modes or a looser accuracy helps.")  # fmt: skip
+    return "\n".join([*lines, advice])

@@ -1,0 +1,144 @@
+"""The pipeline, in order; the table of contents of fairlead.
+
+    netlist      load(path)             Netlist      validated, every value knows its line
+    component    instantiate(netlist)   Assembly     component instances, parameters in SI
+    flatten      flatten(assembly)      FlatModel    nodes, kinematic groups, links
+    system       compile(flat)          System       index arrays, kernels, patterns
+    integrate    integrate(system)      Outcome      steps, switches, counters
+    results      run(...)               Result       a directory, written as the run goes
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import pathlib
+import time
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from fairlead.errors import Fault, ModelError
+
+if TYPE_CHECKING:
+    from fairlead.component.instantiate import Assembly
+    from fairlead.flatten.flat_model import FlatModel
+    from fairlead.netlist.netlist import Netlist
+    from fairlead.results import Result
+    from fairlead.system.system import System
+
+STAGES = ("netlist", "component", "flatten", "system")
+Progress = Callable[[float, float, Any], None]
+
+
+def load(path: str | os.PathLike[str], set: Mapping[str, str] | None = None, libraries: Iterable[str] = ()) -> Model:
+    """Read a netlist, by path or by the name of a bundled model. Raises ModelError with every mistake.
+
+    `set` overrides scene parameters (`mu`) and settings (`pad.normal_force`, `run.stop`); `libraries`
+    are Python files with component classes of the user, whose code is run.
+    """
+    return Model(path, dict(set or {}), tuple(libraries))
+
+
+class Model:
+    """A netlist and the stages it passes through; each stage is made when first asked for."""
+
+    def __init__(self, path: str | os.PathLike[str], overrides: Mapping[str, str], libraries: tuple[str, ...]) -> None:
+        """Read the netlist; nothing is instantiated yet."""
+        from fairlead.netlist.load import survey
+
+        self.libraries = libraries
+        netlist, self._faults = survey(path, overrides)
+        if netlist is None:
+            raise ModelError(self._faults)
+        self.netlist: Netlist = netlist
+
+    @functools.cached_property
+    def assembly(self) -> Assembly:
+        """Component instances. Raises ModelError with the mistakes of this stage and those before."""
+        from fairlead.component.instantiate import instantiate
+        from fairlead.component.registry import known_types
+        from fairlead.errors import without_echoes
+
+        try:
+            assembly = instantiate(self.netlist, known_types(self.libraries))
+        except ModelError as error:
+            more = without_echoes(error.faults, self._faults)
+            raise ModelError(_in_order([*self._faults, *more])) from None
+        if self._faults:
+            raise ModelError(self._faults)
+        return assembly
+
+    @functools.cached_property
+    def flat(self) -> FlatModel:
+        """Nodes, groups and links."""
+        from fairlead.flatten.flatten import flatten
+
+        return flatten(self.assembly)
+
+    @functools.cached_property
+    def system(self) -> System:
+        """The compiled model."""
+        from fairlead.system.compile import compile
+
+        return compile(self.flat, self.netlist.run.accuracy)
+
+    def check(self) -> list[Fault]:
+        """Go through all stages without running; returns warnings, raises ModelError for mistakes."""
+        from fairlead.analysis.limits import read_limits
+
+        read_limits(self.netlist.limits, self.system.signals)
+        return []
+
+    def describe(self, stage: str = "flatten") -> str:
+        """What the model has become after a stage."""
+        return str({"netlist": lambda: self.netlist, "component": lambda: self.assembly,
+                    "flatten": lambda: self.flat, "system": lambda: self.system}[stage]())  # fmt: skip
+
+    def graph(self, format: str = "mermaid") -> str:
+        """The wiring as Mermaid, DOT or SVG text."""
+        from fairlead.flatten.drawing import draw
+
+        return draw(self.flat, format)
+
+    def run(self, out: str | os.PathLike[str] | None = None, force: bool = False, progress: Progress | None = None,
+            profile: bool = False, **settings: Any) -> Result:  # fmt: skip
+        """Simulate; results go to the directory `out` (default results/NAME) as the run goes.
+
+        `settings` replace those of the netlist's `run` block (stop, accuracy, ...), in SI.
+        """
+        from fairlead.run import run
+
+        begun = time.perf_counter()
+        netlist = self.netlist.run.model_copy(update=settings)
+        system = self.system
+        if netlist.accuracy != self.netlist.run.accuracy or getattr(self, "_used", False):
+            from fairlead.system.compile import compile
+
+            system = compile(self.flat, netlist.accuracy)
+        self._used = True
+        directory = pathlib.Path(out) if out is not None else pathlib.Path("results") / self.netlist.name
+        return run(self.netlist, netlist, system, directory, force=force, progress=progress, profile=profile, begun=begun)
+
+    def __repr__(self) -> str:
+        """Name and size of the netlist."""
+        return f"<Model {self.netlist.name}: {len(self.netlist.components)} components>"
+
+
+def _in_order(faults: Iterable[Fault]) -> list[Fault]:
+    return sorted(dict.fromkeys(faults), key=lambda f: (f.where is None, f.where, f.what))
+
+
+def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
+    """Ports, parameters, zones with their guards, and equations of a component type."""
+    from fairlead.component.registry import known_types
+    from fairlead.system.describe import describe
+
+    return describe(name, known_types(libraries))
+
+
+def json_schema(libraries: Iterable[str] = ()) -> dict[str, Any]:
+    """JSON Schema (draft-07) of netlists, from the component classes."""
+    from fairlead.component.json_schema import json_schema as make
+    from fairlead.component.registry import known_types
+
+    return make(known_types(libraries))
