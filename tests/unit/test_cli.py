@@ -23,7 +23,8 @@ FINISHED = {
     "status": "finished",
     "end_time": 20.0,
     "wall_time": 0.4,
-    "compile_time": 0.0,
+    "compile_time": 0.1,
+    "solve_time": 0.02,
     "engine": "rodas5p",
     "steps": 410,
     "rejected": 12,
@@ -44,7 +45,7 @@ class StandIn:
         self.netlist = SimpleNamespace(record=SimpleNamespace(plots=[]))
         self.remarks: list[Fault] = []
 
-    def load(self, path: str, set: dict[str, str], libraries: list[pathlib.Path]) -> "StandIn":
+    def load(self, path: str, set: dict[str, str], libraries: list[str]) -> "StandIn":
         self.calls.append(("load", path, set, libraries))
         return self
 
@@ -85,7 +86,7 @@ def test_settings_and_libraries_reach_the_loader_as_typed(command: Command) -> N
     model = StandIn()
     settings = ("--set", "mu=0.6", "--set", "v = 2 m/s")
     command("check", "belt", *settings, "--library", "a.py", "--library", "b.py", model=model)
-    libraries = [pathlib.Path("a.py"), pathlib.Path("b.py")]
+    libraries = ["a.py", "b.py"]
     assert model.calls[0] == ("load", "belt", {"mu": "0.6", "v": "2 m/s"}, libraries)
 
 

@@ -25,10 +25,10 @@ ALLOWED = {
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native"},
     "integrate": {"errors", "native"},
     "results": {"errors", "quantities"},
-    "analysis": {"errors", "quantities", "results"},
+    "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results"},
     "report": {"errors", "quantities", "results", "analysis"},
 }
-LAST = {"", "simulate", "testing", "cli", "__main__", "models"}   # these may import everything before them
+LAST = {"", "run", "simulate", "testing", "cli", "__main__", "models"}   # these may import everything before them
 
 
 def source_files() -> dict[str, pathlib.Path]:

@@ -1,6 +1,5 @@
 """The options that several verbs take, spelled and explained once."""
 
-import pathlib
 from typing import Annotated
 
 import typer
@@ -17,7 +16,7 @@ Settings = Annotated[
     ),
 ]
 Libraries = Annotated[
-    list[pathlib.Path],
+    list[str],
     typer.Option(
         "--library",
         metavar="PATH",

@@ -26,9 +26,10 @@ def progress_bar(label: str, quiet: bool) -> Iterator[ReportProgress | None]:
         TextColumn("t = {task.fields[time]:.4g} s"),
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(label, total=1.0, time=0.0)
+        # Without a total the bar pulses: before the first step there is nothing to extrapolate from.
+        task = bar.add_task(f"{label}: preparing, a first run compiles", total=None, time=0.0)
 
         def report(fraction: float, time: float, counters: Any) -> None:
-            bar.update(task, completed=fraction, time=time)
+            bar.update(task, description=label, total=1.0, completed=fraction, time=time)
 
         yield report

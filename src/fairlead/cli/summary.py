@@ -42,9 +42,10 @@ def _number(value: float | None, unit: str) -> str:
 
 
 def _wall_time(run: Mapping[str, Any]) -> str:
+    """Seconds from the command to the result; the rest is reading, compiling and writing."""
     text = _number(run.get("wall_time"), "s")
-    compile_time = run.get("compile_time")
-    return f"{text}, {compile_time:.2g} s of it compiling" if compile_time else text
+    stepping = run.get("solve_time")
+    return text if stepping is None else f"{text}, of it stepping {stepping:.2g} s"
 
 
 def _creep(creep: Mapping[str, Any] | None) -> str:
@@ -58,10 +59,6 @@ def _closure(energy: Mapping[str, Any] | None) -> str:
     """Energy not accounted for, relative to what passed through."""
     if not energy or energy.get("closure") is None:
         return UNKNOWN
-    parts = (
-        f"{word} {energy[key]:.4g} J"
-        for word, key in (("supplied", "supplied"), ("dissipated", "dissipated"), ("stored", "stored_change"))
-        if energy.get(key) is not None
-    )
-    detail = ", ".join(parts)
+    words = [word for word in ("supplied", "dissipated") if energy.get(word) is not None]
+    detail = ", ".join(f"{word} {energy[word]:.3g} J" for word in words)
     return f"{energy['closure']:.2g}{f' ({detail})' if detail else ''}"
