@@ -54,6 +54,11 @@ def first_crossing(m, h):
         right_end = bump
         crossed = True
         guards_at(m, bump, h, m.at_g_right)
+    if overlooked(m):
+        found = look_closer(m, h)
+        if found < right_end:
+            right_end = found
+            crossed = True
     m.theta = 1.0
     if crossed:
         locate(m, h, right_end)
@@ -61,13 +66,48 @@ def first_crossing(m, h):
 
 
 @compiled
+def overlooked(m):
+    """True if some guard is above its tolerance at the end and was not seen below zero."""
+    ng = m.n_guards
+    left, end, tolerance = reals(m.at_g_left, ng), reals(m.at_g_end, ng), reals(m.at_guard_tolerance, ng)
+    for i in range(ng):
+        if left[i] >= 0.0 and end[i] > tolerance[i]:
+            return True
+    return False
+
+
+@compiled
+def look_closer(m, h):
+    """Look for a dip shorter than NEAR in the guards that start at zero; theta by which it is over, 2 if none."""
+    ng = m.n_guards
+    left, right = reals(m.at_g_left, ng), reals(m.at_g_right, ng)
+    early, probe = reals(m.at_g_early, ng), reals(m.at_g_probe, ng)
+    copy(early, reals(m.at_g_late, ng))
+    outer = NEAR
+    while outer > 1e-13:
+        inner = 0.125 * outer
+        guards_at(m, inner, h, m.at_g_probe)
+        found = False
+        for i in range(ng):
+            if left[i] >= 0.0 and probe[i] < 0.0:
+                left[i] = probe[i]
+                found = True
+        if found:
+            copy(reals(m.at_g_late, ng), right)
+            return outer
+        copy(probe, reals(m.at_g_late, ng))
+        outer = inner
+    return 2.0
+
+
+@compiled
 def collect_fired(m, crossed):
     """Fill `fired` from the bracket: crossings, unless a guard is positive that never was negative."""
     ng = m.n_guards
     left, right, tolerance = reals(m.at_g_left, ng), reals(m.at_g_right, ng), reals(m.at_guard_tolerance, ng)
-    fired, g, early = indices(m.at_fired, ng), reals(m.at_g, ng), reals(m.at_g_early, ng)
+    fired, g = indices(m.at_fired, ng), reals(m.at_g, ng)
     for i in range(ng):
-        if g[i] >= 0.0 and early[i] >= 0.0 and left[i] >= 0.0 and right[i] > tolerance[i]:
+        if g[i] >= 0.0 and left[i] >= 0.0 and right[i] > tolerance[i]:
             fired[m.n_fired] = i
             m.n_fired += 1
     if m.n_fired > 0:

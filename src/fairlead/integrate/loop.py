@@ -35,7 +35,7 @@ from fairlead.integrate.foreign import at_time_at, compiled, copy, field_at, ind
 from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, record_piece, there_is_room, write_row
-from fairlead.integrate.rosenbrock import take_step
+from fairlead.integrate.rosenbrock import midpoint_defect, take_step
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, block, settle
 from fairlead.integrate.start import NOT_CONSISTENT
 
@@ -103,10 +103,13 @@ def attempt(m):
         m.error = inf
     else:
         m.error = estimate_error(m)
+    if m.error <= 1.0 or m.adaptive == 0:
+        prepare_interpolant(m)
+        if m.n_algebraic > 0 and m.adaptive == 1:
+            midpoint_defect(m, h)
+            m.error = max(m.error, weighted_norm(m, m.at_error_vector))
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject(m, h, status)
-    if m.n_guards > 0 or m.on_grid == 1:
-        prepare_interpolant(m)
     found = first_crossing(m, h)
     if found == COMPANION:
         m.rejected_companion += 1
@@ -160,13 +163,17 @@ def reject(m, h, status):
 
 @compiled
 def not_finite_here(m, otherwise):
-    """NOT_FINITE, with the unknown in `worst`, if f is not finite at the point itself; else `otherwise`."""
-    field_at(m.call_rhs, (m.context, m.t, m.at_y, m.at_f))
-    f = reals(m.at_f, m.n)
-    for k in range(m.n):
-        if not isfinite(f[k]):
-            m.worst = k
-            return NOT_FINITE
+    """NOT_FINITE, with the unknown in `worst`, if f is not finite at the point or a step later; else `otherwise`.
+
+    The trial itself does not tell whose law it was: one nan spreads to all unknowns in the first solve.
+    """
+    for fraction in range(2):
+        field_at(m.call_rhs, (m.context, m.t + fraction * m.h, m.at_y, m.at_f))
+        f = reals(m.at_f, m.n)
+        for k in range(m.n):
+            if not isfinite(f[k]):
+                m.worst = k
+                return NOT_FINITE
     return otherwise
 
 

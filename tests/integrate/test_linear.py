@@ -1,0 +1,247 @@
+"""The linear solver: random patterns, zones and step sizes over nine decades, against numpy."""
+
+from __future__ import annotations
+
+import functools
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from fairlead.integrate import Run, integrate, ordering
+from fairlead.integrate.memory import INDICES, VECTORS, Memory
+from fairlead.integrate.ordering import columns_of, starts_of
+from fairlead.integrate.protocol import Pattern
+from fairlead.integrate.replan import fresh_plan
+from fairlead.integrate.textbook import textbook
+
+FACTORED, INACCURATE = 0, 2
+
+
+@functools.cache
+def solver():
+    """(address of the struct, scale, address of b) -> status: assemble, factorise, solve with the check."""
+    import numba
+    from fairlead.integrate.foreign import memory_at
+    from fairlead.integrate.linear import assemble_consistent, assemble_step, factorise, solve
+    from fairlead.integrate.rosenbrock import check_solution
+
+    @numba.cfunc(numba.int64(numba.int64, numba.float64, numba.int64), error_model="numpy", _nrt=False)
+    def run(address, scale, at_x):
+        m = memory_at(address)
+        if scale > 0.0:
+            assemble_step(m, scale)
+        else:
+            assemble_consistent(m)
+        status = factorise(m)
+        if status != 0:
+            return status
+        solve(m, at_x)
+        return check_solution(m, at_x, m.at_b) if m.dense == 0 else 0
+
+    return run.ctypes
+
+
+def pattern_of(mask):
+    columns, rows = np.nonzero(mask.T)
+    return Pattern(starts_of(columns, len(mask)), rows.astype(np.int64))
+
+
+def mechanical_network(rng, bodies, contacts):
+    """Random network: positions and speeds of bodies, springs along a tree, contacts between random bodies.
+
+    Returns patterns over all zones, and a maker of (J, M) for random zones: held, sliding or off.
+    """
+    n = 2 * bodies + contacts + 1
+    x, v = np.arange(bodies), bodies + np.arange(bodies)
+    force, ledger = 2 * bodies + np.arange(contacts), n - 1
+    springs = [(int(rng.integers(0, k)), k) for k in range(1, bodies)] + [(0, 0)]
+    pairs = [tuple(rng.choice(bodies, 2, replace=False)) for _ in range(contacts)]
+    masses = 10.0 ** rng.uniform(-2, 2, bodies)
+
+    def matrices(zones, stiffness):
+        J, M = np.zeros((n, n)), np.zeros((n, n))
+        M[x, x], M[v, v], M[ledger, ledger] = 1.0, masses, 1.0
+        J[x, v] = 1.0
+        for a, b in springs:
+            for i, j, sign in ((a, a, -1), (b, b, -1), (a, b, 1), (b, a, 1)):
+                J[v[i], x[j]] += sign * stiffness * (0.5 if a == b else 1.0)
+                J[v[i], v[j]] += sign * 0.002 * stiffness * (0.5 if a == b else 1.0)
+        for c, (a, b) in enumerate(pairs):
+            J[v[a], force[c]] += 1.0
+            J[v[b], force[c]] -= 1.0
+            if zones[c] == 0:
+                M[force[c], v[a]], M[force[c], v[b]] = -1.0, 1.0
+                J[force[c], v[a]], J[force[c], v[b]] = 1e3, -1e3
+            else:
+                J[force[c], force[c]] = 1.0
+                J[force[c], v[a]], J[force[c], v[b]] = rng.uniform(-1, 1, 2)
+        J[ledger, v] = rng.uniform(-1, 1, bodies)
+        return J, M
+
+    held, slid = matrices(np.zeros(contacts), 1.0), matrices(np.ones(contacts), 1.0)
+    J_mask = (held[0] != 0) | (slid[0] != 0)
+    M_mask = (held[1] != 0) | (slid[1] != 0)
+    problem = SimpleNamespace(
+        initial=np.zeros(n), pattern=pattern_of(J_mask), mass_pattern=pattern_of(M_mask),
+        differential=~np.isin(np.arange(n), force), quadrature=np.arange(n) == ledger,
+    )  # fmt: skip
+    return problem, matrices
+
+
+def memory_for(problem, plan):
+    n = len(problem.initial)
+    lengths = dict.fromkeys([*VECTORS.values(), *INDICES.values()], 1) | {
+        "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows), "n_mass": len(problem.mass_pattern.rows),
+        "n_matrix": plan.size, "n_lower": len(plan.arrays.get("lower_rows", ())),
+        "n_upper": len(plan.arrays.get("upper_rows", ())),
+    }  # fmt: skip
+    given = {
+        "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
+        "jacobian_place": plan.jacobian_place, "mass_starts": problem.mass_pattern.starts,
+        "mass_rows": problem.mass_pattern.rows, "mass_place": plan.mass_place,
+        "column_scale": np.ones(n), "differential": problem.differential.astype(np.int64), **plan.arrays,
+    }  # fmt: skip
+    memory = Memory(lengths, given)
+    for name in ("n", "n_jacobian", "n_mass", "n_matrix"):
+        memory.number[name] = lengths[name]
+    memory.number["dense"] = int(plan.dense)
+    return memory
+
+
+def solve_with(memory, problem, J, M, scale, b):
+    memory.array["jacobian"][:] = J[problem.pattern.rows, columns_of(problem.pattern)]
+    memory.array["mass"][:] = M[problem.mass_pattern.rows, columns_of(problem.mass_pattern)]
+    memory.array["b"][:] = b
+    x = b.copy()
+    return solver()(memory.address, scale, x.ctypes.data), x
+
+
+@pytest.mark.parametrize("make_plan", ["dense", "sparse"])
+@pytest.mark.parametrize("seed", range(6))
+def test_one_plan_serves_every_zone_and_step_sizes_over_nine_decades(make_plan, seed):
+    rng = np.random.default_rng(seed)
+    # Fewer contacts than bodies on a random tree: held contacts that close no loop in most draws.
+    problem, matrices = mechanical_network(rng, bodies=20, contacts=6)
+    if make_plan == "dense":
+        plan = ordering.dense_plan(problem.pattern, problem.mass_pattern)
+    else:
+        order = ordering.elimination_order(problem)
+        plan = ordering.sparse_plan(problem.pattern, problem.mass_pattern, order, order)
+    memory = memory_for(problem, plan)
+    for exponent in range(-9, 1):
+        for _ in range(4):
+            zones = rng.integers(0, 2, 6)
+            J, M = matrices(zones, 10.0 ** rng.uniform(0, 5))
+            scale = 10.0**-exponent
+            W = scale * M - J
+            b = rng.standard_normal(len(W))
+            status, x = solve_with(memory, problem, J, M, scale, b)
+            if np.linalg.cond(W / np.abs(W).max(axis=1, keepdims=True)) > 1e14:
+                continue  # a loop of held contacts: redundant, no solver has an answer
+            assert status == FACTORED
+            scaled = np.abs(W) @ np.abs(x) + np.abs(b)
+            # The watch lets a backward error of 1e-9 pass; partial pivoting stays below 1e-12.
+            assert np.max(np.abs(W @ x - b)) / np.max(scaled) < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_matrix_of_the_consistent_point_is_factored_along_the_same_plan(seed):
+    rng = np.random.default_rng(100 + seed)
+    problem, matrices = mechanical_network(rng, bodies=25, contacts=5)
+    order = ordering.elimination_order(problem)
+    memory = memory_for(problem, ordering.sparse_plan(problem.pattern, problem.mass_pattern, order, order))
+    for _ in range(10):
+        J, M = matrices(rng.integers(0, 2, 5), 1e3)
+        C = np.where(problem.differential, M, -J)
+        if np.linalg.cond(C) > 1e12:
+            continue
+        b = rng.standard_normal(len(C))
+        status, x = solve_with(memory, problem, J, M, 0.0, b)
+        assert status == FACTORED
+        np.testing.assert_allclose(x, np.linalg.solve(C, b), rtol=1e-6, atol=1e-8)
+
+
+def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
+    rng = np.random.default_rng(7)
+    problem, matrices = mechanical_network(rng, bodies=20, contacts=4)
+    # The worst order: multipliers first, where their diagonal is zero while they hold.
+    backwards = ordering.elimination_order(problem)[::-1].copy()
+    memory = memory_for(problem, ordering.sparse_plan(problem.pattern, problem.mass_pattern, backwards, backwards))
+    J, M = matrices(np.zeros(4), 1e3)
+    b = rng.standard_normal(len(J))
+    status, _ = solve_with(memory, problem, J, M, 1e3, b)
+    assert status == INACCURATE
+    made = fresh_plan(memory, problem)
+    assert made is not None
+    plan = ordering.Plan(False, len(made["matrix_rows"]), made["jacobian_place"], made["mass_place"], made)
+    fresh = memory_for(problem, plan)
+    status, x = solve_with(fresh, problem, J, M, 1e3, b)
+    assert status == FACTORED
+    np.testing.assert_allclose(x, np.linalg.solve(1e3 * M - J, b), rtol=1e-8)
+
+
+def test_an_order_eliminates_multipliers_after_the_speeds_they_act_on_and_quadratures_first():
+    problem, _ = mechanical_network(np.random.default_rng(3), bodies=15, contacts=8)
+    position = ordering.inverse(ordering.elimination_order(problem))
+    assert position[-1] == 0
+    W = np.zeros((len(position),) * 2, bool)
+    for pattern in (problem.pattern, problem.mass_pattern):
+        W[pattern.rows, columns_of(pattern)] = True
+    for k in np.flatnonzero(~problem.differential):
+        touched = np.flatnonzero((W[k] | W[:, k]) & problem.differential & ~problem.quadrature)
+        assert np.all(position[touched] < position[k])
+
+
+def test_condensed_positions_cause_no_fill_in_a_chain():
+    bodies = 200
+    n = 2 * bodies
+    J = np.zeros((n, n), bool)
+    x, v = np.arange(bodies), bodies + np.arange(bodies)
+    J[x, v] = True
+    for shift in (-1, 0, 1):
+        k = np.arange(max(0, -shift), bodies - max(0, shift))
+        J[v[k], x[k + shift]] = J[v[k], v[k + shift]] = True
+    problem = SimpleNamespace(
+        initial=np.zeros(n), pattern=pattern_of(J), mass_pattern=pattern_of(np.eye(n, dtype=bool)),
+        differential=np.ones(n, bool), quadrature=np.zeros(n, bool),
+    )  # fmt: skip
+    plan = ordering.plan(problem)
+    # Per body: the pivot, one entry x -> v, three v -> x below, and a tridiagonal factor.
+    assert len(plan.arrays["lower_rows"]) + len(plan.arrays["upper_rows"]) <= 6 * bodies
+
+
+def chain(bodies, accuracy=1e-6):
+    """Blocks joined by springs and dampers, the first one pushed by cos t: y = x0, v0, x1, v1, ..."""
+    n, k, c = 2 * bodies, 100.0, 1.0
+    stiffness = np.zeros((bodies, bodies))
+    for i in range(bodies - 1):
+        stiffness[i : i + 2, i : i + 2] += [[1, -1], [-1, 1]]
+    A = np.zeros((n, n))
+    A[0::2, 1::2] = np.eye(bodies)
+    A[1::2, 0::2], A[1::2, 1::2] = -k * stiffness, -c * stiffness
+    pattern = pattern_of(A != 0)
+    values = A[pattern.rows, columns_of(pattern)]
+
+    def rhs(t, y, z, f):
+        f[:] = A @ y
+        f[1] += np.cos(t)
+
+    def jacobian(t, y, z, J, ft):
+        J[:] = values
+        ft[1] = -np.sin(t)
+
+    return textbook(np.zeros(n), rhs, jacobian, pattern=pattern, absolute=accuracy, relative=accuracy)
+
+
+def test_dense_and_sparse_runs_of_one_problem_agree(monkeypatch):
+    sparse = integrate(chain(25), Run(stop=3.0, fixed_step=0.02))
+    monkeypatch.setattr(ordering, "DENSE_LIMIT", 1000)
+    dense = integrate(chain(25), Run(stop=3.0, fixed_step=0.02))
+    np.testing.assert_allclose(sparse.y, dense.y, rtol=1e-9, atol=1e-12)
+
+
+def test_a_sparse_run_keeps_the_momentum_that_the_push_gives():
+    outcome = integrate(chain(100, accuracy=1e-8), Run(stop=3.0))
+    assert outcome.ok, outcome.sentence
+    assert outcome.y[1::2].sum() == pytest.approx(np.sin(3.0), abs=1e-6)
+    assert outcome.counters.replans == 0
