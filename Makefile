@@ -5,7 +5,7 @@
 PYTHON ?=
 VENV := .venv
 RUN := $(VENV)/bin/python
-MODEL ?= single_bend
+MODEL ?= $(if $(wildcard models/single_bend.yaml),single_bend,belt)
 TESTS ?= tests
 BENCH ?= peer_scan.py belt
 
@@ -17,7 +17,8 @@ help:  ## list these commands
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
 demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
-	$(VENV)/bin/fairlead run $(MODEL) --report --force --out results/$(MODEL)
+	@echo "The first run on a machine compiles the engine once, which takes about half a minute."
+	$(RUN) -m fairlead run $(MODEL) --report --force --out results/$(MODEL)
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
 test: $(VENV)/test.done  ## install with what the tests need, run all tests

@@ -28,7 +28,7 @@ ALLOWED = {
     "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results"},
     "report": {"errors", "quantities", "results", "analysis"},
 }
-LAST = {"", "run", "simulate", "testing", "cli", "__main__", "models"}   # these may import everything before them
+LAST = {"", "run", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before
 
 
 def source_files() -> dict[str, pathlib.Path]:
