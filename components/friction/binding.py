@@ -96,6 +96,11 @@ class Binding(Contact):
         """No force passes."""
         return Law(a=0, b=0, slip=b.v - a.v)
 
+    @guard(*IN_CONTACT, to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
     @guard("plateau", "ramp_forward", to="break_forward", unit="N")
     def breaks_forward(p, a, b, normal, bound_a, bound_b, zone):
         """The applied force passes stiction."""
@@ -180,11 +185,6 @@ class Binding(Contact):
     def turns(p, a, b, normal, bound_a, bound_b, zone):
         """Driven hard the other way."""
         return -direction(zone) * applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s
-
-    @guard(*IN_CONTACT, to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more."""
-        return p.lift - normal
 
     @guard("off", to="slide_forward", unit="m/s")
     def lands_forward(p, a, b, normal):

@@ -40,6 +40,11 @@ class Hold(Contact):
         """No force passes."""
         return Law(a=0, b=0, force=force, slip=b.v - a.v)
 
+    @guard("held", "forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
     @guard("held", to="forward", unit="N")
     def breaks_forward(p, force, normal):
         """The force needed is more than stiction."""
@@ -69,11 +74,6 @@ class Hold(Contact):
     def stops_backward(p, a, b):
         """The same the other way."""
         return b.v - a.v
-
-    @guard("held", "forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more."""
-        return p.lift - normal
 
     @guard("off", to="forward", unit="1")
     def lands_forward(p, a, b, normal):

@@ -58,7 +58,7 @@ def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave 
         term = TERMS[name](settings, declared.unit, folder)
         if isinstance(term, tuple):
             term, sine = term
-        polynomial = _sum(polynomial, term)
+        polynomial = add(polynomial, term)
     return Wave(polynomial, sine)
 
 
@@ -190,7 +190,7 @@ TERMS: dict[str, Callable[[Any, str, pathlib.Path], Any]] = {
 }  # fmt: skip
 
 
-def _sum(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
+def add(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
     """Piece by piece over the borders of both."""
     if len(a.rows) == 1 and not a.rows[0, 3:].any():
         return b

@@ -1,0 +1,52 @@
+"""One element of core: the load-bearing rope inside, which cannot push."""
+
+from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
+
+
+class Core(Component):
+    """Tension-only element with damping:
+
+    taut    tension = stretch EA/length + damping * rate     while both stretch and tension are positive
+    slack   tension = 0
+
+    With one of the two conditions alone the zones would fire into each other: a damped element that is
+    stretched but closing fast would push.
+    """
+
+    a = Translational("inboard end")
+    b = Translational("outboard end")
+    axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)
+    length = Parameter("m", "Length without tension.", above=0)
+    damping = Parameter("N*s/m", "Tension per speed of separation.", default=0.0, least=0)
+    tension = Output("N", "Tension, never negative.")
+    slack = Output("1", "1 while slack.")
+    zones = Zones("taut", "loose")
+
+    @zone("taut")
+    def taut(p, a, b):
+        """Carries load."""
+        stretch, rate = b.x - a.x - p.length, b.v - a.v
+        elastic = p.axial_stiffness / p.length * stretch
+        tension = elastic + p.damping * rate
+        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2)
+
+    @zone("loose")
+    def loose(p, a, b):
+        """Carries nothing."""
+        return Law(a=0, b=0, tension=0, slack=1)
+
+    @guard("taut", to="loose", unit="m")
+    def shortens(p, a, b):
+        """The ends are closer than the element is long."""
+        return p.length - (b.x - a.x)
+
+    @guard("taut", to="loose", unit="N")
+    def would_push(p, a, b):
+        """Closing so fast that the damping would push."""
+        return -(p.axial_stiffness / p.length * (b.x - a.x - p.length) + p.damping * (b.v - a.v))
+
+    @guard("loose", to="taut", unit="m")
+    def tightens(p, a, b):
+        """Stretched, and the tension would be positive."""
+        stretch, rate = b.x - a.x - p.length, b.v - a.v
+        return stretch, stretch + p.damping * p.length / p.axial_stiffness * rate
