@@ -54,8 +54,7 @@ class Elsewhere:
     def call(self, *words: str | pathlib.Path) -> str:
         """Output of `python words`, which must succeed, with nothing of this session's Python set-up."""
         variables = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-        variables.update(XDG_CACHE_HOME=str(self.folder / "cache"), MPLBACKEND="Agg")
-        return succeed(self.python, *words, cwd=self.user, env=variables)
+        return succeed(self.python, *words, cwd=self.user, env={**variables, "MPLBACKEND": "Agg"})
 
     def fairlead(self, *words: str) -> str:
         """Output of the installed command, which must succeed."""
