@@ -5,18 +5,44 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fairlead.results.layout import SIDE, SIDE_SIGNAL, TIME
+from fairlead.results.signal import Signal
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from fairlead.results.trajectory import Result
+
+class Record(Protocol):
+    """What an export needs of a result."""
+
+    run: dict[str, Any]
+
+    @property
+    def signals(self) -> tuple[Signal, ...]:
+        """All signals, in order."""
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Times (n,) [s]."""
+
+    @property
+    def side(self) -> NDArray[np.int8]:
+        """Side of an event (n,)."""
+
+    def columns(self, names: Iterable[str] | None = None) -> NDArray[np.float64]:
+        """Return signals side by side (n, m)."""
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a signal."""
 
 
-def to_xarray(result: Result, names: Iterable[str] | None = None) -> xarray.Dataset:
+def to_xarray(result: Record, names: Iterable[str] | None = None) -> xarray.Dataset:
     """Return signals along the coordinate `time`, one variable each, with `units` and `long_name`.
 
     Time repeats at an event; `side` tells the two rows apart. Select one of them before
@@ -38,7 +64,7 @@ def to_xarray(result: Result, names: Iterable[str] | None = None) -> xarray.Data
     return xarray.Dataset(variables, coordinates, attrs=simple)
 
 
-def to_pandas(result: Result, names: Iterable[str] | None = None) -> pandas.DataFrame:
+def to_pandas(result: Record, names: Iterable[str] | None = None) -> pandas.DataFrame:
     """Return signals as columns, indexed by time [s]; `frame.attrs["units"]` maps names to units."""
     import pandas
 
@@ -49,7 +75,7 @@ def to_pandas(result: Result, names: Iterable[str] | None = None) -> pandas.Data
     return frame
 
 
-def to_csv(result: Result, path: str | Path, names: Iterable[str] | None = None) -> None:
+def to_csv(result: Record, path: str | Path, names: Iterable[str] | None = None) -> None:
     """Write `time [s]`, `side` and one column per signal, its unit in brackets in the header.
 
     Numbers are written with as many digits as it takes to read the same number back.
@@ -63,5 +89,5 @@ def to_csv(result: Result, path: str | Path, names: Iterable[str] | None = None)
         table.writerows((t, side, *values) for t, side, values in rows)
 
 
-def _chosen(result: Result, names: Iterable[str] | None) -> list[str]:
+def _chosen(result: Record, names: Iterable[str] | None) -> list[str]:
     return [signal.name for signal in result.signals] if names is None else list(names)

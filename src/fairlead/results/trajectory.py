@@ -192,7 +192,13 @@ class Result:
     def _repr_html_(self) -> str:
         from fairlead.results.notebook import as_html
 
-        return as_html(self)
+        facts = [
+            ("status", self.status),
+            ("directory", str(self.path)),
+            ("recorded", f"{len(self.t)} rows, {self._reach()}"),
+            ("zone changes", str(len(self.events))),
+        ]
+        return as_html(str(self.run.get("name", "run")), facts, self.signals)
 
 
 def _before(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> Any:
