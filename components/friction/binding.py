@@ -11,7 +11,7 @@ from fairlead.components.friction.binding_law import BOUND, IN_CONTACT, applied_
 from fairlead.components.friction.contact import Contact
 
 FORMS = {
-    "robust": {"cap": "on", "latch": "on", "hysteresis": 0.1, "applied_force": "aggregate"},
+    "robust": {"cap": "on", "latch": "on", "hysteresis": 0.1, "applied_force": "reduced"},
     "literal": {"cap": "off", "latch": "off", "hysteresis": 0.0, "applied_force": "aggregate"},
 }
 
@@ -32,6 +32,11 @@ class Binding(Contact):
     """
 
     word = "binding"
+    exempt = {
+        "dissipates break_forward": "The latch keeps the force of sliding while the slip is still that of creeping back.",
+        "dissipates break_backward": "The same the other way; what it gives is less than F_s times the creep.",
+        "settles naive": "It counts one of two bodies, so the load depends on the zone (hazard of the printed law).",
+    }
     form = Choice(("robust", "literal"), "The repaired law or the printed one.", default="robust")
     creep = Parameter("m/s", "Slip speed at which the viscous part alone carries F_s.", default=1e-4, above=0)
     plateau_width = Parameter("1", "v_m over creep.", default=2.0, above=0)
@@ -113,11 +118,9 @@ class Binding(Contact):
 
     @guard(*BOUND, to="transit", unit="N")
     def lets_go(p, a, b, normal, bound_a, bound_b, zone):
-        """Without the latch, or against the creep of a ramp, the contact goes through zero slip instead."""
-        load = applied_force(p, zone, a, b, normal, bound_a, bound_b)
-        if p.latch == "off":
-            return abs(load) - normal * p.mu_s
-        return -1 if zone == "plateau" else -direction(zone) * load - normal * p.mu_s
+        """Without the latch the contact goes through zero slip instead. With it a ramp needs no way out: capped, it
+        only leads back to the plateau, which breaks away in the direction of the load."""
+        return abs(applied_force(p, zone, a, b, normal, bound_a, bound_b)) - normal * p.mu_s if p.latch == "off" else -1
 
     @guard("plateau", to="ramp_forward", unit="m/s")
     def climbs_forward(p, a, b):

@@ -5,7 +5,10 @@ from fairlead.components.friction.contact import Contact
 
 
 class Smooth(Contact):
-    """T = N mu(|v|) tanh(v/creep) + viscous v; it never sticks: under load af it slips at creep*atanh(af/(N mu))."""
+    """T = N mu(|v|) tanh(v/creep) + viscous v; it never sticks: under load af it slips at creep*atanh(af/(N mu)).
+
+    No zone tells sticking from sliding here; what counts as creep fades out where tanh comes close to 1.
+    """
 
     word = "tanh"
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
@@ -17,7 +20,8 @@ class Smooth(Contact):
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.creep**2)
         friction = normal * p.curve.coefficient(speed) * tanh(slip / p.creep) + p.viscous * slip
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, dissipated=friction * slip)
+        creeping = slip * (1 - tanh(slip / p.creep) ** 8)
+        return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=creeping, dissipated=friction * slip)
 
     @zone("off")
     def off(p, a, b):

@@ -24,6 +24,9 @@ NOT_SETTLED, NO_ROOM = 4, 5
 CHATTER_STREAK = 8
 """Toggles in a row, each within a dwell of the one before, that make a machine chatter."""
 WARN, HOLD, STOP = 0, 1, 2
+ROUNDING = 1e-3
+"""How far below zero, in guard tolerances, a guard still counts as at its limit: further down it is inside
+its zone and will cross by itself. A contact at rest just inside a border would else be sent to and fro."""
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
@@ -157,15 +160,15 @@ def judge(m):
         look_ahead(m)
     fired = indices(m.at_fired, ng)
     for i in range(ng):
-        rising = at_limit and abs(g[i]) <= tolerance[i] and probe[i] - g[i] > RISE * tolerance[i]
-        if g[i] > tolerance[i] or rising:
+        close = at_limit and -ROUNDING * tolerance[i] <= g[i] <= tolerance[i]
+        if g[i] > tolerance[i] or (close and probe[i] - g[i] > RISE * tolerance[i]):
             fired[m.n_fired] = i
             m.n_fired += 1
 
 
 @compiled
 def look_ahead(m):
-    """Guards a little later, along (1, y'), into `g_probe`; algebraic unknowns move as the equations make them."""
+    """Guards a little later, along (1, y'), into `g_probe`; algebraic unknowns move as the equations say."""
     n = m.n
     y, slope, ahead = reals(m.at_y, n), reals(m.at_slope, n), reals(m.at_y_probe, n)
     curvature, differential, u = reals(m.at_curvature, n), indices(m.at_differential, n), reals(m.at_u, n)
