@@ -85,7 +85,7 @@ def coulomb_oscillator(**settings: Any) -> tuple[TextbookProblem, Any]:
     return problem, exact
 
 
-def belt_block(
+def belt_block(  # noqa: C901, one problem, all its laws
     mass: float = 1.0,
     stiffness: float = 100.0,
     belt: float = 0.2,
@@ -140,7 +140,8 @@ def belt_block(
         return 0
 
     initial = (0.0, belt) if start is None else start
-    given: dict[str, Any] = {"absolute": [1e-8, 1e-7, 1e-6], "relative": 1e-8, "guard_tolerance": 1e-9} | settings
+    tight: dict[str, Any] = {"absolute": [1e-8, 1e-7, 1e-6], "relative": 1e-8, "guard_tolerance": 1e-9}
+    given = tight | settings
     return textbook(
         [*initial, 0.0], rhs, jacobian, mass_matrix, guards=guards, switch=switch, slip=slip, zones=[HELD],
         guard_machine=[0] * 4, algebraic=[2], unknown_names=["x", "v", "lambda"], machine_names=["pad"],
@@ -150,7 +151,11 @@ def belt_block(
 
 
 def stick_slip_times(
-    mass: float = 1.0, stiffness: float = 100.0, belt: float = 0.2, stiction: float = 10.0, sliding: float = 6.0
+    mass: float = 1.0,
+    stiffness: float = 100.0,
+    belt: float = 0.2,
+    stiction: float = 10.0,
+    sliding: float = 6.0,
 ) -> tuple[float, float, float]:
     """First breakaway, slip time and stick time of `belt_block`, in closed form.
 

@@ -7,9 +7,9 @@ import signal
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Block, Run, Status, integrate
 from fairlead.integrate.textbook import textbook
-
 from tests.integrate.problems import belt_block, clock, nonlinear_ode
 
 

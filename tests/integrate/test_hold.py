@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Run, Status, integrate
 from fairlead.integrate.textbook import textbook
-
 from tests.integrate.problems import belt_block, pulled_block, stick_slip_times
 
 
@@ -15,20 +15,21 @@ def expected_switches(count, **scene):
     return np.array([first + (k // 2) * (slip + stick) + (k % 2) * slip for k in range(count)])
 
 
-@pytest.mark.parametrize(("method", "accuracy", "tolerance"), [("rodas5p", 1e-8, 1e-6), ("rodas3p", 1e-7, 1e-6)])
-def test_a_block_on_a_belt_sticks_and_slips_at_the_times_of_the_closed_form(method, accuracy, tolerance):
+@pytest.mark.parametrize(("method", "accuracy"), [("rodas5p", 1e-8), ("rodas3p", 1e-7)])
+def test_a_block_on_a_belt_sticks_and_slips_at_the_times_of_the_closed_form(method, accuracy):
     problem = belt_block(absolute=[accuracy * 0.01, accuracy * 0.1, accuracy], relative=accuracy)
     outcome = integrate(problem, Run(stop=5.0, method=method))
     assert outcome.ok, outcome.sentence
     times = outcome.events["t"]
-    np.testing.assert_allclose(times, expected_switches(len(times)), rtol=tolerance)
+    np.testing.assert_allclose(times, expected_switches(len(times)), rtol=1e-6)
     assert len(times) == 12
     zones = outcome.events["after"].tolist()
     assert zones == [2, 0] * 6  # breaks backward relative to the belt, is caught again
 
 
 def test_a_switch_costs_about_one_settling_pass_and_few_steps():
-    outcome = integrate(belt_block(absolute=[1e-6, 1e-5, 1e-4], relative=1e-4, guard_tolerance=1e-7), Run(stop=20.0))
+    problem = belt_block(absolute=[1e-6, 1e-5, 1e-4], relative=1e-4, guard_tolerance=1e-7)
+    outcome = integrate(problem, Run(stop=20.0))
     assert outcome.counters.settling_passes == len(outcome.events)
     assert outcome.counters.steps <= 5 * len(outcome.events)
 
@@ -76,7 +77,7 @@ def two_blocks(speeds, masses):
     return textbook([*speeds, 0.0], rhs, jacobian, mass, slip=slip, algebraic=[2])
 
 
-def chain_of_three(pull, stiction=(4.0, 2.0), sliding=(3.0, 1.5)):
+def chain_of_three(pull, stiction=(4.0, 2.0), sliding=(3.0, 1.5)):  # noqa: C901, one problem, all its laws
     """Blocks 1, 2, 3 of mass 1: contact a between 1 and 2, b between 2 and 3; 3 is pulled by `pull(t)`.
 
     y = v1, v2, v3, a, b; lambda_a pushes 2 back and 1 on. The friction of each contact opposes slip.

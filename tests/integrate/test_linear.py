@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Run, integrate, ordering
 from fairlead.integrate.memory import INDICES, VECTORS, Memory
 from fairlead.integrate.ordering import columns_of, starts_of
@@ -21,6 +22,7 @@ FACTORED, INACCURATE = 0, 2
 def solver():
     """(address of the struct, scale, address of b) -> status: assemble, factorise, solve with the check."""
     import numba
+
     from fairlead.integrate.foreign import memory_at
     from fairlead.integrate.linear import assemble_consistent, assemble_step, factorise, solve
     from fairlead.integrate.rosenbrock import check_solution
@@ -91,8 +93,9 @@ def mechanical_network(rng, bodies, contacts):
 def memory_for(problem, plan):
     n = len(problem.initial)
     lengths = dict.fromkeys([*VECTORS.values(), *INDICES.values()], 1) | {
-        "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows), "n_mass": len(problem.mass_pattern.rows),
-        "n_matrix": plan.size, "n_lower": len(plan.arrays.get("lower_rows", ())),
+        "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows),
+        "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
+        "n_lower": len(plan.arrays.get("lower_rows", ())),
         "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
     given = {
@@ -166,7 +169,8 @@ def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
     problem, matrices = mechanical_network(rng, bodies=20, contacts=4)
     # The worst order: multipliers first, where their diagonal is zero while they hold.
     backwards = ordering.elimination_order(problem)[::-1].copy()
-    memory = memory_for(problem, ordering.sparse_plan(problem.pattern, problem.mass_pattern, backwards, backwards))
+    bad_plan = ordering.sparse_plan(problem.pattern, problem.mass_pattern, backwards, backwards)
+    memory = memory_for(problem, bad_plan)
     J, M = matrices(np.zeros(4), 1e3)
     b = rng.standard_normal(len(J))
     status, _ = solve_with(memory, problem, J, M, 1e3, b)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Run, integrate
 from fairlead.integrate.tableau import RODAS3P, RODAS5P, TABLEAUS, Tableau, _checked
-
 from tests.integrate import problems
 
 
@@ -40,7 +40,9 @@ def test_an_index_one_dae_is_solved_at_the_order_of_the_method(method, order, st
     assert slope > order - SLACK, errors
 
 
-@pytest.mark.parametrize(("method", "order", "steps"), [("rodas5p", 5, (24, 32, 48, 64)), ("rodas3p", 3, (64, 96, 128))])
+@pytest.mark.parametrize(
+    ("method", "order", "steps"), [("rodas5p", 5, (24, 32, 48, 64)), ("rodas3p", 3, (64, 96, 128))]
+)
 def test_the_order_stays_across_switches_located_on_a_speed(method, order, steps):
     slope, errors = observed_order(problems.coulomb_oscillator, 6.0, steps, method, lambda y: y)
     assert slope > order - SLACK, errors

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Run, integrate
 from fairlead.integrate.textbook import textbook
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Run, integrate
 from fairlead.integrate.textbook import textbook
-
 from tests.integrate.problems import coulomb_oscillator
 
 
@@ -51,7 +51,10 @@ def test_a_time_event_that_changes_nothing_leaves_the_run_as_it_was():
     def jacobian(t, y, z, J, ft):
         ft[0] = -np.sin(t)
 
-    quiet = textbook([0.0], rhs, jacobian, next_time=lambda t, z: np.floor(t + 1e-9) + 1, at_time=lambda t, y, z: 0)
+    def next_time(t, z):
+        return np.floor(t + 1e-9) + 1
+
+    quiet = textbook([0.0], rhs, jacobian, next_time=next_time, at_time=lambda t, y, z: 0)
     outcome = integrate(quiet, Run(stop=5.0, every=0.25))
     assert not outcome.sides.any()
     np.testing.assert_allclose(outcome.times, 0.25 * np.arange(21), atol=1e-12)
@@ -129,9 +132,11 @@ def test_a_swinging_load_on_a_held_contact_is_not_stepped_over():
         z[0] = 1
 
     problem = textbook(
-        [0.0, 0.0], rhs, jacobian, mass, guards=guards, switch=switch, zones=[0], guard_machine=[0], algebraic=[1]
-    )
+        [0.0, 0.0], rhs, jacobian, mass, guards=guards, switch=switch, zones=[0], guard_machine=[0],
+        algebraic=[1],
+    )  # fmt: skip
     outcome = integrate(problem, Run(stop=20.0, every=0.05))
     assert outcome.events["t"][0] == pytest.approx(np.arcsin(1.999 / 2) / 5, abs=1e-5)
     ordinary = outcome.sides == 0
-    np.testing.assert_allclose(outcome.values[ordinary, 1], 2 * np.sin(5 * outcome.times[ordinary]), atol=1e-5)
+    load = 2 * np.sin(5 * outcome.times[ordinary])
+    np.testing.assert_allclose(outcome.values[ordinary, 1], load, atol=1e-5)

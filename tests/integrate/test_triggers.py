@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from fairlead.integrate import Run, Status, integrate
 from fairlead.integrate.textbook import textbook
-
 from tests.integrate.problems import clock, coulomb_oscillator, falling_ball
 
 # Crossings are located to rounding of y = t, a sum of stages with coefficients up to 150: some hundred ulps.
@@ -81,7 +81,8 @@ def test_of_two_crossings_in_a_step_the_earlier_is_taken_first():
         for k in fired:
             z[k] = 1
 
-    problem = textbook([0.0], rhs, lambda *_: None, guards=guards, switch=switch, zones=[0, 0], guard_machine=[0, 1])
+    two = {"zones": [0, 0], "guard_machine": [0, 1]}
+    problem = textbook([0.0], rhs, lambda *_: None, guards=guards, switch=switch, **two)
     outcome = integrate(problem, Run(stop=1.0, fixed_step=1.0))
     assert outcome.events["machine"].tolist() == [1, 0]
     assert outcome.events["t"] == pytest.approx([0.4, 0.6], abs=TO_ROUNDING)
@@ -102,7 +103,8 @@ def test_guards_that_cross_at_the_same_instant_fire_together_in_one_pass():
         for k in fired:
             z[k] = 1
 
-    problem = textbook([0.0], rhs, lambda *_: None, guards=guards, switch=switch, zones=[0] * 3, guard_machine=[0, 1, 2])
+    three = {"zones": [0] * 3, "guard_machine": [0, 1, 2]}
+    problem = textbook([0.0], rhs, lambda *_: None, guards=guards, switch=switch, **three)
     outcome = integrate(problem, Run(stop=1.0))
     assert calls == [[0, 1, 2]]
     assert outcome.events["position"].tolist() == [0, 0, 0]
@@ -110,7 +112,6 @@ def test_guards_that_cross_at_the_same_instant_fire_together_in_one_pass():
 
 def test_zones_never_change_within_a_step():
     during = []
-    problem, _ = coulomb_oscillator()
     zones_at_rhs = []
 
     def rhs(t, y, z, f):

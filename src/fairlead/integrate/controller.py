@@ -22,6 +22,9 @@ RESTART_ERROR = 1e-5
 """Error constant assumed for the first step after a switch. The embedded error of an oscillator with
 amplitude A is about 1e-5 A (h omega)^5 for Rodas5P; 1e-6 cost the belt three rejections per slip, 1e-4
 a step more per slip at tight tolerances."""
+STRAIGHT = 1e3
+"""A suggestion this much longer than the last step means that nothing bends any more: a contact caught
+what moved, and what is left of y'' is rounding."""
 IDLE_ERROR = 1e-3
 """Below this a step was not limited by its error, and says nothing about the time scale."""
 
@@ -91,8 +94,8 @@ def restart(m, slope_size, curvature_size):
     s/c is the time scale T of the motion, s T its amplitude A (over the weight); a smooth motion of
     that scale has a leading error RESTART_ERROR A (h/T)^q, and h makes it one. A straight motion
     (c = 0) takes any step. Where the last step was set by its error, and not idle, the time scale is
-    known better than two derivatives tell: the step stays within a third and twice what it would
-    have been.
+    known better than two derivatives tell: the step is at most what it would have been, and at least
+    a third of that. Letting it be twice as long cost a chain of 100 blocks 0.4 rejections a switch.
     """
     if curvature_size == 0.0:
         return inf
@@ -102,6 +105,6 @@ def restart(m, slope_size, curvature_size):
         scale = slope_size / curvature_size
         amplitude = slope_size * scale
         suggested = scale * max(RESTART_ERROR * amplitude, 1e-30) ** -m.error_exponent
-    if m.error > IDLE_ERROR:
-        suggested = min(max(suggested, m.h_next / 3.0), 2.0 * m.h_next)
+    if m.error > IDLE_ERROR and suggested < STRAIGHT * m.h_next:
+        suggested = min(max(suggested, m.h_next / 3.0), m.h_next)
     return suggested

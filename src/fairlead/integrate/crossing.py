@@ -70,15 +70,15 @@ def overlooked(m):
     """True if some guard is above its tolerance at the end and was not seen below zero."""
     ng = m.n_guards
     left, end, tolerance = reals(m.at_g_left, ng), reals(m.at_g_end, ng), reals(m.at_guard_tolerance, ng)
+    found = False
     for i in range(ng):
-        if left[i] >= 0.0 and end[i] > tolerance[i]:
-            return True
-    return False
+        found = found or (left[i] >= 0.0 and end[i] > tolerance[i])
+    return found
 
 
 @compiled
 def look_closer(m, h):
-    """Look for a dip shorter than NEAR in the guards that start at zero; theta by which it is over, 2 if none."""
+    """Look for a dip shorter than NEAR in guards that start at zero; theta by which it is over, 2 if none."""
     ng = m.n_guards
     left, right = reals(m.at_g_left, ng), reals(m.at_g_right, ng)
     early, probe = reals(m.at_g_early, ng), reals(m.at_g_probe, ng)
@@ -123,7 +123,7 @@ def collect_fired(m, crossed):
 
 @compiled
 def earliest_bump(m, h):
-    """theta of the first interior point found at which a guard negative at both ends is not; 1 if none."""
+    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none."""
     ng = m.n_guards
     left, end = reals(m.at_g_left, ng), reals(m.at_g_end, ng)
     g, early, late = reals(m.at_g, ng), reals(m.at_g_early, ng), reals(m.at_g_late, ng)
@@ -169,7 +169,7 @@ def hermite_top(g0, g1, s0, s1):
 
 @compiled
 def climb(m, h, i, top, floor):
-    """Follow guard i to its maximum by parabolas from a first guess; theta where it reaches `floor`, else 1."""
+    """Follow guard i to its maximum by parabolas from a first guess; where it reaches `floor`, else 1."""
     ng = m.n_guards
     probe = reals(m.at_g_probe, ng)
     a, ga = 0.0, reals(m.at_g, ng)[i]

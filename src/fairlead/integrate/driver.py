@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 
 import numpy as np
@@ -66,7 +65,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         t=float(memory.number["t"]),
         y=memory.array["y"].copy(),
         culprits=culprits,
-        chattering=tuple(problem.machine_names[z] for z in np.flatnonzero(memory.array["chatters"])),
+        chattering=tuple(problem.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),
         counters=count(memory),
         wall=time.perf_counter() - begun,
         loop_wall=inside,
@@ -75,7 +74,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
 
 
 def next_attempts(attempts: int, spent: float) -> int:
-    """Trial steps for the next slice, so that it lasts about SLICE seconds; never more than eight times as many."""
+    """Trial steps for the next slice, so that it lasts about SLICE seconds; at most eight times as many."""
     factor = SLICE / max(spent, 1e-6)
     return max(1, int(attempts * min(max(factor, 0.1), 8.0)))
 
@@ -89,12 +88,9 @@ def check(problem: Problem, run: Run) -> None:
         if value is not None and not value > 0:
             raise ValueError(f"{name} = {value:g} s must be above zero.")
     n, ng = len(problem.initial), len(problem.guard_machine)
-    for name, length in (
-        *((name, n) for name in ("differential", "quadrature", "absolute", "relative", "cap", "unknown_names")),
-        ("guard_tolerance", ng),
-        ("guard_names", ng),
-        ("machine_names", len(problem.zones)),
-    ):
+    by_unknown = ("differential", "quadrature", "absolute", "relative", "cap", "unknown_names")
+    lengths = dict.fromkeys(by_unknown, n) | dict.fromkeys(("guard_tolerance", "guard_names"), ng)
+    for name, length in {**lengths, "machine_names": len(problem.zones)}.items():
         if len(getattr(problem, name)) != length:
             raise ValueError(f"{name} has {len(getattr(problem, name))} entries; it must have {length}.")
     for name in ("rhs", "jacobian", "mass"):

@@ -16,7 +16,7 @@ from numba.np import arrayobj
 
 from fairlead.integrate.memory import LAYOUT
 
-compiled = numba.njit(error_model="numpy", _nrt=False)
+compiled = numba.njit(error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 """How every function of the loop is compiled: no exceptions, no reference counts."""
 
 MEMORY = numba.from_dtype(LAYOUT)

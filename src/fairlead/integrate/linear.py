@@ -133,7 +133,7 @@ def solve_dense(m, at_b):
 
 @compiled
 def add_mass_times(m, at_v, at_b):
-    """b += M v, for the n doubles at the two addresses."""
+    """Add M v to b, for the n doubles at the two addresses."""
     starts, rows = indices(m.at_mass_starts, m.n + 1), indices(m.at_mass_rows, m.n_mass)
     values, v, b = reals(m.at_mass, m.n_mass), reals(at_v, m.n), reals(at_b, m.n)
     for j in range(m.n):

@@ -11,7 +11,8 @@ from fairlead import native
 
 SOURCES = (
     "memory.py", "foreign.py", "linear.py", "sparse.py", "rosenbrock.py", "interpolant.py", "controller.py",
-    "guards.py", "crossing.py", "record.py", "start.py", "settling.py", "loop.py",
+    "guards.py", "crossing.py", "record.py", "start.py", "settling.py", "codes.py", "trial.py", "arrival.py",
+    "loop.py",
 )  # fmt: skip
 """Every file of this folder whose text the machine code depends on."""
 

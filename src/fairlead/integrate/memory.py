@@ -22,8 +22,8 @@ INTEGERS = (
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is
-    "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes", "one_by_one",
-    "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
+    "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes",
+    "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
@@ -32,10 +32,11 @@ INTEGERS = (
 
 NUMBERS = (
     # settings
-    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "gamma", "error_exponent",
+    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "gamma",
+    "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
-    "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_release",
-    "t_last_switch", "factored_h",
+    "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
+    "t_release", "t_last_switch", "factored_h",
 )  # fmt: skip
 """Real numbers of the struct."""
 
@@ -52,7 +53,8 @@ VECTORS = {
     "a": "stages_stages", "C": "stages_stages", "c": "stages", "d": "stages", "m": "stages", "e": "stages",
     "H": "three_stages",
     # guards: at the point, at the left and right end of a bracket, and at a probe
-    "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
+    "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards",
+    "g_early": "n_guards",
     "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
     # machines
     "last_toggle": "n_zones", "blocked_until": "n_zones",

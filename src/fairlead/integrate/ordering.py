@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fairlead.integrate.protocol import Integers, Pattern, Problem
+from fairlead.integrate.protocol import AnyPattern, Integers, Pattern, Problem
 
 DENSE_LIMIT = 30
 """Up to this many unknowns a full matrix with partial pivoting is as fast as any pattern."""
@@ -48,7 +48,7 @@ def plan(problem: Problem) -> Plan:
     return sparse_plan(problem.pattern, problem.mass_pattern, order, order)
 
 
-def dense_plan(pattern: Pattern, mass_pattern: Pattern) -> Plan:
+def dense_plan(pattern: AnyPattern, mass_pattern: AnyPattern) -> Plan:
     """A full matrix by rows."""
     n = len(pattern.starts) - 1
     return Plan(
@@ -59,7 +59,9 @@ def dense_plan(pattern: Pattern, mass_pattern: Pattern) -> Plan:
     )
 
 
-def sparse_plan(pattern: Pattern, mass_pattern: Pattern, row_order: Integers, column_order: Integers) -> Plan:
+def sparse_plan(
+    pattern: AnyPattern, mass_pattern: AnyPattern, row_order: Integers, column_order: Integers
+) -> Plan:
     """Columns and rows in the given pivot orders (position k: which unknown), with the fill they cause."""
     n = len(row_order)
     new_row, new_column = inverse(row_order), inverse(column_order)
@@ -83,7 +85,7 @@ def sparse_plan(pattern: Pattern, mass_pattern: Pattern, row_order: Integers, co
     )  # fmt: skip
 
 
-def columns_of(pattern: Pattern) -> Integers:
+def columns_of(pattern: AnyPattern) -> Integers:
     """The column of each entry."""
     return np.repeat(np.arange(len(pattern.starts) - 1, dtype=np.int64), np.diff(pattern.starts))
 
@@ -160,9 +162,8 @@ def elimination_order(problem: Problem) -> Integers:
             first.append(x)
             gone.add(x)
     graph = [set() if k in gone else (touches[k] | touched_by[k]) - gone for k in range(n)]
-    waits_for = [
-        {j for j in graph[k] if problem.differential[j]} if not problem.differential[k] else set() for k in range(n)
-    ]
+    differential = set(np.flatnonzero(problem.differential).tolist())
+    waits_for = [set() if k in differential else graph[k] & differential for k in range(n)]
     rest = [k for k in range(n) if k not in gone]
     return np.array(first + minimum_degree(graph, waits_for, rest), dtype=np.int64)
 
@@ -177,7 +178,7 @@ def kinematic_rows(problem: Problem, touches: Sequence[set[int]]) -> list[int]:
     on_diagonal = np.bincount(mass_rows[mass_rows == mass_columns], minlength=n)
     own_slope = np.bincount(pattern.rows[pattern.rows == columns_of(pattern)], minlength=n)
     alone = (in_row == 1) & (in_column == 1) & (on_diagonal == 1) & (own_slope == 0) & problem.differential
-    return [int(k) for k in np.flatnonzero(alone) if len(touches[k]) <= 1]
+    return [k for k in np.flatnonzero(alone).tolist() if len(touches[k]) <= 1]
 
 
 def condense(x: int, touches: list[set[int]], touched_by: list[set[int]]) -> None:

@@ -12,11 +12,11 @@ for all problems; `context` is passed through untouched.
     rhs       void   (ctx, t, y, f)               f[n]
     jacobian  void   (ctx, t, y, values, ft)      df/dy along `pattern`; ft[n] = partial f / partial t
     mass      void   (ctx, values)                M along `mass_pattern`, for the zones in force
-    guards    void   (ctx, t, y, g)               g[ng]; negative inside the zone in force, -1 when not in force
+    guards    void   (ctx, t, y, g)               g[ng]; negative inside the zone in force, -1 if not in force
     switch    int64  (ctx, t, y, fired, nfired)   sets new zones; may change y; returns how many zones changed
     slip      int64  (ctx, t, y, r)               r[n] = 0 but -v_rel on held rows; returns how many rows hold
     next_time double (ctx, t)                     the next time event strictly later than t, or inf
-    at_time   int64  (ctx, t, y)                  t is the start or exactly a time event; 1 if anything changed
+    at_time   int64  (ctx, t, y)                  t is the start or a time event; 1 if anything changed
     outputs   void   (ctx, t, y, out)             out[n_outputs], in the zones in force
 
 ctx is int64*, t a double, the others double* or int64*. The last six may be missing (or zero):
@@ -58,37 +58,91 @@ class Pattern(NamedTuple):
     """[nnz], ascending within a column."""
 
 
+class AnyPattern(Protocol):
+    """What serves as a `Pattern`: anything with these two arrays."""
+
+    @property
+    def starts(self) -> Integers:
+        """As in Pattern."""
+
+    @property
+    def rows(self) -> Integers:
+        """As in Pattern."""
+
+
 class Problem(Protocol):
     """The shape of a problem; see the module docstring for the callbacks."""
 
-    callbacks: Mapping[str, int]
-    context: int
-    initial: Floats
-    """y at the start; algebraic entries are a first guess."""
-    pattern: Pattern
-    mass_pattern: Pattern
-    zones: Integers
-    """[nz] live memory that the callbacks read and `switch` writes: the zone of each machine."""
-    differential: Booleans
-    """[n]; False: y_i is algebraic, its column of M is empty."""
-    quadrature: Booleans
-    """[n]; True: nothing depends on y_i and it has no weight in the error norm."""
-    absolute: Floats
-    relative: Floats
-    cap: Floats
-    """[n] each: the error weight of y_i is min(absolute_i + relative_i |y_i|, cap_i)."""
-    guard_tolerance: Floats
-    """[ng]; at an accepted point no guard may be above this."""
-    guard_machine: Integers
-    """[ng]; the machine each guard belongs to, -1 for none."""
-    n_outputs: int
-    unknown_names: Sequence[str]
-    machine_names: Sequence[str]
-    guard_names: Sequence[str]
+    @property
+    def callbacks(self) -> Mapping[str, int]:
+        """Addresses of C functions by the names in CALLBACKS."""
+
+    @property
+    def context(self) -> int:
+        """What every callback gets first; passed through untouched."""
+
+    @property
+    def initial(self) -> Floats:
+        """[n]: y at the start; algebraic entries are a first guess."""
+
+    @property
+    def pattern(self) -> AnyPattern:
+        """Where df/dy may have entries."""
+
+    @property
+    def mass_pattern(self) -> AnyPattern:
+        """Where M may have entries, in any zones."""
+
+    @property
+    def zones(self) -> Integers:
+        """[nz]: live memory that the callbacks read and `switch` writes, the zone of each machine."""
+
+    @property
+    def differential(self) -> Booleans:
+        """[n]; False: y_i is algebraic, its column of M is empty."""
+
+    @property
+    def quadrature(self) -> Booleans:
+        """[n]; True: nothing depends on y_i and it has no weight in the error norm."""
+
+    @property
+    def absolute(self) -> Floats:
+        """[n]: the error weight of y_i is min(absolute_i + relative_i |y_i|, cap_i)."""
+
+    @property
+    def relative(self) -> Floats:
+        """[n], see absolute."""
+
+    @property
+    def cap(self) -> Floats:
+        """[n], see absolute."""
+
+    @property
+    def guard_tolerance(self) -> Floats:
+        """[ng]; at an accepted point no guard may be above this."""
+
+    @property
+    def guard_machine(self) -> Integers:
+        """[ng]; the machine each guard belongs to, -1 for none."""
+
+    @property
+    def n_outputs(self) -> int:
+        """How many numbers `outputs` writes."""
+
+    @property
+    def unknown_names(self) -> Sequence[str]:
+        """[n]."""
+
+    @property
+    def machine_names(self) -> Sequence[str]:
+        """[nz]."""
+
+    @property
+    def guard_names(self) -> Sequence[str]:
+        """[ng]."""
 
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine, by the numbers in `zones`."""
-        ...
 
 
 @dataclass(frozen=True)

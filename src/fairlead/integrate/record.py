@@ -10,7 +10,7 @@ ORDINARY, BEFORE, AFTER = 0, 1, 2
 
 @compiled
 def write_row(m, t, at_y, side):
-    """One row: time, outputs in the zones in force (y itself where the problem has none), side of an event."""
+    """One row: time, outputs in the zones in force (y itself where there are none), side of an event."""
     row = m.rows
     reals(m.at_row_t, m.row_capacity)[row] = t
     indices(m.at_row_side, m.row_capacity)[row] = side

@@ -25,10 +25,10 @@ def replan(memory: Memory, problem: Problem) -> bool:
 
 
 def fresh_plan(memory: Memory, problem: Problem) -> dict[str, Integers] | None:
-    """Arrays of a plan with the pivots that partial pivoting takes for the matrix in memory; None if singular.
+    """Arrays of a plan with the pivots that partial pivoting takes for the matrix in memory, or None.
 
     The matrix is the one whose factorisation failed, in the units of the error weights, so that the
-    comparison of pivots does not depend on units.
+    comparison of pivots does not depend on units. None means that it is singular.
     """
     import scipy.sparse
     import scipy.sparse.linalg

@@ -11,6 +11,8 @@ from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobi
 from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, assemble_step, factorise, solve
 from fairlead.integrate.sparse import backward_error
 
+CHUNK = 512
+"""Unknowns combined at a time, so that sums over the stages stay in the nearest cache."""
 REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
 """Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
 
@@ -63,23 +65,26 @@ def take_step(m, h):
 
 @compiled
 def stage_right_side(m, h, i):
-    """b = f(t + c_i h, y + sum_j a_ij K_j) + h d_i f_t + M sum_j (C_ij/h) K_j."""
+    """Set b = f(t + c_i h, y + sum_j a_ij K_j) + h d_i f_t + M sum_j (C_ij/h) K_j."""
     n, stages = m.n, m.stages
     y, u, v, f = reals(m.at_y, n), reals(m.at_u, n), reals(m.at_v, n), reals(m.at_f, n)
     K, ft, b = reals(m.at_K, stages * n), reals(m.at_ft, n), reals(m.at_b, n)
     a, C = reals(m.at_a, stages * stages), reals(m.at_C, stages * stages)
     c, d = reals(m.at_c, stages), reals(m.at_d, stages)
-    moved = i == 0
-    for k in range(n):
-        u[k] = y[k]
-        v[k] = 0.0
+    moved = i == 0 or c[i] != c[i - 1]
     for j in range(i):
-        a_ij, C_ij = a[i * stages + j], C[i * stages + j] / h
-        moved = moved or a_ij != a[(i - 1) * stages + j]
-        for k in range(n):
-            u[k] += a_ij * K[j * n + k]
-            v[k] += C_ij * K[j * n + k]
-    if moved or c[i] != c[i - 1]:
+        moved = moved or a[i * stages + j] != a[(i - 1) * stages + j]
+    for begin in range(0, n, CHUNK):
+        end = min(begin + CHUNK, n)
+        for k in range(begin, end):
+            u[k] = y[k]
+            v[k] = 0.0
+        for j in range(i):
+            a_ij, C_ij = a[i * stages + j], C[i * stages + j] / h
+            for k in range(begin, end):
+                u[k] += a_ij * K[j * n + k]
+                v[k] += C_ij * K[j * n + k]
+    if moved:
         field_at(m.call_rhs, (m.context, m.t + c[i] * h, m.at_u, m.at_f))
         m.rhs += 1
     slope_weight = h * d[i]
@@ -108,7 +113,7 @@ def combine(m):
 
 @compiled
 def midpoint_defect(m, h):
-    """Into `error_vector`: how far the algebraic unknowns of the dense output are off at the middle of the step.
+    """Into `error_vector`: how far the dense output of algebraic unknowns is off in the middle of the step.
 
     A stiffly accurate method meets the algebraic equations at the end of a step of any size, so its
     error estimate says nothing about a multiplier that follows a force in time: without this, a held
@@ -154,7 +159,7 @@ def check_solution(m, at_x, at_b):
 
 @compiled
 def times_jacobian(m, at_v, at_b):
-    """b += J v over the differential columns, for the n doubles at the two addresses."""
+    """Add J v to b over the differential columns, for the n doubles at the two addresses."""
     starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
     values, differential = reals(m.at_jacobian, m.n_jacobian), indices(m.at_differential, m.n)
     v, b = reals(at_v, m.n), reals(at_b, m.n)

@@ -40,17 +40,18 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
     t, names = float(memory.number["t"]), ", ".join(culprits)
     when = f"t = {t:.6g} s"
     step = float(memory.number["h"])
+    dwell, kept = float(memory.number["dwell"]), "the results so far are kept."
     cycling = cycle(memory, problem) if status == Status.NOT_SETTLED else ""
     texts = {
         Status.FINISHED: f"Reached {when}.",
         Status.STEP_FLOOR: (
-            f"{when}: the step size fell to its floor ({step:.2g} s) because of the error of {names}. A law may "
-            "jump inside its zone, or a Jacobian be wrong; check the component of that unknown, or loosen its "
-            "tolerance."
+            f"{when}: the step size fell to its floor ({step:.2g} s) because of the error of {names}. A law "
+            "may jump inside its zone, or a Jacobian be wrong; check the component of that unknown, or "
+            "loosen its tolerance."
         ),
         Status.NOT_FINITE: (
-            f"{when}: {names} is not a finite number, whatever the step. A law divides by zero, takes the root "
-            "of a negative number or overflows just ahead; look at the components of that unknown."
+            f"{when}: {names} is not a finite number, whatever the step. A law divides by zero, takes the "
+            "root of a negative number or overflows just ahead; look at the components of that unknown."
         ),
         Status.NOT_SETTLED: (
             f"{when}: zones did not settle in {int(memory.number['passes'])} passes; still switching: "
@@ -58,22 +59,22 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
             "between them."
         ),
         Status.INCONSISTENT: (
-            f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. Give a "
-            "better initial value, or check that the equations have a solution in these zones."
+            f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. Give "
+            "a better initial value, or check that the equations have a solution in these zones."
         ),
         Status.SINGULAR: (
-            f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or damping, "
-            "or a contact that closes a loop of held contacts, leaves a force open; add a mass or damping there."
+            f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or "
+            "damping, or a contact that closes a loop of held contacts, leaves a force open; add a mass or "
+            "damping there."
         ),
         Status.CHATTER: (
-            f"{when}: {names} switches to and fro faster than its dwell of {float(memory.number['dwell']):.2g} s. "
-            "Its zones have no consistent choice at this point; add hysteresis, or let the run hold it "
-            "(on_chatter: hold)."
+            f"{when}: {names} switches to and fro faster than its dwell of {dwell:.2g} s. Its zones "
+            "have no consistent choice at this point; add hysteresis, or hold it (on_chatter: hold)."
         ),
-        Status.MAX_STEPS: f"{when}: the budget of {run.max_steps} steps is used up; the results so far are kept.",
-        Status.MAX_EVENTS: f"{when}: the budget of {run.max_events} events is used up; the results so far are kept.",
-        Status.MAX_WALL: f"{when}: the budget of {run.max_wall} s is used up; the results so far are kept.",
-        Status.INTERRUPTED: f"{when}: interrupted; the results so far are kept.",
+        Status.MAX_STEPS: f"{when}: the budget of {run.max_steps} steps is used up; {kept}",
+        Status.MAX_EVENTS: f"{when}: the budget of {run.max_events} events is used up; {kept}",
+        Status.MAX_WALL: f"{when}: the budget of {run.max_wall} s is used up; {kept}",
+        Status.INTERRUPTED: f"{when}: interrupted; {kept}",
     }
     return texts[status]
 

@@ -59,7 +59,7 @@ def project(m):
 
 @compiled
 def residual_here(m, at_r):
-    """r = f(t, y) - M y' at the point."""
+    """Set r = f(t, y) - M y' at the point."""
     n = m.n
     field_at(m.call_rhs, (m.context, m.t, m.at_y, m.at_f))
     m.rhs += 1
@@ -73,7 +73,10 @@ def residual_here(m, at_r):
 
 @compiled
 def consistent(m, iterations):
-    """Make the point consistent for the zones in force, with its rate of change; DONE, SINGULAR, INACCURATE or NOT_CONSISTENT."""
+    """Make the point consistent for the zones in force, and compute its rate of change.
+
+    Returns DONE, SINGULAR, INACCURATE or NOT_CONSISTENT.
+    """
     n = m.n
     mass_at(m.call_mass, (m.context, m.at_mass))
     status = prepare_consistent(m)
@@ -127,7 +130,7 @@ def update(m, fraction):
 
 @compiled
 def damp(m, size):
-    """Take back part of an update larger than the last one: a step of the size Newton has shown it can take."""
+    """Take back three quarters of an update that was larger than the one before it."""
     update(m, -0.75)
     return size
 

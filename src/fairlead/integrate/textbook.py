@@ -239,11 +239,12 @@ def _python_callbacks(
         def call(*arguments: Any) -> Any:
             try:
                 return bodies[name](*arguments)
-            except BaseException as failure:  # ctypes would print and lose it, Ctrl-C included
+            except BaseException as failure:  # noqa: BLE001, ctypes would print and lose it, Ctrl-C included
                 failures.append(failure)
                 if name in ("rhs", "jacobian", "guards"):
                     arguments[3][0] = np.nan
                 return 0
+
         return call
 
     keep = {name: ctypes.CFUNCTYPE(*_SIGNATURES[name])(safely(name)) for name in laws}

@@ -42,7 +42,8 @@ def compile_laws(laws: Mapping[str, Callable[..., Any]], sizes: Any) -> tuple[An
         bodies["guards"] = field(law["guards"], sizes.guards)
     if "outputs" in law:
         bodies["outputs"] = field(law["outputs"], sizes.outputs)
-    for name, make in (("switch", _switch), ("slip", _slip), ("next_time", _next_time), ("at_time", _at_time)):
+    makers = {"switch": _switch, "slip": _slip, "next_time": _next_time, "at_time": _at_time}
+    for name, make in makers.items():
         if name in law:
             bodies[name] = make(law[name], n, nz)
     keep = {name: numba.cfunc(_SIGNATURES[name], error_model="numpy")(body) for name, body in bodies.items()}

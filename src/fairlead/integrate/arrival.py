@@ -1,0 +1,174 @@
+"""Arriving at a point: settle there if guards fired or a time event changed something; the step after."""
+
+from __future__ import annotations
+
+from fairlead.integrate.codes import (
+    BUFFER_FULL,
+    CHATTER,
+    GO_ON,
+    INCONSISTENT,
+    REPLAN,
+    SETTLE,
+    SINGULAR_MATRIX,
+    TRY,
+    UNSETTLED,
+)
+from fairlead.integrate.controller import restart, weigh, weighted_norm
+from fairlead.integrate.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
+from fairlead.integrate.linear import INACCURATE, SINGULAR
+from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
+from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, block, settle
+from fairlead.integrate.start import NOT_CONSISTENT
+from fairlead.integrate.trial import not_finite_here, smallest_step
+
+STALL_LIMIT = 5
+"""Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
+START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
+"""Newton iterations allowed from the guess of a user, and from a point consistent before a switch."""
+
+
+@compiled
+def start(m):
+    """Sample inputs at the start, then settle there."""
+    if m.call_at_time != 0:
+        at_time_at(m.call_at_time, (m.context, m.t, m.at_y))
+    find_next_time(m)
+    m.n_fired = 0
+    begin_settling(m)
+    m.phase = SETTLE
+    return GO_ON
+
+
+@compiled
+def arrive(m):
+    """Move to the end of the piece; settle there if guards fired or a time event changed anything."""
+    m.t = m.t_piece
+    copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
+    m.jacobian_fresh = 0
+    if m.rows + 4 > m.row_capacity:
+        return BUFFER_FULL
+    m.phase = TRY
+    event_due = m.landing == 1 and (m.t < m.stop and m.t >= min(m.t_next, m.t_release))
+    if m.crossed == 1:
+        m.located += 1
+        write_row(m, m.t, m.at_y, BEFORE)
+        begin_settling(m)
+        m.phase = SETTLE
+    elif event_due:
+        write_row(m, m.t, m.at_y, BEFORE)
+        if time_event(m):
+            m.n_fired = 0
+            begin_settling(m)
+            m.phase = SETTLE
+        else:
+            m.rows -= 1
+    if m.phase == TRY:
+        copy(reals(m.at_g_end, m.n_guards), reals(m.at_g, m.n_guards))
+        # The stop is recorded even when it is no point of the grid.
+        off_grid = m.t >= m.stop and m.start + (m.grid_next - 1) * m.every < m.stop - 1e-9 * m.every
+        if m.on_grid == 0 or off_grid:
+            write_row(m, m.t, m.at_y, ORDINARY)
+    return GO_ON
+
+
+@compiled
+def time_event(m):
+    """Tell the problem of its time event, release machines whose dwell is over; True if that matters."""
+    changed = False
+    if m.t >= m.t_next:
+        m.time_events += 1
+        changed = at_time_at(m.call_at_time, (m.context, m.t, m.at_y)) != 0
+        find_next_time(m)
+    if m.t >= m.t_release:
+        changed = True
+        blocked = reals(m.at_blocked_until, m.n_zones)
+        m.t_release = 1e308
+        for z in range(m.n_zones):
+            if blocked[z] > m.t:
+                m.t_release = min(m.t_release, blocked[z])
+    return changed
+
+
+@compiled
+def find_next_time(m):
+    """When the problem wants to be told next."""
+    m.t_next = 1e308
+    if m.call_next_time != 0:
+        m.t_next = next_time_at(m.call_next_time, (m.context, m.t))
+
+
+@compiled
+def settle_here(m):
+    """Settle at the point; then any time event of this instant; then the step to begin with."""
+    starting = m.steps == 0 and m.companion == 0 and m.crossed == 0
+    watch_progress(m)
+    status = settle(m, START_ITERATIONS if starting else SETTLE_ITERATIONS)
+    if status == INACCURATE:
+        return REPLAN
+    if status == NO_ROOM:
+        return BUFFER_FULL
+    if status == SINGULAR:
+        return not_finite_here(m, SINGULAR_MATRIX)
+    if status == NOT_CONSISTENT:
+        return not_finite_here(m, INCONSISTENT)
+    if status == NOT_SETTLED:
+        return UNSETTLED
+    if m.stop_asked == 1:
+        return CHATTER
+    if m.crossed == 1 and m.landing == 1 and m.t < m.stop:
+        m.crossed = 0
+        if m.t >= min(m.t_next, m.t_release) and time_event(m):
+            begin_settling(m)
+            return GO_ON
+    finish_settling(m, starting)
+    return GO_ON
+
+
+@compiled
+def watch_progress(m):
+    """Count switches that do not advance; when there are too many, hold the machines for a dwell."""
+    if m.passes > 0 or m.n_fired == 0:
+        return
+    m.stalls = m.stalls + 1 if m.t - m.t_last_switch < m.progress_floor else 0
+    m.t_last_switch = m.t
+    if m.stalls >= STALL_LIMIT:
+        fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
+        chatters = indices(m.at_chatters, m.n_zones)
+        for k in range(m.n_fired):
+            z = machine[fired[k]]
+            if z >= 0:
+                block(m, z)
+                chatters[z] += 1
+
+
+@compiled
+def finish_settling(m, starting):
+    """Choose the step after a settlement, and write the right-hand row."""
+    if m.adaptive == 1:
+        weigh(m, m.at_y)
+        keep_differential(m, m.at_slope, m.at_u)
+        speed = weighted_norm(m, m.at_u)
+        keep_differential(m, m.at_curvature, m.at_u)
+        m.h_next = restart(m, speed, weighted_norm(m, m.at_u))
+        if starting and m.first_step > 0.0:
+            m.h_next = m.first_step
+        m.h_next = max(min(m.h_next, 0.1 * (m.stop - m.start)), 4.0 * smallest_step(m))
+    m.last_error = 0.0
+    m.retried = 0
+    m.jacobian_fresh = 0
+    m.factored_h = 0.0
+    m.companion = 0
+    m.crossed = 0
+    if not starting or m.on_grid == 0 or m.grid_next == 0:
+        write_row(m, m.t, m.at_y, ORDINARY if starting else AFTER)
+    if starting:
+        m.grid_next = 1
+    m.phase = TRY
+
+
+@compiled
+def keep_differential(m, at_v, at_u):
+    """U = v where y_i is differential, else 0."""
+    v, u, differential = reals(at_v, m.n), reals(at_u, m.n), indices(m.at_differential, m.n)
+    for k in range(m.n):
+        u[k] = v[k] if differential[k] == 1 else 0.0

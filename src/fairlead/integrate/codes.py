@@ -1,0 +1,14 @@
+"""Numbers by which compiled code says where a run is: phases of the loop, and statuses.
+
+The statuses are those of protocol.Status, spelled out because compiled code knows no enumerations.
+"""
+
+from __future__ import annotations
+
+START, TRY, RECORD, ARRIVE, SETTLE = 0, 1, 2, 3, 4
+
+GO_ON = 100
+"""Not a status of a run: the loop takes the next phase."""
+FINISHED, PAUSED, BUFFER_FULL, REPLAN = 0, -1, -2, -3
+STEP_FLOOR, NOT_FINITE, UNSETTLED, INCONSISTENT, SINGULAR_MATRIX = 1, 2, 3, 4, 5
+CHATTER, MAX_STEPS, MAX_EVENTS = 6, 7, 8

@@ -1,0 +1,141 @@
+"""One trial step: proposed, taken, and rejected, given up for a settlement, or accepted up to a crossing."""
+
+from __future__ import annotations
+
+from math import inf, isfinite
+
+from fairlead.integrate.codes import (
+    GO_ON,
+    MAX_EVENTS,
+    MAX_STEPS,
+    NOT_FINITE,
+    RECORD,
+    REPLAN,
+    SETTLE,
+    SINGULAR_MATRIX,
+    STEP_FLOOR,
+)
+from fairlead.integrate.controller import (
+    estimate_error,
+    step_after_acceptance,
+    step_after_rejection,
+    weighted_norm,
+)
+from fairlead.integrate.crossing import COMPANION, CROSSING, first_crossing
+from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.interpolant import interpolate, prepare_interpolant
+from fairlead.integrate.linear import INACCURATE, SINGULAR
+from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.rosenbrock import midpoint_defect, take_step
+from fairlead.integrate.settling import begin_settling
+
+
+@compiled
+def attempt(m):
+    """One trial step: rejected, given up for a settlement at its start, or accepted up to `t_piece`."""
+    if m.steps >= m.max_steps:
+        return MAX_STEPS
+    if m.total_events >= m.max_events:
+        return MAX_EVENTS
+    h = propose(m)
+    m.h = h
+    status = take_step(m, h)
+    if status == INACCURATE:
+        return REPLAN
+    if status == SINGULAR:
+        m.error = inf
+    else:
+        m.error = estimate_error(m)
+    if m.error <= 1.0 or m.adaptive == 0:
+        prepare_interpolant(m)
+        if m.n_algebraic > 0 and m.adaptive == 1:
+            midpoint_defect(m, h)
+            m.error = max(m.error, weighted_norm(m, m.at_error_vector))
+    if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
+        return reject(m, h, status)
+    found = first_crossing(m, h)
+    if found == COMPANION:
+        m.rejected_companion += 1
+        m.companion = 1
+        write_row(m, m.t, m.at_y, BEFORE)
+        begin_settling(m)
+        m.phase = SETTLE
+        return GO_ON
+    accept(m, h, found == CROSSING)
+    return GO_ON
+
+
+@compiled
+def propose(m):
+    """The next step size: what control wants, clipped to land on the next time event or the stop."""
+    m.t_land = min(m.stop, min(m.t_next, m.t_release))
+    rest = m.t_land - m.t
+    h = min(m.h_next, m.max_step)
+    m.h_wanted = h
+    m.landing = 0
+    if h >= rest * (0.99 if m.adaptive == 1 else 1.0 - 1e-9):
+        m.landing = 1
+        return rest
+    if m.adaptive == 1 and h > 0.5 * rest:
+        return 0.5 * rest
+    return h
+
+
+@compiled
+def smallest_step(m):
+    """The step floor here: what was set, but not below what t can resolve."""
+    return max(m.step_floor, 4e-15 * abs(m.t))
+
+
+@compiled
+def reject(m, h, status):
+    """Shrink the step, and say whom it is due to; end the run at the step floor."""
+    indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
+    if isfinite(m.error):
+        m.rejected_error += 1
+    else:
+        m.rejected_nan += 1
+    m.h_next = step_after_rejection(m, h)
+    m.retried += 1
+    if m.adaptive == 1 and m.h_next >= smallest_step(m):
+        return GO_ON
+    if status == SINGULAR:
+        return not_finite_here(m, SINGULAR_MATRIX)
+    return STEP_FLOOR if isfinite(m.error) else not_finite_here(m, NOT_FINITE)
+
+
+@compiled
+def not_finite_here(m, otherwise):
+    """NOT_FINITE, with the unknown in `worst`, if f is not finite here or a step later; else `otherwise`.
+
+    The trial itself does not tell whose law it was: one nan spreads to all unknowns in the first solve.
+    """
+    for fraction in range(2):
+        field_at(m.call_rhs, (m.context, m.t + fraction * m.h, m.at_y, m.at_f))
+        f = reals(m.at_f, m.n)
+        for k in range(m.n):
+            if not isfinite(f[k]):
+                m.worst = k
+                return NOT_FINITE
+    return otherwise
+
+
+@compiled
+def accept(m, h, crossed):
+    """Set the piece of the trial that is accepted: up to the crossing, or to the end."""
+    m.steps += 1
+    if m.adaptive == 1:
+        m.h_next = step_after_acceptance(m, h)
+        if h < m.h_wanted:
+            m.h_next = max(m.h_next, m.h_wanted)
+    m.last_error = max(m.error, 1e-4)
+    m.retried = 0
+    m.crossed = 1 if crossed else 0
+    if crossed and m.theta < 1.0:
+        m.landing = 0
+        m.t_piece = m.t + m.theta * h
+        interpolate(m, m.theta, m.at_y_piece)
+    else:
+        m.t_piece = m.t_land if m.landing == 1 else m.t + h
+        copy(reals(m.at_y_end, m.n), reals(m.at_y_piece, m.n))
+    m.phase = RECORD
