@@ -62,6 +62,8 @@ class Bend:
     """Right-hand side and Jacobian; y = (x_h, x_c, v_h, v_c) of nodes 1..n-1, (x, v) of node n, two works."""
 
     def __init__(self, scene: BendScene, law: str) -> None:
+        if scene.by_place:
+            raise ValueError("loads by place are only in the convex engine")
         self.scene, self.law, self.n = scene, law, scene.elements
         self.hose_k, self.core_k = scene.hose_stiffness / scene.pitch, scene.core_stiffness / scene.pitch
         self.hose_c = 2.0 * scene.damping_ratio * np.sqrt(scene.hose_stiffness * scene.hose_mass)

@@ -21,7 +21,11 @@ RUCK_DWELL = 0.1  # [s]
 
 @dataclass(frozen=True)
 class BendScene:
-    """All numbers of the test in SI units; `mu` is hose on guide, `creep` is v_c of both contacts."""
+    """All numbers of the test in SI units; `mu` is hose on guide, `creep` is v_c of both contacts.
+
+    `by_place`: load of the guide from the core tension at the hose node's place, not from the core node of
+    the same index. The design says index; the two part when hose and core do.
+    """
 
     mu: float = 0.35
     creep: float = 1e-4
@@ -44,6 +48,7 @@ class BendScene:
     bulkhead_coulomb: float = 0.40
     stribeck_speed: float = 0.02
     stop: float = 20.0
+    by_place: bool = False
 
     @property
     def pitch(self) -> float:

@@ -16,32 +16,27 @@ from bend_scene import BendScene
 
 DATA = Path(__file__).parent / "data" / "independent_bend.json"
 MUS = (0.35, 0.60)
+BY_PLACE = "by place"  # see BendScene.by_place
 # (elements, creep, accuracy, law): scipy's accuracy is rtol, the convex engine's its step [s]
 CONVEX = [(n, 1e-4, h, "line") for n in (60, 120) for h in (1e-3, 5e-4)]
 CONVEX += [(60, 1e-4, h, "line") for h in (2.5e-4, 1.25e-4)]
 CONVEX += [(60, creep, 2.5e-4, "line") for creep in (1e-5, 1e-6)]
+CONVEX += [(n, 1e-4, 5e-4, BY_PLACE) for n in (60, 120)]
 SCIPY = [(60, 1e-4, 1e-5, "line"), (60, 1e-4, 1e-6, "line"), (120, 1e-4, 1e-5, "line")]
 SCIPY += [(60, 1e-5, 1e-5, "line"), (60, 1e-4, 1e-5, "tanh"), (120, 1e-4, 1e-6, "line")]
 SCIPY += [(60, 1e-4, 1e-7, "line")]
-COLUMNS = (
-    "registration_mm",
-    "registration_max_mm",
-    "inboard_mean_N",
-    "inboard_ripple_std_N",
-    "inboard_ripple_half_range_N",
-    "lowest_hose_tension_so_far_N",
-    "ruck_first_crossing_s",
-    "ruck_first_dwell_s",
-    "device_work_J",
-    "bulkhead_work_J",
-)
+HEADER = (
+    "engine", "n", "v_c [m/s]", "d at 1 s", "5 s", "8 s", "12 s", "20 s", "greatest [mm]", "mean T_in", "std",
+    "half range [N]", "lowest T_h to 1 s", "8 s", "20 s [N]", "below -160 N [s]", "for 0.1 s [s]",
+    "guide [J]", "bulkheads [J]",
+)  # fmt: skip
 
 
 def cases() -> list[tuple[str, BendScene, float, str]]:
     """Engine, scene, accuracy and law of every case, cheap ones first."""
     planned = [("convex", case) for case in CONVEX] + [("scipy", case) for case in SCIPY]
     return [
-        (engine, BendScene(mu=mu, creep=creep, elements=n), accuracy, law)
+        (engine, BendScene(mu=mu, creep=creep, elements=n, by_place=law == BY_PLACE), accuracy, law)
         for engine, (n, creep, accuracy, law) in planned
         for mu in MUS
     ]
@@ -76,28 +71,40 @@ def fill() -> None:
 
 
 def show(mu: float) -> str:
-    """Markdown table of all stored runs for one friction value."""
-    runs = {key: run for key, run in stored().items() if run["scene"]["mu"] == mu}
-    head = "| run | 1 s | 5 s | 8 s | 12 s | 20 s | max [mm] | T_in mean | std | half range [N] "
-    head += "| lowest T_h [N] | first < -160 N [s] | dwell [s] | work guide | bulkheads [J] |"
-    lines = [head, "|" + " --- |" * 15]
-    lines += [
-        f"| {key.replace(f' mu={mu:g}', '')} | " + _row(run["table"]) + " |" for key, run in runs.items()
+    """Markdown table of all stored runs for one friction value: convex first, then by mesh and accuracy."""
+    runs = [run for run in stored().values() if run["scene"]["mu"] == mu]
+    runs.sort(
+        key=lambda run: ("rtol" in run, run["scene"]["elements"], -_accuracy(run), -run["scene"]["creep"])
+    )
+    lines = [HEADER, ["---"] * len(HEADER), *(_cells(run) for run in runs)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def _accuracy(run: dict) -> float:
+    return run["rtol"] if "rtol" in run else run["step"]
+
+
+def _cells(run: dict) -> list[str]:
+    """One line of the table, as text."""
+    t, scene = run["table"], run["scene"]
+    engine = (
+        f"scipy Radau, rtol {run['rtol']:g}" if "rtol" in run else f"convex, h = {1e3 * run['step']:g} ms"
+    )
+    low = t["lowest_hose_tension_so_far_N"]
+    numbers = [*t["registration_mm"].values(), t["registration_max_mm"], t["inboard_mean_N"]]
+    ripple = [f"{t[f'inboard_ripple_{kind}_N']:.0f}" for kind in ("std", "half_range")]
+    ruck = [t["ruck_first_crossing_s"], t["ruck_first_dwell_s"]]
+    return [
+        engine + (", tanh" if run["law"] == "tanh" else "") + (", by place" if scene.get("by_place") else ""),
+        f"{scene['elements']}",
+        f"{scene['creep']:g}",
+        *(f"{value:.1f}" for value in numbers),
+        *ripple,
+        *(f"{low[instant]:.1f}" for instant in ("1", "8", "20")),
+        *("never" if value is None else f"{value:.1f}" for value in ruck),
+        f"{t['device_work_J']:.0f}",
+        f"{t['bulkhead_work_J']:.1f}",
     ]
-    return "\n".join(lines)
-
-
-def _row(table: dict) -> str:
-    cells = []
-    for column in COLUMNS:
-        value = table[column]
-        if column == "registration_mm":
-            cells += [f"{v:.1f}" for v in value.values()]
-        elif column == "lowest_hose_tension_so_far_N":
-            cells.append(f"{value['20']:.1f}")
-        else:
-            cells.append("never" if value is None else f"{value:.1f}" if abs(value) < 1e3 else f"{value:.0f}")
-    return " | ".join(cells)
 
 
 def main() -> None:

@@ -78,7 +78,11 @@ class ConvexBend:
         s = self.scene
         hose_speed, core_speed = self.speed[0:-1:2], self.speed[1:-1:2]
         core_mean = 0.5 * (self.core_tension[1:] + self.core_tension[:-1])
-        both = core_mean + 0.5 * (self.hose_tension[1:] + self.hose_tension[:-1])
+        beneath = core_mean
+        if s.by_place:
+            middle = 0.5 * (self.core[1:] + self.core[:-1])
+            beneath = np.interp(self.hose[1:-1], middle, self.core_tension)
+        both = beneath + 0.5 * (self.hose_tension[1:] + self.hose_tension[:-1])
         curve = s.pitch / s.radius
         guide = s.mu * np.maximum(both, 0.0) * curve * s.window(self.hose[1:-1])
         slide = np.exp(-(((core_speed - hose_speed) / s.stribeck_speed) ** 2))
@@ -228,10 +232,12 @@ def main() -> None:
     parser.add_argument("--creep", type=float, default=1e-4, help="creep speed v_c [m/s]")
     parser.add_argument("--elements", type=int, default=60)
     parser.add_argument("--step", type=float, default=1e-3, help="step length h [s]")
+    parser.add_argument("--by-place", action="store_true", help="core tension where the hose node is")
     parser.add_argument("--stop", type=float, default=20.0, help="end time [s]")
     parser.add_argument("--output", type=Path, help="JSON file to write")
     a = parser.parse_args()
-    result = run(BendScene(mu=a.mu, creep=a.creep, elements=a.elements, stop=a.stop), a.step)
+    scene = BendScene(mu=a.mu, creep=a.creep, elements=a.elements, stop=a.stop, by_place=a.by_place)
+    result = run(scene, a.step)
     print(json.dumps({k: result[k] for k in ("engine", "step", "table", "counters")}, indent=1))
     if a.output:
         a.output.write_text(json.dumps(result, indent=1) + "\n")
