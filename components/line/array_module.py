@@ -7,8 +7,8 @@ from fairlead.component import (
 )  # fmt: skip
 from fairlead.components.friction.curve import Curve
 from fairlead.components.line.array_line import ArrayLine
-from fairlead.components.line.core import Core
-from fairlead.components.line.hose import Hose
+from fairlead.components.line.core_element import Core
+from fairlead.components.line.hose_element import Hose
 from fairlead.components.line.registration import Registration
 from fairlead.components.mechanics.mass import Mass
 

@@ -58,17 +58,13 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     limits = read_limits(netlist.limits, system.recorded)
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
-    directory = RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force)
-    watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress)
-    try:
+    with RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force) as directory:
+        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress)
         outcome = integrate(system, _engine_settings(netlist, settings), watch)
-    except BaseException:
-        directory.finish("failed", {})
-        raise
-    summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
-    if profile:
-        summary["profile"] = _profile(system, outcome)
-    directory.finish(_status(outcome), summary)
+        summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
+        if profile:
+            summary["profile"] = _profile(system, outcome)
+        directory.finish(_status(outcome), summary)
     return Result.open(path)
 
 
