@@ -20,7 +20,10 @@ class Stage(enum.StrEnum):
 
 def describe(
     subject: Annotated[
-        str, typer.Argument(help="A netlist, a bundled model, or a component type such as Spring.")
+        str,
+        typer.Argument(
+            help="A netlist, a bundled model, a component type such as Spring, or `types` for the list."
+        ),
     ],
     settings: Settings,
     libraries: Libraries,
@@ -39,5 +42,6 @@ def describe(
 
 
 def is_type_name(subject: str) -> bool:
-    """Types are CamelCase words; models are lower_snake names or paths to files."""
-    return subject.isidentifier() and subject[0].isupper() and not pathlib.Path(subject).exists()
+    """Types are CamelCase words, and `types` means all; models are lower_snake names or paths to files."""
+    named = subject == "types" or (subject.isidentifier() and subject[0].isupper())
+    return named and not pathlib.Path(subject).exists()

@@ -165,6 +165,13 @@ def trace(variant: Variant) -> Traced:
     return Traced(variant, zones, tables, timed)
 
 
+def trace_function(variant: Variant, function: Callable[..., Any], *arguments: sympy.Expr) -> tuple[Any, dict[str, sympy.Expr]]:
+    """What a function of a class, such as a curve's `coefficient`, gives; and the tables it reads, where."""
+    reads: dict[str, sympy.Expr] = {}
+    names = function.__code__.co_varnames
+    return _run(function, dict(zip(names, (_Recorder(variant, "", reads), *arguments), strict=False))), reads
+
+
 def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     zone = TracedZone()
     arguments = _arguments(variant, has, name, zone.tables)

@@ -228,7 +228,7 @@ class KernelText:
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger, mass=self.mass,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             guards={name: [_describe(g, self) for g in zone.guards] for name, zone in t.zones.items()},
-            slots=self.slots, equations={name: _equations(zone) for name, zone in t.zones.items()},
+            slots=self.slots,
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
         )  # fmt: skip
@@ -247,23 +247,4 @@ def _describe(guard: TracedGuard, text: KernelText) -> dict[str, Any]:
     base = text.machines - len(text.traced.tables)
     machine = base + text.traced.tables.index(guard.table) if guard.table else 0
     to = -1 if guard.table else list(text.traced.zones).index(guard.to)
-    says = " and ".join(f"{readable(value)} >= 0" for value in guard.values)
-    return {"name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step, "when": says}
-
-
-def _equations(zone: TracedZone) -> list[str]:
-    lines = [f"{name} takes in  {readable(value)}" for name, value in zone.flows.items()]
-    lines += [f"hold  {readable(h.slip)} = 0" for h in zone.holds.values()]
-    lines += [f"0 or rate of {n} = {readable(v)}" for n, v in zone.own.items() if n not in zone.holds]
-    return lines + [f"{name} = {readable(value)}" for name, value in zone.outputs.items()]
-
-
-def readable(expression: sympy.Expr) -> str:
-    """An expression with the names an author wrote: `a.x` for `port:a:x`, `stiffness` for `p:stiffness`."""
-    renamed = {s: sympy.Symbol(_plain(s.name)) for s in expression.free_symbols}
-    return str(expression.xreplace(renamed))
-
-
-def _plain(key: str) -> str:
-    kind, _, rest = key.partition(":")
-    return {"port": rest.replace(":", "."), "T": "table " + rest}.get(kind, rest or key)
+    return {"name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step}

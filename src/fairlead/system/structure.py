@@ -26,6 +26,5 @@ class Structure:
     holds: dict[str, list[str]]  # unknown -> zones that hold
     guards: dict[str, list[dict[str, Any]]]  # zone -> its guards in slot order
     slots: int
-    equations: dict[str, list[str]]  # zone -> its laws as text
     flow_inputs: dict[str, dict[str, list[str]]]  # zone -> target -> input keys it depends on
     reaches: dict[str, dict[str, str]]  # zone -> table -> input or expression it is read at

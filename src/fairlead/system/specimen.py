@@ -1,0 +1,97 @@
+"""A class variant to look at when there is no netlist: parameters at their defaults, parts left open.
+
+In `specimen(Hold)` the part `curve` stands for any curve: the laws say `curve.coefficient(slip)`.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+import sympy
+
+from fairlead.component.base import METHODS, Declared, Family
+from fairlead.component.declare import REQUIRED, Choice, Parameter, Part, Table, Waveform
+from fairlead.component.piecewise import linear_table
+from fairlead.component.scene import is_head
+from fairlead.component.trace import Traced, TraceError, trace
+from fairlead.component.values import Values, Variant, steady, variant_of
+
+
+def traced_specimen(kind: type[Declared]) -> Traced:
+    """A class traced with its parts open; a law that looks inside a part gets the first of the family."""
+    try:
+        return trace(specimen(kind, open_parts=True))
+    except TraceError:
+        return trace(specimen(kind, open_parts=False))
+
+
+def specimen(kind: type[Declared], *, open_parts: bool) -> Variant:
+    """Every word at its default; waveforms and tables are given, optional numbers are not."""
+    given = {
+        name: _usual(name, declared, open_parts) for name, declared in kind.declaration.parameters.items()
+    }
+    prepare = getattr(kind, "prepare", None)
+    return variant_of(Values(kind, prepare(given) if prepare else given))
+
+
+def _usual(name: str, declared: Any, open_parts: bool) -> Any:
+    if isinstance(declared, Part):
+        return Values(_any_member(name, declared.family) if open_parts else _first(declared.family), {})
+    if isinstance(declared, Waveform):
+        return steady(0.0)
+    if isinstance(declared, Table):
+        return linear_table([0.0, 1.0], [0.0, 1.0])
+    default = getattr(declared, "default", None)
+    if default is not REQUIRED:
+        return default
+    if isinstance(declared, Choice):
+        return declared.options[0]
+    return _within(declared) if isinstance(declared, Parameter) else 1
+
+
+def _within(declared: Parameter) -> float:
+    """Some number in the range of a parameter."""
+    low = next((b for b in (declared.above, declared.least) if b is not None), None)
+    high = next((b for b in (declared.below, declared.most) if b is not None), None)
+    if low is not None and high is not None:
+        return (low + high) / 2
+    return low + 1.0 if low is not None else high - 1.0 if high is not None else 1.0
+
+
+def _first(family: Any) -> type[Declared]:
+    return family.members.get(family.default_word) or next(iter(family.members.values()))
+
+
+def _any_member(path: str, family: Any) -> type[Declared]:
+    """A stand-in whose functions are those that all members have, left unsaid."""
+    member = _first(family)
+    names = [
+        n
+        for n, f in inspect.getmembers(member, inspect.isfunction)
+        if not n.startswith("_") and n not in METHODS
+    ]
+    everywhere = [n for n in names if all(hasattr(other, n) for other in family.members.values())]
+    return type(
+        family.__name__,
+        (Declared,),
+        {"__module__": __name__, **{n: _unsaid(f"{path}.{n}") for n in everywhere}},
+    )
+
+
+def _unsaid(name: str) -> Callable[..., Any]:
+    def function(p: Any, *arguments: Any) -> Any:
+        return sympy.Function(name, real=True)(*arguments)
+
+    return function
+
+
+def families_of(kind: type[Declared]) -> list[type[Family]]:
+    """Families that a class takes its parts from, nearest first."""
+    found: dict[type[Family], None] = {}
+    kinds = kind.members.values() if is_head(kind) else [kind]  # type: ignore[attr-defined]
+    for family in (getattr(d, "family", None) for k in kinds for d in k.declaration.parameters.values()):
+        if family is not None and family not in found:
+            found |= dict.fromkeys([family, *families_of(family)])
+    return list(found)
