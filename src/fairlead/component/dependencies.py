@@ -11,6 +11,7 @@ import functools
 import inspect
 import pathlib
 import sys
+from collections.abc import Mapping
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
@@ -39,6 +40,8 @@ def _framework() -> str:
 
 def _of(thing: Any, seen: set[int]) -> list[str]:
     """Text of one thing and, recursively, of what its code names."""
+    if isinstance(thing, str | int | float | complex | None):  # shared by who knows whom, so never skipped as seen
+        return [repr(thing)]
     if id(thing) in seen:
         return []
     seen.add(id(thing))
@@ -50,23 +53,38 @@ def _of(thing: Any, seen: set[int]) -> list[str]:
         return _of(thing.function, seen)
     if isinstance(thing, functools.partial):
         return _of(thing.func, seen) + [repr(thing.args)]
+    if isinstance(thing, staticmethod | classmethod):
+        return _of(thing.__func__, seen)
+    if isinstance(thing, property):
+        return _of(thing.fget, seen)
     if isinstance(thing, FunctionType):
         return _of_function(thing, seen)
     if isinstance(thing, type):
         if _third_party(thing.__module__):
             return []
-        return [p for name, member in sorted(vars(thing).items()) for p in [name, *_of(member, seen)]]
+        return [p for name, member in sorted(vars(thing).items()) if _matters(name, member) for p in [name, *_of(member, seen)]]
     if isinstance(thing, ModuleType):
         return [_module_source(thing)] if not _third_party(thing.__name__) else []
-    if isinstance(thing, str | int | float | tuple | frozenset | bool | None):
-        return [repr(thing)]
-    return []
+    if isinstance(thing, Mapping):
+        return [p for key, value in thing.items() for p in [repr(key), *_of(value, seen)]]
+    if isinstance(thing, list | tuple):
+        return [p for value in thing for p in _of(value, seen)]
+    if isinstance(thing, set | frozenset):  # its order differs from process to process
+        return sorted(repr(value) for value in thing)
+    return [repr(thing.tolist())] if hasattr(thing, "tolist") else []
+
+
+def _matters(name: str, member: Any) -> bool:
+    """False for what Python notes of a class (its lines, its documentation) and for the list of its relatives."""
+    return name not in ("members", "exempt") and (not name.startswith("__") or callable(member))
 
 
 def _of_function(function: FunctionType, seen: set[int]) -> list[str]:
     if _third_party(function.__module__ or ""):
         return []
-    pieces = [function.__qualname__, *_of_code(function.__code__), repr(function.__defaults__)]
+    pieces = [function.__qualname__, *_of_code(function.__code__, seen)]
+    for default in (*(function.__defaults__ or ()), *(function.__kwdefaults__ or {}).values()):
+        pieces += _of(default, seen)
     for name in _names(function.__code__):
         if name in function.__globals__:
             pieces += [name, *_of(function.__globals__[name], seen)]
@@ -75,9 +93,9 @@ def _of_function(function: FunctionType, seen: set[int]) -> list[str]:
     return pieces
 
 
-def _of_code(code: CodeType) -> list[str]:
-    constants = [repr(c) for c in code.co_consts if not isinstance(c, CodeType)]
-    inner = [p for c in code.co_consts if isinstance(c, CodeType) for p in _of_code(c)]
+def _of_code(code: CodeType, seen: set[int]) -> list[str]:
+    constants = [p for c in code.co_consts if not isinstance(c, CodeType) for p in _of(c, seen)]
+    inner = [p for c in code.co_consts if isinstance(c, CodeType) for p in _of_code(c, seen)]
     return [code.co_code.hex(), *code.co_names, *code.co_varnames, *constants, *inner]
 
 

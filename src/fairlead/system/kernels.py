@@ -49,13 +49,6 @@ def _build(variant: Variant) -> Build:
     return Build(asdict(structure), {"kernel": lower(source, "kernel")})
 
 
-def _functions(module: str) -> dict[str, Any]:
-    import importlib
-
-    source = importlib.import_module(module)
-    return {n: getattr(source, n) for n in ("exp", "log", "sqrt", "sin", "cos", "tan", "tanh", "atan")}
-
-
 def write_source(variant: Variant) -> tuple[str, Structure]:
     """Python text of the kernel (numba compiles it) and its structure."""
     from fairlead.component.trace import trace
@@ -64,9 +57,33 @@ def write_source(variant: Variant) -> tuple[str, Structure]:
     return KernelText(trace(variant)).write()
 
 
-def evaluate(variant: Variant, **arrays: Any) -> Callable[..., None]:
-    """The kernel as a plain Python function with complex numbers allowed: for complex-step checks."""
-    source, _ = write_source(variant)
-    names = _functions("cmath") | {"f8": lambda a: arrays["f8"][a], "i8": lambda a: arrays["i8"][a], "abs": abs}
+@functools.cache
+def plain(variant: Variant) -> tuple[Callable[..., None], Structure]:
+    """The kernel as a Python function that takes complex numbers, for derivatives by complex step.
+
+    Its `block` holds the arrays themselves where the machine code wants their addresses. `abs` and `min`
+    go by the real part, so that they stay analytic beside their kinks.
+    """
+    import cmath
+
+    source, structure = write_source(variant)
+    names: dict[str, Any] = {name: getattr(cmath, name) for name in ("exp", "log", "sqrt", "sin", "cos", "tan", "tanh", "atan")}
+    names |= {"f8": _same, "i8": _same, "abs": _magnitude, "min": _least, "max": _greatest}
     exec(compile(source, f"<kernel {variant.label}>", "exec"), names)  # noqa: S102
-    return names["kernel"]
+    return names["kernel"], structure
+
+
+def _same(array: Any) -> Any:
+    return array
+
+
+def _magnitude(x: Any) -> Any:
+    return x if x.real >= 0 else -x
+
+
+def _least(*values: Any) -> Any:
+    return min(values, key=lambda value: value.real)
+
+
+def _greatest(*values: Any) -> Any:
+    return max(values, key=lambda value: value.real)

@@ -1,0 +1,345 @@
+"""The properties of a component, each a function that raises ContractError with a sentence.
+
+They are asked of random instances (`make()` makes one) at random instants. A class that rightly breaks
+one says so, with the reason, for all of it or for one zone or option:
+
+    exempt = {"dissipates": "the bristle gives back ... (author, year)", "dissipates latched": "..."}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from fairlead.component.base import terms_of
+from fairlead.component.declare import Hold, Table, Waveform
+from fairlead.system import layout
+from fairlead.testing.rig import Rig
+from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
+
+Maker = Callable[[], World]
+INSTANCES, INSTANTS = 4, 12  # per variant; each instant is taken through all zones
+ROUNDING = 1e-9  # relative to the largest number met; laws lose a few digits by cancellation, no more
+KEPT = (
+    ("d_signals", layout.PARTIALS_SIGNALS, layout.SIGNALS),
+    ("d_flows", layout.PARTIALS_FLOWS, layout.FLOWS),
+)
+
+
+def derivatives(make: Maker, rng: np.random.Generator) -> None:
+    """Every derivative of the machine code equals the complex step of the traced law, zone by zone."""
+    for world, at in _anywhere(make, rng):
+        s = world.structure
+        inputs = np.array([at.values[key] for key in s.inputs])
+        for name, partials, values in KEPT:
+            said = world.rig.ask(partials, inputs, at.zones, machine=True)[0]
+            stepped = _complex_steps(world, at, values)
+            pairs = {tuple(pair): value for pair, value in zip(getattr(s, name), said, strict=True)}
+            for (k, j), want in np.ndenumerate(stepped):
+                have = pairs.get((k, j), 0.0)
+                if not _close(have, want):
+                    what = (s.outputs if name == "d_signals" else s.targets)[k]
+                    raise ContractError(f"{world.where(at)}: the derivative of {what} to {s.inputs[j]} is {have:.9g} in machine "
+                                        f"code and {want:.9g} by complex step")  # fmt: skip
+
+
+def machine_code(make: Maker, rng: np.random.Generator) -> None:
+    """The machine code says what the Python text of the kernel says, in every mode and zone."""
+    modes = ("SIGNALS", "FLOWS", "LEDGER", "MASS", "SLIP", "GUARD", "OUTPUT")
+    for world, at in _anywhere(make, rng):
+        inputs = [at.values[key] for key in world.structure.inputs]
+        for mode in modes:
+            number = getattr(layout, mode)
+            have = world.rig.ask(number, inputs, at.zones, machine=True)[0]
+            want = world.rig.ask(number, inputs, at.zones)[0].real
+            if not np.allclose(
+                have,
+                want,
+                rtol=ROUNDING,
+                atol=ROUNDING * max(1.0, np.abs(want).max(initial=0)),
+                equal_nan=True,
+            ):
+                raise ContractError(
+                    f"{world.where(at)}: machine code and Python text differ in {mode.lower()}: {have} and {want}"
+                )
+
+
+def as_written(make: Maker, rng: np.random.Generator) -> None:
+    """The kernel says what the author's own Python says with plain numbers."""
+    for world, at in _settled(make, rng):
+        has = world.kind.declaration
+        if any(isinstance(d, Table | Waveform) for d in has.parameters.values()):
+            return  # a table of plain numbers looks its interval up, a traced one has it frozen
+        law = has.laws[world.zone(at)]
+        said = terms_of(world.kind, law(**{name: _argument(world, at, name) for name in _names(law)}))
+        flows, outputs = (
+            world.flows(at),
+            dict(zip(world.structure.outputs, world.ask(layout.OUTPUT, at), strict=False)),
+        )
+        for name, value in said.items():
+            have = flows.get(f"port:{name}", flows.get(f"own:{name}", outputs.get(name)))
+            if not isinstance(value, Hold) and have is not None and not _close(have.real, float(value)):
+                raise ContractError(
+                    f"{world.where(at)}: the kernel gives {name} = {have.real:.9g}, the law {float(value):.9g}"
+                )
+
+
+def balance(make: Maker, rng: np.random.Generator) -> None:
+    """What the two ports of a massless two-port take in sums to zero."""
+    for world, at in _settled(make, rng):
+        ports = world.kind.declaration.ports
+        if (
+            len(ports) != 2
+            or len({p.domain for p in ports.values()}) != 1
+            or _massive(world)
+            or world.prescribed
+        ):
+            return
+        flows = {name: world.flows(at).get(f"port:{name}") for name in ports}
+        (a, one), (b, two) = flows.items()
+        if one is not None and two is not None and not _close(one.real, -two.real):
+            unit = next(iter(ports.values())).domain.through[1]
+            raise ContractError(f"{world.where(at)}: what the two ports of a massless component take in must sum to zero; "
+                                f"{a} takes in {one.real:.6g} {unit} and {b} {two.real:.6g} {unit}")  # fmt: skip
+
+
+def dissipates(make: Maker, rng: np.random.Generator) -> None:
+    """Dissipated power is never negative, in the zones that the guards allow."""
+    for world, at in _settled(make, rng):
+        if f"dissipates {world.zone(at)}" in getattr(world.kind, "exempt", {}):
+            continue
+        power = world.ask(layout.OUTPUT, at)[-2].real
+        if power < -ROUNDING * max(1.0, _power_met(world, at)):
+            raise ContractError(
+                f"{world.where(at)}: dissipated is {power:.6g} W; a component cannot dissipate less than nothing"
+            )
+
+
+def energy(make: Maker, rng: np.random.Generator) -> None:
+    """Power in = rate of stored energy + dissipated - supplied."""
+    for world, at in _settled(make, rng):
+        if hasattr(world.kind, "ties"):
+            return  # a rigid tie passes on what it takes in; it has no law to say so
+        taken = _power_in(world, at, rates := _rates(world, at, rng))
+        stored = world.ask(layout.OUTPUT, at.shifted(rates, STEP * 1j))[-3]
+        dissipated, supplied = (float(x) for x in world.ask(layout.OUTPUT, at)[-2:].real)
+        rate = stored.imag / STEP
+        if not _close(taken, rate + dissipated - supplied, max(_power_met(world, at), abs(taken), abs(rate))):
+            raise ContractError(f"{world.where(at)}: energy is not accounted for: it takes in {taken:.6g} W, stores {rate:.6g} W, "
+                                f"dissipates {dissipated:.6g} W and is supplied {supplied:.6g} W")  # fmt: skip
+
+
+def settles(make: Maker, rng: np.random.Generator) -> None:
+    """From every zone, at any instant, the guards lead to a zone in which none has risen."""
+    for _ in _settled(make, rng, tell=True):
+        pass
+
+
+def zones_reached(make: Maker, rng: np.random.Generator) -> None:
+    """Some motion leads to every zone: none is dead, none is left out."""
+    world = make()
+    missing = set(world.structure.zones)
+    for _ in range(40):
+        world = make()
+        for at in (world.draw(rng) for _ in range(INSTANTS)):
+            for zone in world.structure.zones:
+                missing -= {world.zone(end) for end in _end(world, at, zone, tell=False)}
+            if not missing:
+                return
+    names = ", ".join(sorted(missing))
+    raise ContractError(
+        f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there"
+    )
+
+
+def outputs_given(make: Maker, rng: np.random.Generator) -> None:
+    """Every declared output is given in some zone."""
+    from fairlead.component.trace import trace
+
+    world = make()
+    zones = trace(world.rig.variant).zones.values()
+    for name in world.kind.declaration.outputs:
+        if not any(name in zone.outputs for zone in zones):
+            raise ContractError(f"{world.rig.variant.label}: output {name} is declared and given by no law")
+
+
+def instances(make: Maker, rng: np.random.Generator) -> None:
+    """N instances in one kernel say what n kernels with one instance say."""
+    worlds = [make() for _ in range(INSTANCES)]
+    variant = worlds[0].rig.variant
+    worlds = [world for world in worlds if world.rig.variant == variant]
+    s = worlds[0].structure
+    instants = [world.enter(world.draw(rng), s.zones[k % len(s.zones)]) for k, world in enumerate(worlds)]
+    together = Rig([w.of for w in worlds], [{p: 1 / m for p, m in w.masses.items()} for w in worlds])
+    inputs = np.array([[at.values[key] for key in s.inputs] for at in instants])
+    zones = np.array([at.zones for at in instants])
+    for mode in range(10):
+        all_ = together.ask(mode, inputs, zones, machine=True)
+        apart = np.concatenate(
+            [w.rig.ask(mode, x, z, machine=True) for w, x, z in zip(worlds, inputs, zones, strict=True)]
+        )
+        apart = apart.sum(axis=0, keepdims=True) if mode == layout.LEDGER else apart
+        if not np.allclose(all_, apart, rtol=ROUNDING, atol=1e-300, equal_nan=True):
+            raise ContractError(
+                f"{variant.label}: {len(worlds)} instances together say {all_}, apart {apart}"
+            )
+
+
+def odd(make: Maker, rng: np.random.Generator) -> None:
+    """A component with a slip takes in the opposite when everything moves and pushes the other way."""
+    for world, at in _anywhere(make, rng, alone=True):
+        if "slip" not in world.structure.outputs:
+            return
+        start = world.zone(at)
+        ends = [*_end(world, at, start), *_end(world, _mirrored(at), _opposite(start, world.structure.zones))]
+        if len(ends) < 2:
+            continue
+        one, other = ends
+        if _opposite(world.zone(one), world.structure.zones) != world.zone(other):
+            raise ContractError(
+                f"{world.where(one)}: with every motion and force reversed it is in zone {world.zone(other)}"
+            )
+        for port in world.kind.declaration.ports:
+            there, back = (world.flows(x).get(f"port:{port}", 0.0) for x in (one, other))
+            if not _close(there.real, -back.real):
+                raise ContractError(f"{world.where(one)}: {port} takes in {there.real:.6g}, and {back.real:.6g} with every motion "
+                                    "reversed; friction is odd in slip")  # fmt: skip
+
+
+PROPERTIES: dict[str, Callable[[Maker, np.random.Generator], None]] = {
+    each.__name__: each for each in (
+        derivatives, machine_code, as_written, balance, dissipates, energy, settles, zones_reached, outputs_given, instances, odd,
+    )
+}  # fmt: skip
+
+
+def _anywhere(
+    make: Maker, rng: np.random.Generator, *, alone: bool = False
+) -> Iterator[tuple[World, Instant]]:
+    """Random instants in every zone, whether the guards allow it or not."""
+    for _ in range(INSTANCES):
+        world = make()
+        for zone in world.structure.zones:
+            yield world, world.enter(_in_pieces(world, world.draw(rng, alone=alone), rng), zone)
+
+
+def _settled(make: Maker, rng: np.random.Generator, *, tell: bool = False) -> Iterator[tuple[World, Instant]]:
+    """Random instants in the zones that the guards lead to, from every zone."""
+    for _ in range(INSTANCES):
+        world = make()
+        for _ in range(INSTANTS):
+            at = _in_pieces(world, world.draw(rng), rng)
+            for zone in world.structure.zones:
+                for end in _end(world, at, zone, tell):
+                    yield world, end
+
+
+def _end(world: World, at: Instant, zone: str, tell: bool = False) -> list[Instant]:
+    """Where the guards lead from a zone. One that runs in a circle is for `settles` to `tell`, else left out."""
+    try:
+        return [world.settle(at, zone)]
+    except CircleError:
+        if tell:
+            raise
+        return []
+
+
+def _in_pieces(world: World, at: Instant, rng: np.random.Generator) -> Instant:
+    """Tables of time in the piece that holds; others anywhere, their guards lead to the right one."""
+    s, zones = world.structure, list(at.zones)
+    first = s.machines - len(s.tables)
+    for k, name in enumerate(s.tables):
+        table = world.rig.pieces[0][k]
+        zones[first + k] = (
+            table.piece_at(at.values["t"]) if name in s.time_tables else int(rng.integers(len(table.rows)))
+        )
+    return at.but(zones)
+
+
+def _complex_steps(world: World, at: Instant, mode: int) -> Any:
+    columns = [
+        world.ask(mode, at.shifted({key: 1.0}, STEP * 1j)).imag / STEP for key in world.structure.inputs
+    ]
+    rows = len(world.structure.outputs if mode == layout.SIGNALS else world.structure.targets)
+    return np.array(columns).T.reshape(rows, len(columns))
+
+
+def _close(have: float, want: float, scale: float = 0.0) -> bool:
+    return abs(have - want) <= ROUNDING * max(1.0, scale, abs(have), abs(want)) or (
+        np.isnan(have) and np.isnan(want)
+    )
+
+
+def _names(law: Callable[..., Any]) -> tuple[str, ...]:
+    return law.__code__.co_varnames[: law.__code__.co_argcount]
+
+
+def _argument(world: World, at: Instant, name: str) -> Any:
+    """What a law asks for, with numbers in it."""
+    has, values = world.kind.declaration, at.values
+    if name in has.ports:
+        port = {key.split(":")[2]: value for key, value in values.items() if key.startswith(f"port:{name}:")}
+        domain = has.ports[name].domain
+        said = {variable: port[kind] for (variable, _), kind in zip(domain.across, "xv", strict=False)}
+        said |= {domain.acceleration: port["a"].real} if domain.acceleration else {}
+        return SimpleNamespace(
+            **said, inverse_mass=1 / world.masses.get(name, 1.0), **{domain.through[0]: port["R"]}
+        )
+    return {"p": world.of, "t": values["t"], "zone": world.zone(at)}.get(name) if name in ("p", "t", "zone") else (
+        values.get(f"in:{name}", values.get(f"own:{name}")))  # fmt: skip
+
+
+def _inertia(world: World) -> dict[str, float]:
+    method = getattr(world.kind, "inertia", None)
+    return method(world.of) if method else {}
+
+
+def _massive(world: World) -> bool:
+    return bool(_inertia(world)) or hasattr(world.kind, "ties")
+
+
+def _rates(world: World, at: Instant, rng: np.random.Generator) -> dict[str, float]:
+    """Time derivatives of all inputs: positions move, bodies accelerate, states go as the law says."""
+    flows, rates = world.flows(at), {"t": 1.0}
+    for name, port in world.kind.declaration.ports.items():
+        if port.domain.mechanical:
+            rates[f"port:{name}:x"] = at.values[f"port:{name}:v"]
+            rates[f"port:{name}:v"] = at.values[f"port:{name}:a"].real
+        else:
+            rates[f"port:{name}:x"] = float(rng.normal())
+    return rates | {f"own:{name}": flows[f"own:{name}"].real for name in world.kind.declaration.states}
+
+
+def _power_in(world: World, at: Instant, rates: dict[str, float]) -> float:
+    """Flow times rate over all ports, with the inertia of the component and the reaction of a prescribed motion."""
+    flows, inertia, total = world.flows(at), _inertia(world), 0.0
+    for name, port in world.kind.declaration.ports.items():
+        across = "v" if port.domain.mechanical else "x"
+        flow = flows.get(f"port:{name}", 0.0).real if f"port:{name}" in flows else 0.0
+        flow += inertia.get(name, 0.0) * rates[f"port:{name}:{across}"]
+        if name in world.prescribed:
+            flow -= at.values[f"port:{name}:R"]
+        total += flow * at.values[f"port:{name}:{across}"]
+    return float(total)
+
+
+def _power_met(world: World, at: Instant) -> float:
+    """The largest product of a flow and a speed, the scale of rounding."""
+    flows = world.flows(at)
+    speeds = [abs(v) for key, v in at.values.items() if key.endswith((":v", ":x"))]
+    return max((abs(f) for f in flows.values()), default=0.0) * max(speeds, default=0.0)
+
+
+def _mirrored(at: Instant) -> Instant:
+    turned = {key: -value if key.startswith(("port:", "own:")) else value for key, value in at.values.items()}
+    return replace(at, values=turned, loads={name: -load for name, load in at.loads.items()})
+
+
+def _opposite(zone: str, zones: list[str]) -> str:
+    """The zone of the other direction: forward and backward change places."""
+    turned = zone.replace("forward", "?").replace("backward", "forward").replace("?", "backward")
+    return turned if turned in zones else zone

@@ -1,0 +1,235 @@
+"""A component in a world of its own: a free body at every mechanical port, pushed by a steady force.
+
+    body at port P:   m dv/dt = load - flow        flow: what the port takes in, in the zone in force
+
+So the accelerations that guards read belong to the forces of the zone, and a contact that holds has the
+force that keeps its slip at zero. Positions and speeds are given; nothing moves: this is one instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from fairlead.component.base import Declared
+from fairlead.component.values import Values
+from fairlead.system import layout
+from fairlead.testing.rig import Rig
+
+AT_ZERO = (
+    1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
+)
+PASSES = 60  # more switches than any component has zones
+STEP = 1e-30  # of a complex step; its square vanishes beside 1
+
+
+class ContractError(AssertionError):
+    """A property that a component breaks, in a sentence."""
+
+
+class CircleError(ContractError):
+    """Zones that do not settle."""
+
+
+@dataclass(frozen=True)
+class Instant:
+    """Values of all inputs by key (see `component/trace.py`), what pushes the bodies, and the zones."""
+
+    values: dict[str, Any]
+    loads: dict[str, float]
+    zones: tuple[int, ...] = ()
+
+    def but(self, zones: Iterable[int]) -> Instant:
+        """The same in other zones."""
+        return replace(self, zones=tuple(zones))
+
+    def shifted(self, rates: Mapping[str, float], distance: complex) -> Instant:
+        """The same with every value moved along its rate."""
+        return replace(
+            self, values={key: value + distance * rates.get(key, 0.0) for key, value in self.values.items()}
+        )
+
+
+@dataclass
+class World:
+    """One instance, and bodies of `masses` at its free mechanical ports."""
+
+    of: Values
+    masses: dict[str, float]
+    rig: Rig = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Set the instance up on a rig of its own."""
+        self.rig = Rig([self.of], [{port: 1 / mass for port, mass in self.masses.items()}])
+        self.structure = self.rig.structure
+        self.kind: type[Declared] = self.of.type
+        prescribes = getattr(self.kind, "prescribes", None)
+        self.prescribed: dict[str, Any] = dict(prescribes()) if prescribes else {}
+        ports = self.kind.declaration.ports
+        self.bodies = [
+            name for name, port in ports.items() if port.domain.mechanical and name not in self.prescribed
+        ]
+        self.zoned = len(self.structure.zones) > 1
+
+    def draw(self, rng: np.random.Generator, *, alone: bool = True) -> Instant:
+        """A random instant in no particular zone: speeds from zero to fast, forces from nothing to much.
+
+        `alone`: inputs that need not be connected have their default, as in a world without others.
+        """
+        has, values = self.kind.declaration, {}
+        for name, port in has.ports.items():
+            if port.domain.mechanical:
+                values |= {f"port:{name}:x": _around(rng, 0.3), f"port:{name}:v": _around(rng, 0.3)}
+                values |= {
+                    f"port:{name}:{k}": _around(rng, 10.0) if name in self.prescribed else 0.0 for k in "aA"
+                }
+                if self.prescribed.get(name, "moves") is None:
+                    values |= {f"port:{name}:{k}": 0.0 for k in "vaA"}
+            else:
+                values[f"port:{name}:x"] = _around(rng, 10.0)
+            values[f"port:{name}:R"] = _around(rng, 10.0)
+        for name, declared in has.inputs.items():
+            rests = alone and isinstance(declared.default, int | float)
+            values[f"in:{name}"] = float(declared.default) if rests else float(abs(_around(rng, 10.0)))
+            if declared.unit == "1":
+                values[f"in:{name}"] = min(values[f"in:{name}"], 1.0)
+        values |= {f"own:{name}": _around(rng, 1.0) for name in (*has.states, *has.unknowns)}
+        values["t"] = float(rng.uniform(0, 4))
+        loads = {name: _around(rng, 30.0) for name in self.bodies}
+        return Instant(values, loads, tuple(0 for _ in range(self.structure.machines)))
+
+    def ask(self, mode: int, at: Instant) -> Any:
+        """One row of what the instance says."""
+        inputs = [at.values[key] for key in self.structure.inputs]
+        return self.rig.ask(mode, inputs, at.zones)[0]
+
+    def enter(self, at: Instant, zone: str) -> Instant:
+        """The instant with another zone, on the pieces of tables it had; slip is taken out where the zone holds."""
+        zones = (self.structure.zones.index(zone), *at.zones[1:]) if self.zoned else at.zones
+        return self._at_rest(replace(at, zones=zones))
+
+    def zone(self, at: Instant) -> str:
+        """Name of the zone in force."""
+        return self.structure.zones[at.zones[0] if self.zoned else 0]
+
+    def flows(self, at: Instant) -> dict[str, Any]:
+        """Flow, rate or balance by target, such as `port:a` and `own:force`."""
+        return dict(zip(self.structure.targets, self.ask(layout.FLOWS, at), strict=True))
+
+    def held(self, at: Instant) -> dict[str, dict[str, float]]:
+        """Unknowns that hold in the zone in force, with the coefficients of the speeds in their slip."""
+        s, zone = self.structure, self.zone(at)
+        rows = self.ask(layout.MASS, at) if s.mass else []
+        found: dict[str, dict[str, float]] = {u: {} for u, zones in s.holds.items() if zone in zones}
+        for (unknown, j), coefficient in zip(s.mass, rows, strict=True):
+            if unknown in found:
+                found[unknown][s.inputs[j].split(":")[1]] = coefficient
+        return found
+
+    def solve(self, at: Instant) -> Instant:
+        """The instant with the own unknowns and the accelerations that belong to its zone. Newton, analytic slopes."""
+        unknowns = [f"own:{name}" for name in self.kind.declaration.unknowns]
+        values = dict(at.values)
+        for _ in range(30 if unknowns else 0):
+            here = replace(at, values=values)
+            residual = np.array(self._residual(here))
+            slopes = [np.imag(self._residual(here.shifted({key: 1.0}, STEP * 1j))) / STEP for key in unknowns]
+            try:
+                change = np.linalg.solve(np.array(slopes).T, -residual.real)
+            except np.linalg.LinAlgError:
+                names = ", ".join(key[4:] for key in unknowns)
+                raise ContractError(
+                    f"{self.where(here)}: the law does not determine its unknown {names}"
+                ) from None
+            values = {
+                **values,
+                **{key: values[key] + step for key, step in zip(unknowns, change.tolist(), strict=True)},
+            }
+            if np.abs(change).max() <= 1e-12 * max(1.0, *(abs(values[key]) for key in unknowns)):
+                break
+        here = replace(at, values=values)
+        return replace(here, values={**values, **self._accelerations(here)})
+
+    def settle(self, at: Instant, zone: str) -> Instant:
+        """Follow the guards from `zone` until none has risen. Raises CircleError naming the circle."""
+        here, path = (
+            at if not self.zoned else replace(at, zones=(self.structure.zones.index(zone), *at.zones[1:])),
+            [],
+        )
+        for _ in range(PASSES + sum(len(t.rows) for t in self.rig.pieces[0])):
+            here = self.solve(here)
+            path.append(self.zone(here))
+            fired = self.risen(here)
+            if not fired:
+                return self.solve(self._at_rest(here))
+            here = self._follow(here, fired[0])
+        circle = " -> ".join(dict.fromkeys(path[-6:])) + f" -> {path[-1]}"
+        raise CircleError(f"{self.where(at)}: its zones do not settle, they run in a circle: {circle}")
+
+    def risen(self, at: Instant) -> list[dict[str, Any]]:
+        """Guards of the zone in force that are above zero."""
+        guards = self.structure.guards[self.zone(at)]
+        values = self.ask(layout.GUARD, at)
+        return [guard for guard, value in zip(guards, values, strict=False) if value.real > AT_ZERO]
+
+    def where(self, at: Instant) -> str:
+        """Class, zone and the inputs, as a message names an instant."""
+        inputs = ", ".join(f"{_written(key)} = {at.values[key].real:.6g}" for key in self.structure.inputs)
+        zone = f" in zone {self.zone(at)}" if self.zoned else ""
+        return f"{self.rig.variant.label}{zone} ({inputs})"
+
+    def _follow(self, at: Instant, guard: dict[str, Any]) -> Instant:
+        zones = list(at.zones)
+        zones[guard["machine"]] = guard["to"] if guard["to"] >= 0 else zones[guard["machine"]] + guard["step"]
+        return self._at_rest(replace(at, zones=tuple(zones)))
+
+    def _at_rest(self, at: Instant) -> Instant:
+        """Held speeds brought together by an impulse that conserves momentum."""
+        values = dict(at.values)
+        for rates in self.held(at).values():
+            slip = sum(c * values[f"port:{port}:v"] for port, c in rates.items())
+            give = sum(c**2 / self.masses[port] for port, c in rates.items() if port in self.bodies)
+            for port, c in rates.items():
+                if port in self.bodies:
+                    values[f"port:{port}:v"] -= slip * c / self.masses[port] / give
+        return replace(at, values=values)
+
+    def _residual(self, at: Instant) -> list[Any]:
+        flows, held = self.flows(at), self.held(at)
+        accelerations = self._accelerations(at, flows)
+        found = []
+        for name in self.kind.declaration.unknowns:
+            rates = held.get(name)
+            found.append(
+                flows[f"own:{name}"]
+                if rates is None
+                else sum(c * accelerations[f"port:{p}:a"] for p, c in rates.items())
+            )
+        return found
+
+    def _accelerations(self, at: Instant, flows: dict[str, Any] | None = None) -> dict[str, Any]:
+        flows = flows or self.flows(at)
+        given = {
+            f"port:{port}:a": at.values[f"port:{port}:a"]
+            for port in self.prescribed
+            if f"port:{port}:a" in at.values
+        }
+        free = {
+            f"port:{p}:a": (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies
+        }
+        return given | free
+
+
+def _around(rng: np.random.Generator, most: float) -> float:
+    """A number of either sign, its size from a millionth of `most` up; now and then exactly zero."""
+    if rng.random() < 0.05:
+        return 0.0
+    return float(rng.choice([-1, 1]) * most * 10 ** rng.uniform(-6, 0))
+
+
+def _written(key: str) -> str:
+    kind, _, rest = key.partition(":")
+    return rest.replace(":", ".") if kind != "t" else "t"

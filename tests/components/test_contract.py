@@ -1,0 +1,244 @@
+"""Every registered component keeps the contract, and a wrong law is told in a sentence which property it breaks."""
+
+import pytest
+
+from fairlead.component import (
+    Component, Input, Law, Output, Parameter, State, Translational, Unknown, Zones, guard, hold, tanh, zone,
+)  # fmt: skip
+from fairlead.component.registry import known_types
+from fairlead.testing import ContractError, checks, contract
+from fairlead.testing.properties import PROPERTIES
+
+ALL = [check for kind in known_types().values() for check in checks(kind)]
+
+
+@pytest.mark.parametrize("check", ALL, ids=str)
+def test_registered_component_keeps(check):
+    check()
+
+
+def test_every_member_of_the_contact_family_is_asked_with_every_curve():
+    contact = known_types()["Contact"]
+    asked = {(check.kind.word, check.chosen.get("curve")) for check in checks(contact)}
+    curves = {"coulomb", "stribeck", "tustin", "hump", "table"}
+    assert {(method, curve) for method in ("binding", "hold", "tanh") for curve in curves} <= asked
+
+
+class TwoEnded(Component):
+    """What the wrong components below have in common."""
+
+    a, b = Translational(), Translational()
+    stiffness = Parameter("N/m", above=0)
+
+    def law(p, a, b):
+        tension = p.stiffness * (b.x - a.x)
+        return Law(a=-tension, b=+tension, stored=tension * (b.x - a.x) / 2)
+
+
+def broken(kind):
+    """The properties that a class breaks, and the whole message."""
+    with pytest.raises(ContractError) as caught:
+        contract(kind)
+    lines = str(caught.value).splitlines()
+    return {line.split(":")[0] for line in lines}, str(caught.value)
+
+
+def test_a_right_component_of_a_user_passes():
+    contract(TwoEnded)
+
+
+def test_flows_that_do_not_sum_to_zero_are_told():
+    class Leaky(TwoEnded):
+        def law(p, a, b):
+            tension = p.stiffness * (b.x - a.x)
+            return Law(a=-tension, b=+0.9 * tension)
+
+    names, text = broken(Leaky)
+    assert "balance" in names
+    assert "what the two ports of a massless component take in must sum to zero; a takes in" in text
+
+
+def test_negative_dissipation_is_told():
+    class Engine(TwoEnded):
+        def law(p, a, b):
+            force = -p.stiffness * (b.v - a.v)
+            return Law(a=-force, b=+force, dissipated=force * (b.v - a.v))
+
+    names, text = broken(Engine)
+    assert names == {"dissipates"}
+    assert "W; a component cannot dissipate less than nothing" in text
+
+
+def test_energy_that_is_not_accounted_for_is_told():
+    class Silent(TwoEnded):
+        def law(p, a, b):
+            tension = p.stiffness * (b.x - a.x)
+            return Law(a=-tension, b=+tension)
+
+    names, text = broken(Silent)
+    assert names == {"energy"}
+    assert "energy is not accounted for: it takes in" in text
+    assert "stores 0 W" in text
+
+
+def test_zones_that_run_in_a_circle_are_told():
+    class Restless(TwoEnded):
+        zones = Zones("slack", "taut")
+
+        @zone("slack")
+        def slack(p, a, b):
+            return 0, 0
+
+        @zone("taut")
+        def taut(p, a, b):
+            return Law(a=-p.stiffness * (b.x - a.x), b=p.stiffness * (b.x - a.x), stored=p.stiffness * (b.x - a.x) ** 2 / 2)
+
+        @guard("slack", to="taut", unit="m")
+        def tightens(p, a, b):
+            return b.x - a.x
+
+        @guard("taut", to="slack", unit="m")
+        def slackens(p, a, b):
+            return b.x - a.x
+
+    names, text = broken(Restless)
+    assert "settles" in names
+    assert "its zones do not settle, they run in a circle: slack -> taut -> " in text
+
+
+def test_a_zone_that_nothing_leads_to_is_told():
+    class Forgotten(TwoEnded):
+        zones = Zones("on", "off")
+
+        @zone("on", "off")
+        def both(p, a, b):
+            return 0, 0
+
+        @guard("off", to="on", unit="m/s")
+        def starts(p, a, b):
+            return 1.0
+
+    names, text = broken(Forgotten)
+    assert names == {"zones_reached"}
+    assert "no motion was found that leads to zone off and stays there" in text
+
+
+def test_an_output_that_no_law_gives_is_told():
+    class Mute(TwoEnded):
+        tension = Output("N", "Never given.")
+
+    names, text = broken(Mute)
+    assert names == {"outputs_given"}
+    assert "output tension is declared and given by no law" in text
+
+
+def test_friction_that_is_not_odd_is_told():
+    class Lopsided(TwoEnded):
+        slip = Output("m/s", "Slip.")
+
+        def law(p, a, b):
+            slip = b.v - a.v
+            force = p.stiffness * (slip + 0.5 * tanh(slip) ** 2)
+            return Law(a=-force, b=+force, slip=slip, dissipated=force * slip)
+
+    assert "odd" in broken(Lopsided)[0]
+    assert "friction is odd in slip" in broken(Lopsided)[1]
+
+
+def test_an_unknown_that_its_law_does_not_determine_is_told():
+    class Vague(TwoEnded):
+        force = Unknown("N")
+
+        def law(p, a, b, force):
+            return Law(a=-force, b=+force, force=p.stiffness * (b.x - a.x))
+
+    assert "the law does not determine its unknown force" in broken(Vague)[1]
+
+
+def test_an_unknown_that_holds_and_a_state_pass():
+    class Joint(Component):
+        a, b = Translational(), Translational()
+        force = Unknown("N")
+
+        def law(p, a, b, force):
+            return Law(a=-force, b=+force, force=hold(b.v - a.v))
+
+    class Bristle(TwoEnded):
+        z = State("m", "Deflection.")
+        damping = Parameter("N*s/m", default=1.0, above=0)
+
+        def law(p, a, b, z):
+            elastic = p.stiffness * z
+            rate = b.v - a.v - elastic / p.damping
+            return Law(a=-elastic, b=elastic, z=rate, stored=elastic * z / 2, dissipated=elastic**2 / p.damping)
+
+    contract(Joint)
+    contract(Bristle)
+
+
+def test_a_law_that_reads_a_signal_is_asked_with_numbers_for_it():
+    class Brake(TwoEnded):
+        grip = Input("N")
+
+        def law(p, a, b, grip):
+            force = grip * tanh((b.v - a.v) / 0.1)
+            return Law(a=-force, b=force, dissipated=force * (b.v - a.v))
+
+    contract(Brake)
+
+
+def test_a_declared_exception_is_respected_and_a_misspelt_one_told():
+    class Engine(TwoEnded):
+        exempt = {"dissipates": "It is a motor."}
+
+        def law(p, a, b):
+            force = -p.stiffness * (b.v - a.v)
+            return Law(a=-force, b=+force, dissipated=force * (b.v - a.v))
+
+    class Misspelt(Engine):
+        exempt = {"dissipate": "It is a motor."}
+
+    contract(Engine)
+    assert "exempt names ['dissipate']; properties are " in broken(Misspelt)[1]
+
+
+def test_a_law_that_cannot_be_traced_breaks_the_contract_at_its_own_line():
+    class Branching(TwoEnded):
+        def law(p, a, b):
+            return (0, 0) if b.x > a.x else (1, -1)
+
+    assert "test_contract.py:" in broken(Branching)[1]
+    assert "a law must not branch on values" in broken(Branching)[1]
+
+
+def test_parameters_that_random_numbers_do_not_suit_can_be_given():
+    class Choosy(TwoEnded):
+        exact = Parameter("m", default=0.125)
+
+        def check(p):
+            if p.exact != 0.125:
+                yield "exact", "exact must be 0.125", ""
+
+    with pytest.raises(ValueError, match=r"no random parameters pass its own check .* fix some: contract\(Choosy, exact=...\)"):
+        contract(Choosy)
+    contract(Choosy, exact=0.125)
+
+
+def test_a_derivative_that_is_wrong_in_the_machine_code_is_told(monkeypatch):
+    from fairlead.testing.rig import Rig
+    from fairlead.system import layout
+
+    ask = Rig.ask
+
+    def tampered(self, mode, inputs, zones, *, machine=False):
+        said = ask(self, mode, inputs, zones, machine=machine)
+        return said * (1 + 1e-6) if machine and mode == layout.PARTIALS_FLOWS else said
+
+    monkeypatch.setattr(Rig, "ask", tampered)
+    with pytest.raises(ContractError, match="the derivative of port:a to port:a:x is .* in machine code and .* by complex step"):
+        next(check for check in checks(TwoEnded) if check.name == "derivatives")()
+
+
+def test_the_list_of_properties_can_be_parametrised():
+    assert [check.name for check in checks(TwoEnded)] == list(PROPERTIES)
+    assert str(checks(TwoEnded)[0]) == "TwoEnded derivatives"
