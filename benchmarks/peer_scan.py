@@ -18,6 +18,7 @@ from peer_cases import Belt, Chain
 from peers import DATA, IMPLICIT, SOLVERS, Case, Peer, error, event_driven, reference_positions, smooth
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 10))
+WALL = 20.0  # [s]; a run that takes longer is no rival
 WIDTHS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # [m/s]
 
 
@@ -40,21 +41,20 @@ def _measured(
     case: Case, reference: np.ndarray, law: str, method: str, rtol: float, width: float | None
 ) -> dict:
     row = {"law": law, "method": method, "rtol": rtol, "width": width}
-    wall = 20.0 if isinstance(case, Belt) else 60.0
     try:
-        peer = _once(case, law, method, rtol, width, wall)
+        peer = _once(case, law, method, rtol, width)
     except (RuntimeError, TimeoutError, ValueError) as problem:
         return {**row, "failed": str(problem)}
     walls = [peer.wall]
     if peer.wall < 1.0:
-        walls += [_once(case, law, method, rtol, width, wall).wall for _ in range(2)]
+        walls += [_once(case, law, method, rtol, width).wall for _ in range(2)]
     return {**row, "error": error(case, peer, reference), "wall_s": min(walls), **peer.counters}
 
 
-def _once(case: Case, law: str, method: str, rtol: float, width: float | None, wall: float) -> Peer:
+def _once(case: Case, law: str, method: str, rtol: float, width: float | None) -> Peer:
     if law == "events":
-        return event_driven(case, method, rtol, wall)
-    return smooth(case, method, rtol, width, wall)
+        return event_driven(case, method, rtol, WALL)
+    return smooth(case, method, rtol, width, WALL)
 
 
 def cheapest(rows: list[dict], wanted: float) -> dict | None:
