@@ -1,6 +1,7 @@
 """A two-layer line laid on a route: the contacts of every node with the devices and inside the line."""
 
-from dataclasses import dataclass
+import functools
+from dataclasses import dataclass, field
 from typing import Any
 
 from fairlead.component.declare import Input
@@ -30,7 +31,7 @@ class ArrayLine:
         curvature = laid.curvature(self.element)
         add = _Adder(assembly, line)
         for i in range(self.elements + 1):
-            if add.prescribed(f"hose_node[{i}]"):
+            if f"{line.path}.hose_node[{i}]" in add.prescribed:
                 continue  # its motion is given: friction could not change it
             add.node(self, i, curvature, f"{route.path}.surface", laid.friction)
         return []
@@ -42,6 +43,7 @@ class _Adder:
 
     assembly: Any
     line: Any
+    shared: dict[Any, Any] = field(default_factory=dict)
 
     def node(self, array: ArrayLine, i: int, curvature: PiecewisePolynomial, surface: str, friction: Any) -> None:
         """Loads and contacts of one node; a connector has no inner contact."""
@@ -62,7 +64,7 @@ class _Adder:
     def load(self, name: str, node: str, i: int, n: int, layers: tuple[str, ...], curvature: Any, length: float) -> None:
         """A LateralLoad fed by the tensions of the adjacent elements."""
         share = 0.5 if 0 < i < n else 1.0
-        self.add(name, self.assembly.scene.make(LateralLoad, curvature=curvature, length=length, share=share))
+        self.add(name, self.made(LateralLoad, curvature=curvature, length=length, share=share))
         self.join(f"{name}.flange", f"{node}.flange")
         for layer in layers:
             if i > 0:
@@ -75,11 +77,18 @@ class _Adder:
         scene = self.assembly.scene
         declared = scene.member(Contact, {}).declaration.parameters
         known = {key: value for key, value in masses.items() if key in declared}
-        self.add(name, scene.make(Contact, curve=curve, **known))
+        self.add(name, self.made(Contact, curve=curve, **known))
         path = self.line.path
         self.assembly.joins.append(Join((PortRef(a, "flange"), PortRef(f"{path}.{name}", "a")), self.line.where))
         self.assembly.joins.append(Join((PortRef(b, "flange"), PortRef(f"{path}.{name}", "b")), self.line.where))
         self.join(f"{load}.force", f"{name}.normal")
+
+    def made(self, kind: type, **given: Any) -> Any:
+        """Values of a child; equal children of a line share theirs."""
+        key = (kind, *((name, value if isinstance(value, float) else id(value)) for name, value in given.items()))
+        if key not in self.shared:
+            self.shared[key] = self.assembly.scene.make(kind, **given)
+        return self.shared[key]
 
     def exchange(self, name: str, entry: str, other: str) -> None:
         """Tell a contact whether the other one of its body is bound, if its treatment asks."""
@@ -103,8 +112,9 @@ class _Adder:
         """Mass of a node [kg]."""
         return float(self.assembly.instances[f"{self.line.path}.{name}"].values.mass)
 
-    def prescribed(self, name: str) -> bool:
-        """True if a motion source drives the node."""
-        ref = PortRef(f"{self.line.path}.{name}", "flange")
-        others = {port.instance for join in self.assembly.joins if ref in join.ports for port in join.ports}
-        return any(hasattr(self.assembly.instances[path].type, "prescribes") for path in others)
+    @functools.cached_property
+    def prescribed(self) -> set[str]:
+        """Paths of all instances that a motion source drives directly."""
+        instances = self.assembly.instances
+        driven = (join.ports for join in self.assembly.joins if any(hasattr(instances[r.instance].type, "prescribes") for r in join.ports))
+        return {ref.instance for ports in driven for ref in ports}

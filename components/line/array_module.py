@@ -54,19 +54,21 @@ class ArrayModule(Composite):
         each = p.length / n
         strain = p.tension / (p.hose.stiffness + p.core.stiffness)
         children, joins = {}, []
+        registration = scene.make(Registration)
         for i in range(n + 1):
             share = each if 0 < i < n else each / 2
             x = p.start + i * each * (1 + strain)
             extra = p.connector_mass if i in (0, n) else 0.0
             children[f"hose_node[{i}]"] = scene.make(Mass, mass=p.hose.mass * share + extra, position=x)
             children[f"core_node[{i}]"] = scene.make(Mass, mass=p.core.mass * share, position=x)
-            children[f"registration[{i}]"] = scene.make(Registration)
+            children[f"registration[{i}]"] = registration
             joins.append((f"hose_node[{i}].flange", f"registration[{i}].hose"))
             joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
-        for i in range(n):
-            for kind, layer, name in ((Hose, p.hose, "hose"), (Core, p.core, "core")):
-                damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
-                children[f"{name}[{i}]"] = scene.make(kind, axial_stiffness=layer.stiffness, length=each, damping=damping)
+        for kind, layer, name in ((Hose, p.hose, "hose"), (Core, p.core, "core")):
+            damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
+            element = scene.make(kind, axial_stiffness=layer.stiffness, length=each, damping=damping)
+            for i in range(n):
+                children[f"{name}[{i}]"] = element
                 joins.append((f"{name}[{i}].a", f"{name}_node[{i}].flange"))
                 joins.append((f"{name}[{i}].b", f"{name}_node[{i + 1}].flange"))
         joins += [(f"hose_node[{i}].flange", f"core_node[{i}].flange") for i in (0, n)]

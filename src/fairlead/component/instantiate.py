@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.declare import PATH, Input, Output, Port
@@ -38,8 +38,7 @@ class Instance:
         return f"{self.path}: {self.variant.label}    {self.where}"
 
 
-@dataclass(frozen=True)
-class PortRef:
+class PortRef(NamedTuple):
     """A port, input or output of a leaf."""
 
     instance: str

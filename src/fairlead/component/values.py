@@ -40,6 +40,7 @@ class Values:
     def __init__(self, type: type[Declared], given: Mapping[str, Any]) -> None:
         """`given` holds SI floats, words, nested maps, Values of parts, tables and waves, by name."""
         self.type = type
+        self.variant: Variant | None = None
         self.given = {name: _Group(value) if isinstance(value, Mapping) else value for name, value in given.items()}
 
     def __getattr__(self, name: str) -> Any:
@@ -96,6 +97,12 @@ class Variant:
 
 def variant_of(values: Values) -> Variant:
     """The variant that an instance with these values belongs to."""
+    if values.variant is None:
+        values.variant = _variant(values)
+    return values.variant
+
+
+def _variant(values: Values) -> Variant:
     given = values.given
     return Variant(
         values.type,

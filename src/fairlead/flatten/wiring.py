@@ -15,13 +15,16 @@ from fairlead.flatten.flat_model import Node
 
 
 def port_graph(assembly: Assembly) -> nx.Graph:
-    """The graph of all ports, inputs and outputs, with an edge for every two that are joined."""
+    """The graph of all ports and of the joined signals, with an edge for every two that are joined."""
     graph = nx.Graph()
-    for instance in assembly.instances.values():
-        has = instance.type.declaration
-        for name, declared in {**has.ports, **has.inputs, **has.outputs}.items():
-            graph.add_node(PortRef(instance.path, name), declared=declared, where=instance.where)
+    for path, instance in assembly.instances.items():
+        for name, port in instance.type.declaration.ports.items():
+            graph.add_node(PortRef(path, name), declared=port, where=instance.where)
     for join in assembly.joins:
+        for ref in join.ports:
+            if ref not in graph:
+                has, where = assembly.instances[ref.instance].type.declaration, assembly.instances[ref.instance].where
+                graph.add_node(ref, declared=has.inputs.get(ref.port) or has.outputs[ref.port], where=where)
         for a, b in zip(join.ports, join.ports[1:], strict=False):
             graph.add_edge(a, b, where=join.where)
     return graph
@@ -36,15 +39,14 @@ def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef,
     for members in nx.connected_components(graph):
         ports = sorted(members, key=str) if len(members) < 50 else list(members)
         declared = {ref: graph.nodes[ref]["declared"] for ref in ports}
-        where = _written(graph, ports)
         if any(isinstance(d, Input | Output) for d in declared.values()):
-            found, wrong = _signal(declared, where)
+            found, wrong = _signal(declared, _written(graph, ports))
             links |= found
             faults += wrong
             continue
         domains = {d.domain for d in declared.values()}
         if len(domains) > 1:
-            faults.append(_mixed(declared, where))
+            faults.append(_mixed(declared, _written(graph, ports)))
         elif PATH not in domains:
             nodes.append(Node(tuple(ports), domains.pop()))
             if len(ports) == 1 and not declared[ports[0]].optional:
@@ -54,7 +56,7 @@ def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef,
 
 def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
     for a in ports:
-        for _, _, data in graph.edges(a, data=True):
+        for data in graph.adj[a].values():
             return data["where"]
     return graph.nodes[ports[0]]["where"]
 

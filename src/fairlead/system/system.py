@@ -99,7 +99,8 @@ class System:
         """Choose what is recorded; always also the ledger and the creep of every contact, at the end."""
         wanted = [re.compile(glob(pattern)) for pattern in patterns]
         chosen = [s for s in self.signals if any(w.fullmatch(s.name) for w in wanted)]
-        hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s not in chosen]
+        names = {s.name for s in chosen}
+        hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
         self.recorded = chosen + hidden
         self.memory["selected"] = np.array([s.at for s in self.recorded], dtype=np.int64)
         context = self.memory["context"]
