@@ -1,0 +1,109 @@
+"""The assembled system of every bundled model: its Jacobian against differences, M against its definition."""
+
+import ctypes
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.netlist.files import bundled_models
+
+SIZES = {"m": 1e-2, "m/s": 0.1, "N": 10.0}  # of the random states; as large as what moves in these scenes
+STEP = 1e-6  # of the sizes above: truncation and rounding of a central difference are then alike, about 1e-9
+AGREES = 1e-6  # of the largest entry in the row: a misplaced or missing entry is off by all of it
+
+
+class Called:
+    """The callbacks of a system as functions of Python."""
+
+    def __init__(self, system):
+        self.system, self.n = system, system.n
+
+    def _call(self, name, *arguments):
+        kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_void_p for a in arguments]
+        pointers = [a if isinstance(a, float) else a.ctypes.data for a in arguments]
+        ctypes.CFUNCTYPE(None, ctypes.c_void_p, *kinds)(self.system.callbacks[name])(self.system.context, *pointers)
+
+    def rhs(self, t, y):
+        f = np.zeros(self.n)
+        self._call("rhs", t, y, f)
+        return f
+
+    def slip(self, t, y):
+        r = np.zeros(self.n)
+        self._call("slip", t, y, r)
+        return r
+
+    def jacobian(self, t, y):
+        values, ft = np.zeros(len(self.system.pattern.rows)), np.zeros(self.n)
+        self._call("jacobian", t, y, values, ft)
+        return self._dense(self.system.pattern, values), ft
+
+    def mass(self):
+        values = np.zeros(len(self.system.mass_pattern.rows))
+        self._call("mass", values)
+        return self._dense(self.system.mass_pattern, values)
+
+    def _dense(self, pattern, values):
+        columns = np.repeat(np.arange(self.n), np.diff(pattern.starts))
+        full = np.zeros((self.n, self.n))
+        np.add.at(full, (pattern.rows, columns), values)
+        return full
+
+
+def differences(function, y, steps):
+    columns = []
+    for k, h in enumerate(steps):
+        up, down = y.copy(), y.copy()
+        up[k], down[k] = y[k] + h, y[k] - h
+        columns.append((function(up) - function(down)) / (up[k] - down[k]))
+    return np.array(columns).T
+
+
+def close_by_rows(have, want):
+    scale = np.maximum(np.abs(want).max(axis=-1, keepdims=True), np.abs(have).max(axis=-1, keepdims=True))
+    return np.abs(have - want) <= AGREES * np.maximum(scale, 1.0)
+
+
+@pytest.fixture(scope="module", params=sorted(bundled_models()))
+def system(request):
+    return fairlead.load(request.param).system
+
+
+def random_points(system, count):
+    """Random zones of every machine, random unknowns near the start, random times."""
+    rng = np.random.default_rng(20240607)
+    sizes = np.array([SIZES.get(unknown.unit, 1.0) for unknown in system.numbering.unknowns])
+    zones = [len(names) for names in system.machine_zones]
+    for _ in range(count):
+        system.zones[: len(zones)] = [rng.integers(k) for k in zones]
+        yield float(rng.uniform(0, 5)), system.initial + sizes * rng.uniform(-1, 1, system.n), STEP * sizes
+
+
+def test_the_jacobian_equals_differences_in_random_zone_patterns(system):
+    called = Called(system)
+    for t, y, steps in random_points(system, 5):
+        have, ft = called.jacobian(t, y)
+        want = differences(lambda at, t=t: called.rhs(t, at), y, steps)
+        wrong = np.argwhere(~close_by_rows(have, want))
+        names = system.unknown_names
+        assert [(names[i], names[j], have[i, j], want[i, j]) for i, j in wrong[:5]] == []
+        h = 1e-6
+        slope = (called.rhs(t + h, y) - called.rhs(t - h, y)) / (2 * h)
+        assert close_by_rows(ft, slope).all()
+
+
+def test_the_mass_matrix_holds_inertias_and_the_slip_of_held_contacts(system):
+    """M v' is the inertia of a balance, and the rate of the slip in the row of a contact that holds."""
+    called = Called(system)
+    masses = np.array([unknown.mass if unknown.differential else 0.0 for unknown in system.numbering.unknowns])
+    for t, y, steps in random_points(system, 5):
+        held = differences(lambda at, t=t: -called.slip(t, at), y, steps)  # d(slip)/dy, on rows that hold
+        assert np.allclose(called.mass(), np.diag(masses) + held, atol=1e-7)
+
+
+def test_only_unknowns_with_a_rate_have_a_column_in_the_mass_matrix(system):
+    for _ in random_points(system, 3):
+        columns = np.abs(Called(system).mass()).max(axis=0) > 0
+        assert not columns[~system.differential].any()
+        assert columns[system.differential].all()
