@@ -5,7 +5,7 @@
 PYTHON ?=
 VENV := .venv
 RUN := $(VENV)/bin/python
-MODEL ?= $(if $(wildcard models/single_bend.yaml),single_bend,belt)
+MODEL ?= single_bend
 TESTS ?= tests
 BENCH ?= peer_scan.py belt
 
