@@ -1,0 +1,1 @@
+"""Whole scenes, from netlist to result, against what is known about them."""
