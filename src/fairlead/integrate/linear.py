@@ -97,12 +97,14 @@ def factorise_dense(m):
             return SINGULAR
         inverse = 1.0 / a[k * n + k]
         a[k * n + k] = inverse
+        pivot_rest = a[k * n + k + 1 : (k + 1) * n]
         for i in range(k + 1, n):
             if a[i * n + k] != 0.0:
                 factor = a[i * n + k] * inverse
                 a[i * n + k] = factor
-                for j in range(k + 1, n):
-                    a[i * n + j] -= factor * a[k * n + j]
+                rest = a[i * n + k + 1 : (i + 1) * n]
+                for j in range(len(rest)):
+                    rest[j] -= factor * pivot_rest[j]
     return DONE
 
 

@@ -76,14 +76,16 @@ def stage_right_side(m, h, i):
         moved = moved or a[i * stages + j] != a[(i - 1) * stages + j]
     for begin in range(0, n, CHUNK):
         end = min(begin + CHUNK, n)
-        for k in range(begin, end):
-            u[k] = y[k]
-            v[k] = 0.0
+        u_part, v_part, y_part = u[begin:end], v[begin:end], y[begin:end]
+        for k in range(end - begin):
+            u_part[k] = y_part[k]
+            v_part[k] = 0.0
         for j in range(i):
             a_ij, C_ij = a[i * stages + j], C[i * stages + j] / h
-            for k in range(begin, end):
-                u[k] += a_ij * K[j * n + k]
-                v[k] += C_ij * K[j * n + k]
+            K_j = K[j * n + begin : j * n + end]
+            for k in range(end - begin):
+                u_part[k] += a_ij * K_j[k]
+                v_part[k] += C_ij * K_j[k]
     if moved:
         field_at(m.call_rhs, (m.context, m.t + c[i] * h, m.at_u, m.at_f))
         m.rhs += 1

@@ -1,0 +1,35 @@
+"""What integrating loads: nothing of the rest of fairlead, and no compiler once the loop is cached."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+from tests.integrate.problems import belt_block
+
+
+def loaded_after(statements):
+    program = f"{statements}\nimport sys; print(' '.join(sorted(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    return done.stdout.split()
+
+
+def test_importing_the_integrator_loads_numpy_and_nothing_heavier():
+    modules = loaded_after("import fairlead.integrate")
+    assert not {"numba", "scipy", "sympy", "llvmlite", "xarray", "matplotlib"} & set(modules)
+
+
+def test_the_integrator_uses_nothing_of_the_rest_of_fairlead_but_native():
+    before = set(loaded_after("import fairlead"))
+    after = set(loaded_after("import fairlead, fairlead.integrate"))
+    ours = {name for name in after - before if name.startswith("fairlead.")}
+    others = {name for name in ours if not name.startswith("fairlead.integrate")}
+    assert others <= {"fairlead.native", "fairlead.errors"}
+
+
+def test_a_cached_loop_runs_without_numba():
+    from fairlead.integrate import Run, integrate
+
+    integrate(belt_block(), Run(stop=0.1))  # compiles, if need be
+    modules = loaded_after("from fairlead.integrate.machine_code import compiled_loop; compiled_loop()")
+    assert "numba" not in modules
