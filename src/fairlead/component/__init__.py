@@ -2,14 +2,14 @@
 
 from fairlead.component.base import Component, Composite, Declared, Expansion, Family
 from fairlead.component.declare import (
-    Block, Choice, Count, Electrical, Hydraulic, Input, Law, Output, Parameter, Part, Path, Rotational, State,
-    Stations, Table, Translational, Unknown, Waveform, Zones, derived, guard, hold, zone,
+    Block, Choice, Count, Discrete, Electrical, Hydraulic, Input, Law, Output, Parameter, Part, Path, Rotational, State,
+    Stations, Table, Translational, Unknown, Waveform, Zones, derived, guard, hold, sampled, zone,
 )  # fmt: skip
 from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tanh
 
 __all__ = [
-    "Block", "Choice", "Component", "Composite", "Count", "Declared", "Electrical", "Expansion", "Family", "Hydraulic",
+    "Block", "Choice", "Component", "Composite", "Count", "Declared", "Discrete", "Electrical", "Expansion", "Family", "Hydraulic",
     "Input", "Law", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Table", "Translational",
-    "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "exp", "guard", "hold", "log", "pi", "sin", "sqrt", "tanh",
+    "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "exp", "guard", "hold", "log", "pi", "sampled", "sin", "sqrt", "tanh",
     "zone",
 ]  # fmt: skip

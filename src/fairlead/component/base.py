@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, cast
 
 from fairlead.component.declare import (
-    Block, Choice, Count, Derived, Guard, Input, Law, Output, Parameter, Part, Port, State, Stations, Table,
+    Block, Choice, Count, Derived, Discrete, Guard, Input, Law, Output, Parameter, Part, Port, Sampled, State, Stations, Table,
     Unknown, Waveform, ZoneLaw, Zones,
 )  # fmt: skip
 
@@ -45,6 +45,8 @@ class Declaration:
     outputs: dict[str, Output] = field(default_factory=dict)
     states: dict[str, State] = field(default_factory=dict)
     unknowns: dict[str, Unknown] = field(default_factory=dict)
+    discrete: dict[str, Discrete] = field(default_factory=dict)
+    samples: dict[str, Sampled] = field(default_factory=dict)
     derived: dict[str, Derived] = field(default_factory=dict)
     zones: tuple[str, ...] = ("always",)
     laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
@@ -53,7 +55,7 @@ class Declaration:
     @property
     def arguments(self) -> set[str]:
         """Names a law may ask for."""
-        return {"p", "t", "zone", *self.ports, *self.inputs, *self.states, *self.unknowns}
+        return {"p", "t", "zone", *self.ports, *self.inputs, *self.states, *self.unknowns, *self.discrete}
 
 
 class Declared:
@@ -141,7 +143,7 @@ def _collect(cls: type) -> Declaration:
         laws["always"] = members["law"]
     return Declaration(
         ports=of(Port), parameters=of(PARAMETER_KINDS), inputs=of(Input), outputs=of(Output), states=of(State),
-        unknowns=of(Unknown), derived=of(Derived), zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
+        unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived), zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
     )  # fmt: skip
 
 
@@ -158,6 +160,11 @@ def _check(cls: type[Declared]) -> None:
     for name, law in has.laws.items():
         _demand(cls, name in has.zones, f"a law is declared for {name!r}, which is not in zones {has.zones}")
         _check_arguments(cls, law, has.arguments)
+    _demand(cls, len(has.samples) <= 1, f"several sampled laws: {sorted(has.samples)}; one gives all discrete variables")
+    _demand(cls, bool(has.samples) or not has.discrete, f"no sampled law gives {sorted(has.discrete)}")
+    for name, sample in has.samples.items():
+        _demand(cls, sample.period in has.parameters, f"{name!r} is sampled every {sample.period!r}, which is no parameter")
+        _check_arguments(cls, sample.law, has.arguments)
     for name, mark in has.guards.items():
         for zone in (*mark.zones, mark.to):
             _demand(cls, zone in has.zones, f"guard {name!r} names {zone!r}, which is not in zones {has.zones}")

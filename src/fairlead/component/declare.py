@@ -115,6 +115,23 @@ class Unknown:
 
 
 @dataclass(frozen=True)
+class Discrete:
+    """A variable that changes only at sample times; `start` is a number or a parameter's name."""
+
+    unit: str
+    doc: str = ""
+    start: str | float = 0.0
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A law for discrete variables, in force at sample times only; `period` names a parameter [s]."""
+
+    period: str
+    law: Callable[..., Any]
+
+
+@dataclass(frozen=True)
 class Parameter:
     """A number with a unit and a range; SI inside, any unit of the same kind in a netlist.
 
@@ -238,6 +255,15 @@ def zone(*names: str) -> Callable[[Callable[..., Any]], Any]:
 def guard(*zones: str, to: str, unit: str) -> Callable[[Callable[..., Any]], Any]:
     """Mark a function as a guard of `zones` that leads to `to`; `unit` scales its tolerance."""
     return lambda function: Guard(zones, to, unit, function)
+
+
+def sampled(*, every: str) -> Callable[[Callable[..., Any]], Any]:
+    """Mark a law that gives discrete variables their next values every `every` (a parameter, in s).
+
+    All components sampled at one instant read the values from before it, so a signal passed from one to
+    the other is delayed by one sample.
+    """
+    return lambda law: Sampled(every, law)
 
 
 def derived(function: Callable[..., float]) -> Any:

@@ -34,7 +34,7 @@ def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
     files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
-    files += [here.parent / "system" / n for n in ("kernels.py", "kernel_text.py", "lowering.py", "layout.py")]
+    files += [here.parent / "system" / n for n in ("kernels.py", "kernel_text.py", "lowering.py", "layout.py", "structure.py")]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 

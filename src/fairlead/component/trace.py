@@ -18,11 +18,12 @@ from typing import Any
 import sympy
 
 from fairlead.component.base import LEDGER, Declaration, Declared, source_place, terms_of
-from fairlead.component.declare import Choice, Count, Hold, Part, Table, Waveform
+from fairlead.component.declare import Choice, Count, Hold, Law, Part, Table, Waveform
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.values import Variant
 
-NOT_SMOOTH = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Max, sympy.Min, sympy.Piecewise, sympy.floor)
+SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
+KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
 TAU = "@tau"  # time constant of a hold row, a setting of the run
 
 
@@ -71,6 +72,7 @@ class Traced:
     zones: dict[str, TracedZone]
     tables: list[str]
     time_tables: list[str]
+    sample: dict[str, sympy.Expr] = field(default_factory=dict)  # discrete variable -> its next value
 
 
 class _Recorder:
@@ -162,7 +164,19 @@ def trace(variant: Variant) -> Traced:
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():
         zone.guards += [guard for path in zone.tables if path not in timed for guard in _borders(path, zone)]
-    return Traced(variant, zones, tables, timed)
+    return Traced(variant, zones, tables, timed, _trace_sample(variant, has))
+
+
+def _trace_sample(variant: Variant, has: Declaration) -> dict[str, sympy.Expr]:
+    """The next values of discrete variables; they are set at sample times, so they need not be smooth."""
+    for sample in has.samples.values():
+        reads: dict[str, sympy.Expr] = {}
+        said = _run(sample.law, _arguments(variant, has, has.zones[0], reads))
+        terms = said.terms if isinstance(said, Law) else {}
+        if set(terms) != set(has.discrete) or reads:
+            raise TraceError(f"{source_place(sample.law)}: a sampled law gives Law({', '.join(has.discrete)}) and reads no table")
+        return {name: _expression(value, sample.law) for name, value in terms.items()}
+    return {}
 
 
 def trace_function(variant: Variant, function: Callable[..., Any], *arguments: sympy.Expr) -> tuple[Any, dict[str, sympy.Expr]]:
@@ -173,29 +187,29 @@ def trace_function(variant: Variant, function: Callable[..., Any], *arguments: s
 
 
 def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
-    zone = TracedZone()
+    zone, law = TracedZone(), has.laws[name]
     arguments = _arguments(variant, has, name, zone.tables)
-    for key, value in _terms(variant, has.laws[name], arguments):
+    for key, value in _terms(variant, law, arguments):
         if key in has.ports:
-            zone.flows[key] = _smooth(value, has.laws[name])
+            zone.flows[key] = _smooth(value, law)
         elif isinstance(value, Hold):
-            zone.holds[key] = _hold_row(value.slip)
-            zone.own[key] = _hold_right_side(value.slip)
+            zone.holds[key] = _hold_row(_smooth(value.slip, law), law)
+            zone.own[key] = _hold_right_side(zone.holds[key].slip)
         elif key in has.outputs:
-            zone.outputs[key] = _expression(value)
+            zone.outputs[key] = _expression(value, law)
         elif key in LEDGER:
-            zone.ledger[key] = _expression(value)
+            zone.ledger[key] = _power(value, law)
         else:
-            zone.own[key] = _smooth(value, has.laws[name])
+            zone.own[key] = _smooth(value, law)
     for line in LEDGER:
         method = getattr(variant.type, line, None)
         if method is not None and line not in zone.ledger:
-            zone.ledger[line] = _expression(_run(method, arguments))
+            zone.ledger[line] = _power(_run(method, arguments), method)
     for label, mark in has.guards.items():
         if name in mark.zones:
             said = _run(mark.function, arguments)
-            values = list(said) if isinstance(said, tuple) else [said]
-            zone.guards.append(TracedGuard(label, mark.to, mark.unit, [_expression(v) for v in values]))
+            values = [_expression(v, mark.function) for v in (said if isinstance(said, tuple) else (said,))]
+            zone.guards.append(TracedGuard(label, mark.to, mark.unit, values))
     return zone
 
 
@@ -207,6 +221,7 @@ def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, s
         **{name: _PortReader(name, port) for name, port in has.ports.items()},
         **{name: symbol(f"in:{name}") for name in has.inputs},
         **{name: symbol(f"own:{name}") for name in (*has.states, *has.unknowns)},
+        **{name: symbol(f"p:#{name}") for name in has.discrete},
     }
 
 
@@ -227,27 +242,62 @@ def _run(function: Callable[..., Any], arguments: dict[str, Any]) -> Any:
     except Exception as error:
         frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == code.co_filename]
         line = frames[-1].lineno if frames else code.co_firstlineno
-        what = "a law must not branch on values; write one law per zone" if "truth value" in str(error) else error
-        raise TraceError(f"{code.co_filename}:{line}: {function.__qualname__}: {what}") from error
+        raise TraceError(f"{code.co_filename}:{line}: {function.__qualname__}: {_explained(error)}") from error
 
 
-def _expression(value: Any) -> sympy.Expr:
-    return sympy.sympify(value)
+def _explained(error: Exception) -> str:
+    """What an author did to a symbol that only a number can bear."""
+    if "truth value" in str(error):
+        return "a law must not branch on values; write one law per zone"
+    if "convert expression to float" in str(error) or "ufunc" in str(error):
+        return "functions of math and numpy want numbers; import sqrt, exp, sin, ... from fairlead.component"
+    return f"{type(error).__name__}: {error}"
 
 
-def _smooth(value: Any, law: Callable[..., Any]) -> sympy.Expr:
+def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
+    """What an author's function gave, when a kernel can compute it."""
+    place = source_place(function)
+    if isinstance(value, str | bool) or not (isinstance(value, int | float | sympy.Expr) or hasattr(value, "__float__")):
+        raise TraceError(f"{place}: {function.__name__} gives {value!r}, which is not a number")
     expression = sympy.sympify(value)
-    kinks = expression.atoms(*NOT_SMOOTH)
-    if kinks:
-        raise TraceError(f"{source_place(law)}: {kinks.pop()} is not smooth; give each branch a zone")
-    read = [s.name for s in expression.free_symbols if s.name.startswith("port:") and s.name.endswith((":a", ":R"))]
-    if read:
-        raise TraceError(f"{source_place(law)}: a law must not read an acceleration or a reaction ({read[0]})")
+    if expression.has(sympy.nan, sympy.zoo, sympy.oo):
+        raise TraceError(f"{place}: {function.__name__} gives {expression}, which is not finite")
+    for part in expression.atoms(sympy.Function, sympy.Max, sympy.Min, sympy.Piecewise):
+        if not isinstance(part, (*SMOOTH, *KINKED)):
+            raise TraceError(f"{place}: {part} cannot be compiled; use the functions of fairlead.component")
     return expression
 
 
-def _hold_row(slip: Any) -> HoldRow:
-    speeds = [s for s in sympy.sympify(slip).free_symbols if s.name.endswith(":v")]
+def is_kinked(expression: sympy.Expr) -> bool:
+    """True when an expression has a corner somewhere, so that its derivative is no use to a solver."""
+    return bool(expression.atoms(*KINKED))
+
+
+def _smooth(value: Any, law: Callable[..., Any]) -> sympy.Expr:
+    expression = _expression(value, law)
+    kinks = sorted(map(str, expression.atoms(*KINKED)))
+    if kinks:
+        raise TraceError(f"{source_place(law)}: {kinks[0]} is not smooth; give each branch a zone")
+    return _without(expression, law, (":a", ":R"), "a law must not read an acceleration or a reaction")
+
+
+def _power(value: Any, law: Callable[..., Any]) -> sympy.Expr:
+    """A line of the ledger; it may read a reaction, which is known by then."""
+    return _without(_expression(value, law), law, (":a",), "power and energy must not read an acceleration")
+
+
+def _without(expression: sympy.Expr, law: Callable[..., Any], ends: tuple[str, ...], what: str) -> sympy.Expr:
+    read = sorted(s.name for s in expression.free_symbols if s.name.startswith("port:") and s.name.endswith(ends))
+    if read:
+        _, port, kind = read[0].split(":")
+        raise TraceError(f"{source_place(law)}: {what} ({port}'s {'acceleration' if kind == 'a' else 'reaction'})")
+    return expression
+
+
+def _hold_row(slip: sympy.Expr, law: Callable[..., Any]) -> HoldRow:
+    speeds = [s for s in slip.free_symbols if s.name.startswith("port:") and s.name.endswith(":v")]
+    if not speeds or any(sympy.diff(slip, s).free_symbols & set(speeds) for s in speeds):
+        raise TraceError(f"{source_place(law)}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
     return HoldRow(slip, {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)})
 
 

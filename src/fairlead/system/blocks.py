@@ -179,6 +179,9 @@ def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: s
 def _parameter(flat: FlatModel, instance: Instance, name: str, tau: float) -> float:
     if name == "@tau":
         return tau
+    if name.startswith("#"):
+        start = instance.type.declaration.discrete[name[1:]].start
+        return float(getattr(instance.values, start) if isinstance(start, str) else start)
     if name.endswith(".inverse_mass"):
         index, ratio, _ = flat.place(PortRef(instance.path, name.split(".")[0]))
         group = flat.groups[index]

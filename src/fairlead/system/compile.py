@@ -210,7 +210,7 @@ def _context(flat: FlatModel, blocks: list[Block], numbering: Numbering, tables:
     holds, always = _holds(blocks)
     memory |= {
         "z": np.zeros(numbering.dump + 1), "w": np.zeros(numbering.w_dump + 1),
-        "zones": np.zeros(max(len(machines), 1), dtype=np.int64), "tables": tables.vector(),
+        "zones": np.zeros(len(machines), dtype=np.int64), "tables": tables.vector(),
         "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
         "counts": np.array([b.count for b in blocks], dtype=np.int64), "schedule": _schedule(blocks, numbering),
         "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2), "inverse_mass": inverse,
@@ -218,7 +218,7 @@ def _context(flat: FlatModel, blocks: list[Block], numbering: Numbering, tables:
         "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
         "work": np.concatenate([[1.0], np.zeros(program.length - 1)]), "program": program.steps, "program_coef": program.coef,
         "holds": holds, "time_place": _time_places(blocks), "selected": np.zeros(0, dtype=np.int64),
-        "stored": _stored(blocks),
+        "stored": _stored(blocks), **_samplers(flat, blocks),
     }  # fmt: skip
     sizes = {
         "N": n, "N_SIGNALS": len(numbering.signals), "N_REACTIONS": len(reactions), "N_BLOCKS": len(blocks),
@@ -227,13 +227,14 @@ def _context(flat: FlatModel, blocks: list[Block], numbering: Numbering, tables:
         "N_MASS": len(memory["mass_static"]), "N_MASS_PROGRAM": len(memory["mass_program"]), "N_HOLDS": len(holds),
         "N_TIME": len(memory["time_place"]), "N_SELECTED": 0, "N_STORED": len(memory["stored"]), "T_AT": numbering.time,
         "ACCELERATION_AT": numbering.acceleration, "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": always,
-        "JACOBIAN_AT": program.jacobian_at,
+        "JACOBIAN_AT": program.jacobian_at, "N_SAMPLED": len(memory["sampled"]),
     }  # fmt: skip
     addresses = {"OUTPUTS_ALL": "outputs"} | {
         name: name.lower() for name in (
             "Z", "W", "ZONES", "TABLES", "KERNELS", "BLOCKS", "COUNTS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS",
             "REACTION_A", "PARTIALS", "WORK", "PROGRAM", "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS",
-            "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED",
+            "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
+            "SAMPLE_COUNT", "SAMPLE_START",
         )
     }  # fmt: skip
     context = np.zeros(layout.CONTEXT, dtype=np.int64)
@@ -276,6 +277,17 @@ def _time_places(blocks: list[Block]) -> Integers:
                     pieces = len(_table(instance.values.path(path)).rows)
                     found.append((block.machines[i, k], block.table_base[i, column], pieces))
     return np.array(found, dtype=np.int64).reshape(-1, 3)
+
+
+def _samplers(flat: FlatModel, blocks: list[Block]) -> dict[str, NDArray[Any]]:
+    """Instances with sample times, in the order of the blocks."""
+    sampled = [(b, i, block) for b, block in enumerate(blocks) if block.kernel.structure.period for i in range(block.count)]
+    periods = [float(getattr(block.instances[i].values, block.kernel.structure.period)) for _, i, block in sampled]
+    return {
+        "sampled": np.array([(b, i) for b, i, _ in sampled], dtype=np.int64).reshape(-1, 2),
+        "sample_period": np.array(periods), "sample_count": np.zeros(len(sampled), dtype=np.int64),
+        "sample_start": np.array([flat.assembly.netlist.run.start]),
+    }  # fmt: skip
 
 
 def _table_machines(block: Block) -> list[tuple[str, int, int]]:

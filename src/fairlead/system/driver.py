@@ -62,6 +62,19 @@ def accelerate(ctx, t, y):
         z[first + i] = w[i] * inverse[i]
 
 
+def take_samples(ctx, t, y):
+    """Give the discrete variables of all instances that are due at t their next values."""
+    evaluate(ctx, t, y)
+    kernels, blocks, places = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SAMPLED])
+    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
+    for k in range(0, ctx[N_SAMPLED]):
+        if begun[0] + count[k] * period[k] <= t:
+            b, i = places[2 * k], places[2 * k + 1]
+            call_kernel(kernels[b], SAMPLE, i8(blocks + 8 * BLOCK * b), i, i + 1, z, zones, tables, z)
+            count[k] += 1
+
+
 def rhs(ctx, t, y, f):
     """f(t, y) in the zones in force."""
     evaluate(ctx, t, y)
@@ -164,11 +177,17 @@ def next_time(ctx, t):
         if right > t:
             if right < soonest:
                 soonest = right
+    period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
+    for k in range(0, ctx[N_SAMPLED]):
+        sample = begun[0] + count[k] * period[k]
+        if sample > t:
+            if sample < soonest:
+                soonest = sample
     return soonest
 
 
 def at_time(ctx, t, y):
-    """Move to the pieces that hold from t on."""
+    """Move to the pieces that hold from t on, and sample what is due; all samplers read what was before."""
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
     changed = 0
     for k in range(0, ctx[N_TIME]):
@@ -176,6 +195,9 @@ def at_time(ctx, t, y):
             if tables[place[3 * k + 1] + 8 * zones[place[3 * k]] + 1] <= t:
                 zones[place[3 * k]] += 1
                 changed = 1
+    if ctx[N_SAMPLED] > 0:
+        take_samples(ctx, t, y)
+        changed = 1
     return changed
 
 
@@ -207,7 +229,7 @@ def callbacks() -> Native:
 def _build() -> Build:
     from fairlead.system.lowering import lower
 
-    shared = [inspect.getsource(function) for function in (evaluate, accelerate)]
+    shared = [inspect.getsource(function) for function in (evaluate, accelerate, take_samples)]
     here = globals()
     made = {
         name: lower(inspect.getsource(here[name]), name, kinds, returns, shared=shared)

@@ -20,7 +20,7 @@ import sympy
 from sympy.printing.pycode import PythonCodePrinter
 
 from fairlead.component.piecewise import DEGREE, STRIDE
-from fairlead.component.trace import Traced, TracedGuard, TracedZone, symbol
+from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, symbol
 from fairlead.system import layout
 from fairlead.system.structure import Structure
 
@@ -40,6 +40,9 @@ class _Printer(PythonCodePrinter):
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False})
 
+    def _print_sign(self, expression: sympy.Expr) -> str:
+        return f"sign({self._print(expression.args[0])})"
+
 
 class KernelText:
     """Builds the text of one kernel and the structure that goes with it."""
@@ -54,9 +57,11 @@ class KernelText:
         self.outputs = list(has.outputs)
         symbols = sorted({s.name for e in self._everything() for s in e.free_symbols})
         self.inputs = [key for key in symbols if key.split(":")[0] in ("port", "own", "in", "t")]
-        self.parameters = [key[2:] for key in symbols if key.startswith("p:")]
+        discrete = {f"p:#{name}" for name in has.discrete}
+        self.parameters = [key[2:] for key in sorted({k for k in symbols if k.startswith("p:")} | discrete)]
         self.machines = (1 if len(traced.zones) > 1 else 0) + len(traced.tables)
-        self.d_signals = self._pairs(lambda z: [z.outputs.get(n) for n in self.outputs])
+        self.unfit = {name: why for name in self.outputs if (why := self._unfit(name))}
+        self.d_signals = self._pairs(lambda z: [None if n in self.unfit else z.outputs.get(n) for n in self.outputs])
         self.d_flows = self._pairs(self._target_values)
         self.d_ledger = self._pairs(lambda z: [z.ledger.get(line) for line in self.ledger])
         self.mass = sorted({(u, self.inputs.index(s)) for z in self.zones for u, h in z.holds.items() for s in h.rates})
@@ -71,6 +76,7 @@ class KernelText:
             (layout.PARTIALS_FLOWS, lambda z: self._partials(z, layout.D_FLOWS, self.d_flows, self._target_values(z))),
             (layout.PARTIALS_LEDGER, lambda z: self._partials(z, layout.D_LEDGER, self.d_ledger, self._ledger_values(z))),
             (layout.MASS, self._mass), (layout.SLIP, self._slip), (layout.GUARD, self._guards), (layout.OUTPUT, self._all_outputs),
+            (layout.SAMPLE, self._sample),
         ]  # fmt: skip
         text = HEAD.format(**fields)
         for mode, statements in modes:
@@ -123,6 +129,11 @@ class KernelText:
         place = f"out[block[{layout.OUTPUTS}] + i*{len(names)} + {{k}}] = {{{{}}}}"
         values = {**zone.outputs, **zone.ledger}
         return [(place.format(k=k), values.get(n, sympy.S.Zero)) for k, n in enumerate(names)]
+
+    def _sample(self, zone: TracedZone) -> list[Statement]:
+        """New values are stored after everything was loaded, so all read the old ones."""
+        place = f"par[i*{len(self.parameters)}+{{k}}] = {{{{}}}}"
+        return [(place.format(k=self.parameters.index(f"#{n}")), e) for n, e in self.traced.sample.items()]
 
     # The text of a loop --------------------------------------------------------------------------
 
@@ -193,6 +204,16 @@ class KernelText:
     def _flowing(self) -> list[str]:
         return [n for n in self.traced.variant.type.declaration.ports if any(n in z.flows for z in self.zones)]
 
+    def _unfit(self, name: str) -> str:
+        """Why an output can be recorded only, or "" when it may feed a law."""
+        values = [zone.outputs[name] for zone in self.zones if name in zone.outputs]
+        read = {s.name.rpartition(":")[2] for value in values for s in value.free_symbols if s.name.startswith("port:")}
+        if "a" in read:
+            return "it reads an acceleration, which is known only after the forces"
+        if "R" in read:
+            return "it reads the force of a prescribed motion, which is known only after the forces"
+        return "it has a corner where its derivative jumps" if any(map(is_kinked, values)) else ""
+
     def _target_values(self, zone: TracedZone) -> list[Any]:
         return [(zone.flows if t.startswith("port:") else zone.own).get(t.split(":")[1]) for t in self.targets]
 
@@ -203,7 +224,7 @@ class KernelText:
         return [zone.ledger.get(line) for line in self.ledger]
 
     def _everything(self) -> list[sympy.Expr]:
-        found: list[sympy.Expr] = []
+        found: list[sympy.Expr] = list(self.traced.sample.values())
         for z in self.zones:
             found += [*z.flows.values(), *z.own.values(), *z.outputs.values(), *z.ledger.values()]
             found += [value for g in z.guards for value in g.values]
@@ -224,12 +245,13 @@ class KernelText:
         t = self.traced
         return Structure(
             inputs=self.inputs, parameters=self.parameters, tables=t.tables, time_tables=t.time_tables,
-            zones=list(t.zones), machines=self.machines, outputs=self.outputs, targets=self.targets, ledger=self.ledger,
+            zones=list(t.zones), machines=self.machines, outputs=self.outputs, unfit=self.unfit, targets=self.targets, ledger=self.ledger,
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger, mass=self.mass,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             guards={name: [_describe(g, self) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots,
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
+            period=next((sample.period for sample in t.variant.type.declaration.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
         )  # fmt: skip
 

@@ -68,7 +68,7 @@ def plain(variant: Variant) -> tuple[Callable[..., None], Structure]:
 
     source, structure = write_source(variant)
     names: dict[str, Any] = {name: getattr(cmath, name) for name in ("exp", "log", "sqrt", "sin", "cos", "tan", "tanh", "atan")}
-    names |= {"f8": _same, "i8": _same, "abs": _magnitude, "min": _least, "max": _greatest}
+    names |= {"f8": _same, "i8": _same, "abs": _magnitude, "min": _least, "max": _greatest, "sign": _direction}
     exec(compile(source, f"<kernel {variant.label}>", "exec"), names)  # noqa: S102
     return names["kernel"], structure
 
@@ -87,3 +87,7 @@ def _least(*values: Any) -> Any:
 
 def _greatest(*values: Any) -> Any:
     return max(values, key=lambda value: value.real)
+
+
+def _direction(x: Any) -> Any:
+    return (x.real > 0) - (x.real < 0)

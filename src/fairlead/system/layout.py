@@ -32,7 +32,7 @@ OUTPUTS = 15  # offset into the vector of all outputs
 BLOCK = 16
 
 # What a kernel is asked to do. `out` is z for SIGNALS, w for FLOWS, LEDGER and SLIP, else the vector named.
-SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT = range(10)
+SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
 
 DISSIPATED, SUPPLIED = "dissipated", "supplied"
 NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
@@ -87,4 +87,9 @@ TIME_PLACE = 44  # int64 (time, 3)       position in zones, base in tables, piec
 OUTPUTS_ALL = 45  # float64 (all,)
 SELECTED = 46  # int64 (selected,)     position in all outputs, or -1 - position in z
 STORED = 47  # int64 (stored,)       positions in all outputs
-CONTEXT = 48
+N_SAMPLED = 48  # instances with sample times
+SAMPLED = 49  # int64 (sampled, 2)     block, instance
+SAMPLE_PERIOD = 50  # float64 (sampled,)   s
+SAMPLE_COUNT = 51  # int64 (sampled,)     samples taken
+SAMPLE_START = 52  # float64 (1,)         time of the first sample
+CONTEXT = 53

@@ -212,11 +212,14 @@ class _Lowering:
         if name in ("f8", "i8"):
             return self.builder.inttoptr(arguments[0], F8 if name == "f8" else I8)
         values = [self.double(argument) for argument in arguments]
-        if name == "min":
-            least = values[0]
+        if name in ("min", "max"):
+            best = values[0]
             for value in values[1:]:
-                least = self.builder.select(self.builder.fcmp_ordered("<", value, least), value, least)
-            return least
+                best = self.builder.select(self.builder.fcmp_ordered("<" if name == "min" else ">", value, best), value, best)
+            return best
+        if name == "sign":
+            above, below = (self.builder.fcmp_ordered(s, values[0], DOUBLE(0.0)) for s in "><")
+            return self.builder.fsub(*(self.builder.uitofp(holds, DOUBLE) for holds in (above, below)))
         if name in INTRINSIC:
             return self.intrinsic(INTRINSIC[name], values)
         assert name in LIBRARY, name

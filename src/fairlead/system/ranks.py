@@ -17,6 +17,7 @@ def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
     for group in flat.groups:
         if group.prescribed is not None and group.prescribed.outputs is not None:
             needed |= {PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs}
+    _refuse_unfit(flat, kernels, needed)
     for output in needed:
         graph.add_node(output.instance)
         for source in _read_by(flat, kernels[output.instance], output):
@@ -28,6 +29,20 @@ def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
         where = flat.assembly.instances[loop[0]].where
         what = f"signals run in a loop without delay: {' -> '.join([*loop, loop[0]])}."
         raise ModelError([Fault(where, what, "Break it with a State or a sampled component.")]) from None
+
+
+def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: set[PortRef]) -> None:
+    """Some outputs can be recorded but not fed to a law: they come too late, or their derivative jumps."""
+    faults = []
+    for output in sorted(needed, key=str):
+        why = kernels[output.instance].structure.unfit.get(output.port)
+        if why:
+            readers = [str(target) for target, source in flat.sources.items() if source == output]
+            way_out = "Record it, or feed a component whose own state follows what you want to know."
+            what = f"{output} cannot feed {', '.join(readers) or 'a prescribed motion'}: {why}."
+            faults.append(Fault(flat.assembly.instances[output.instance].where, what, way_out))
+    if faults:
+        raise ModelError(faults)
 
 
 def _read_by(flat: FlatModel, kernel: Kernel, output: PortRef) -> list[PortRef]:

@@ -17,6 +17,7 @@ class Structure:
     zones: list[str]
     machines: int
     outputs: list[str]
+    unfit: dict[str, str]  # outputs that cannot feed an input or prescribe a motion, and why
     targets: list[str]  # "port:a", "own:force": where flows, rates and balances go
     ledger: list[str]
     d_signals: list[tuple[int, int]]  # (output, input) of every derivative that may be non-zero
@@ -28,3 +29,4 @@ class Structure:
     slots: int
     flow_inputs: dict[str, dict[str, list[str]]]  # zone -> target -> input keys it depends on
     reaches: dict[str, dict[str, str]]  # zone -> table -> input or expression it is read at
+    period: str = ""  # the parameter that gives the sample period; empty without sampling

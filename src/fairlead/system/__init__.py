@@ -1,0 +1,1 @@
+"""Fourth stage of the pipeline: the flat model as arrays, kernels and callbacks for an engine."""
