@@ -40,6 +40,8 @@ def derivatives(make: Maker, rng: np.random.Generator) -> None:
             stepped = _complex_steps(world, at, values)
             pairs = {tuple(pair): value for pair, value in zip(getattr(s, name), said, strict=True)}
             for (k, j), want in np.ndenumerate(stepped):
+                if name == "d_signals" and s.outputs[k] in s.unfit:
+                    continue
                 have = pairs.get((k, j), 0.0)
                 if not _close(have, want):
                     what = (s.outputs if name == "d_signals" else s.targets)[k]

@@ -1,0 +1,148 @@
+"""Laws become expressions and kernels; a law that cannot is refused with its author's file and line."""
+
+import re
+import textwrap
+
+import pytest
+
+import fairlead
+from fairlead.errors import ModelError
+
+NETLIST = """\
+schema: 1
+name: scene
+components:
+  wall: {type: Ground}
+  block: {type: Mass, mass: 1 kg}
+  part: {type: Mine}
+connections:
+  - [wall.flange, part.a]
+  - [part.b, block.flange]
+run: {stop: 1 s}
+"""
+HEAD = "from fairlead.component import *\nfrom fairlead.component import Component, Law\n"
+
+
+def scene(tmp_path, body, head="", name="mine"):
+    """A scene with a user's component whose class body is `body`; its lines count from 1 after HEAD."""
+    ports = "    a, b = Translational(), Translational()\n"
+    text = HEAD + head + "class Mine(Component):\n" + ports + textwrap.indent(textwrap.dedent(body), "    ")
+    (tmp_path / f"{name}.py").write_text(text)
+    (tmp_path / "scene.yaml").write_text(NETLIST)
+    return tmp_path / "scene.yaml", [str(tmp_path / f"{name}.py")]
+
+
+def refusal(tmp_path, body, head=""):
+    """What `check` says, and the line of the user's file it names."""
+    path, libraries = scene(tmp_path, body, head)
+    with pytest.raises(ModelError) as caught:
+        fairlead.load(path, libraries=libraries).check()
+    found = re.search(r"mine\.py:(\d+)", str(caught.value))
+    assert found, str(caught.value)
+    return str(caught.value), (tmp_path / "mine.py").read_text().splitlines()[int(found[1]) - 1].strip()
+
+
+@pytest.mark.parametrize(
+    ("law", "line", "says"),
+    [
+        ("if a.x > b.x:\n        return 0, 0\n    return 1, -1", "if a.x > b.x:", "must not branch on values; write one law per zone"),
+        ("return a.a, -a.a", "def law(p, a, b):", "must not read an acceleration or a reaction (a's acceleration)"),
+        ("return a.force, -a.force", "def law(p, a, b):", "a law must not read an acceleration or a reaction (a's reaction)"),
+        ("return abs(a.v), -abs(a.v)", "def law(p, a, b):", "Abs(port:a:v) is not smooth; give each branch a zone"),
+        ("f = max(a.v, 0)\n    return f, -f", "f = max(a.v, 0)", "must not branch on values"),
+        ("import math\n    return math.sin(a.v), 0", "return math.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead.component"),
+        ("import numpy\n    return numpy.sin(a.v), 0", "return numpy.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead"),
+        ("import sympy\n    return sympy.gamma(a.v), 0", "def law(p, a, b):", "gamma(port:a:v) cannot be compiled"),
+        ("import sympy\n    f = sympy.Max(a.v, 0)\n    return f, -f", "def law(p, a, b):", "is not smooth"),
+        ("return a.w, 0", "return a.w, 0", "no attribute 'w'"),
+        ("return p.stifness, 0", "return p.stifness, 0", "Mine has no parameter 'stifness'"),
+        ("return 1 / 0 * a.v, 0", "return 1 / 0 * a.v, 0", "ZeroDivisionError: division by zero"),
+        ("return a.v / (a.v - a.v), 0", "def law(p, a, b):", "which is not finite"),
+        ("return a.v", "def law(p, a, b):", "the law returns 1 flows for 2 ports ['a', 'b']"),
+        ("return None, None", "def law(p, a, b):", "gives None, which is not a number"),
+        ("return 'a.v', 0", "def law(p, a, b):", "gives 'a.v', which is not a number"),
+        ("return Law(a=0, c=0)", "def law(p, a, b):", "gives ['c'] unasked and leaves out ['b']"),
+        ("return Law(a=0, b=0, dissipated=a.a)", "def law(p, a, b):", "must not read an acceleration (a's acceleration)"),
+    ],
+)  # fmt: skip
+def test_a_law_that_cannot_be_frozen_in_a_step_is_refused_at_its_line(tmp_path, law, line, says):
+    said, named = refusal(tmp_path, f"def law(p, a, b):\n    {law}\n")
+    assert says in said
+    assert named == line
+    assert "scene.yaml:6:3: part: " in said
+
+
+def test_a_helper_that_fails_is_told_at_the_line_of_the_law_that_called_it(tmp_path):
+    said, named = refusal(tmp_path, "def law(p, a, b):\n    return helper(a.v), 0\n", head="def helper(v):\n    return v if v > 0 else 0\n")
+    assert "must not branch on values" in said
+    assert named == "return v if v > 0 else 0"
+
+
+def test_a_hold_that_is_not_a_slip_is_refused(tmp_path):
+    said, _ = refusal(tmp_path, 'f = Unknown("N")\ndef law(p, a, b, f):\n    return Law(a=-f, b=f, f=hold(b.x - a.x))\n')
+    assert "wants a sum of speeds of ports, such as b.v - a.v" in said
+
+
+def test_every_refused_class_of_a_netlist_is_told_at_once(tmp_path):
+    path, libraries = scene(tmp_path, "def law(p, a, b):\n    return abs(a.v), 0\n")
+    other = "\n\nclass Yours(Mine):\n    def law(p, a, b):\n        return a.a, 0\n"
+    (tmp_path / "mine.py").write_text((tmp_path / "mine.py").read_text() + other)
+    path.write_text(NETLIST.replace("connections:", "  also: {type: Yours}\nconnections:").replace("part.b, block", "part.b, also.a, also.b, block"))
+    with pytest.raises(ModelError) as caught:
+        fairlead.load(path, libraries=libraries).check()
+    assert "part: " in str(caught.value)
+    assert "also: " in str(caught.value)
+
+
+def test_an_output_with_a_corner_can_be_recorded_and_not_fed_to_a_law(tmp_path):
+    body = """
+    speed = Output("m/s", "Without its sign.")
+    most = Output("m/s", "The larger speed.")
+    way = Output("1", "Its sign.")
+    pull = Input("N", default=0.0)
+
+    def law(p, a, b, pull):
+        import sympy
+
+        return Law(a=-pull, b=pull, speed=abs(a.v - b.v), most=sympy.Max(a.v, b.v), way=sympy.sign(a.v), dissipated=pull * (b.v - a.v))
+    """
+    path, libraries = scene(tmp_path, body)
+    assert fairlead.load(path, libraries=libraries).check() == []
+    path.write_text(NETLIST.replace("  - [wall", "  - [part.speed, part.pull]\n  - [wall"))
+    with pytest.raises(ModelError, match=r"part.speed cannot feed part.pull: it has a corner where its derivative jumps"):
+        fairlead.load(path, libraries=libraries).check()
+
+
+def test_an_acceleration_can_be_recorded_and_not_fed_to_a_law(tmp_path):
+    body = 'pull = Input("N", default=0.0)\ndef law(p, a, b, pull):\n    return Law(a=-pull, b=pull, supplied=pull * (a.v - b.v))\n'
+    path, libraries = scene(tmp_path, body)
+    sensed = NETLIST.replace("connections:", "  eye: {type: MotionSensor}\nconnections:\n  - [eye.flange, block.flange]\n  - [eye.a, part.pull]")
+    path.write_text(sensed)
+    with pytest.raises(ModelError, match=r"eye.a cannot feed part.pull: it reads an acceleration, which is known only after"):
+        fairlead.load(path, libraries=libraries).check()
+    path.write_text(sensed.replace("eye.a,", "eye.v,"))
+    assert fairlead.load(path, libraries=libraries).check() == []
+
+
+def test_functions_and_powers_say_in_machine_code_what_they_say_in_python(tmp_path):
+    from fairlead.component.registry import load_library
+    from fairlead.testing import contract
+
+    body = """
+    def law(p, a, b):
+        v = b.v - a.v
+        s = 2 + tanh(v)
+        force = sin(v) ** 3 + cos(v) * v + atan(v) - exp(-v * v) * v + log(s) * v + sqrt(s) * v + s**-0.5 * v + v * s**9 + v / s**2
+        return Law(a=-force, b=force, supplied=-force * v)
+    """
+    _, (library,) = scene(tmp_path, body, name="functions")
+    contract(load_library(library).Mine)
+
+
+def test_a_new_netlist_of_known_classes_compiles_nothing(tmp_path, monkeypatch):
+    from fairlead.system import kernels
+
+    fairlead.load("belt").check()
+    monkeypatch.setattr(kernels, "_build", lambda variant: pytest.fail(f"{variant.label} was compiled again"))
+    kernels.kernel.cache_clear()
+    assert fairlead.load("belt", set={"pad.normal_force": "12 N", "spring.stiffness": "80 N/m"}).check() == []
