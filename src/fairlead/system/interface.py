@@ -52,7 +52,7 @@ def interface(has: Declaration) -> Iterator[str]:
 def shared(all_: Iterable[Declaration]) -> Declaration:
     """What several declarations have in common, by name."""
     first, *others = all_
-    kept = {
+    kept: dict[str, Any] = {
         field: {n: d for n, d in getattr(first, field).items() if all(n in getattr(o, field) for o in others)}
         for field in NAMED
     }
@@ -61,13 +61,10 @@ def shared(all_: Iterable[Declaration]) -> Declaration:
 
 def beyond(has: Declaration, base: Declaration) -> Declaration:
     """What a declaration adds to another."""
-    return dataclasses.replace(
-        has,
-        **{
-            field: {n: d for n, d in getattr(has, field).items() if n not in getattr(base, field)}
-            for field in NAMED
-        },
-    )
+    added: dict[str, Any] = {
+        field: {n: d for n, d in getattr(has, field).items() if n not in getattr(base, field)} for field in NAMED
+    }
+    return dataclasses.replace(has, **added)
 
 
 def first_line(thing: Any) -> str:
@@ -135,9 +132,7 @@ def _default(declared: Any) -> str:
 def _signals(title: str, signals: Mapping[str, Input | Output | State | Unknown]) -> Iterator[str]:
     if signals:
         yield from heading(title)
-        yield from columns(
-            (n, f"[{d.unit}]", " ".join([d.doc, _unconnected(d)]).strip()) for n, d in signals.items()
-        )
+        yield from columns((n, f"[{d.unit}]", " ".join([d.doc, _unconnected(d)]).strip()) for n, d in signals.items())
 
 
 def _unconnected(declared: Any) -> str:
