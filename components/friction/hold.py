@@ -1,7 +1,8 @@
 """Exact hold: while the contact sticks its force is an unknown and the slip is zero."""
 
-from fairlead.component import Law, Output, Parameter, Unknown, Zones, guard, hold, zone
 from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Law, Output, Parameter, Unknown, Zones, guard, hold, zone
 
 
 class Hold(Contact):
@@ -24,8 +25,9 @@ class Hold(Contact):
     @zone("held")
     def held(p, a, b, force):
         """The force is what keeps the slip at zero."""
-        return Law(a=-force, b=+force, force=hold(b.v - a.v), slip=b.v - a.v, friction=force, creep_rate=b.v - a.v,
-                   bound=1, dissipated=force * (b.v - a.v))  # fmt: skip
+        slip = b.v - a.v
+        return Law(a=-force, b=+force, force=hold(slip, within=p.stick_speed), slip=slip, friction=force, creep_rate=slip,
+                   bound=1, dissipated=force * slip)  # fmt: skip
 
     @zone("forward", "backward")
     def sliding(p, a, b, force, normal, zone):
@@ -45,6 +47,16 @@ class Hold(Contact):
         """Nothing presses any more; declared first, because it settles the matter."""
         return p.lift - normal
 
+    @guard("held", to="forward", unit="m/s")
+    def torn_forward(p, a, b):
+        """It slips from the start, or a jump of a prescribed speed tears it loose: friction gives no impulse."""
+        return b.v - a.v - p.stick_speed
+
+    @guard("held", to="backward", unit="m/s")
+    def torn_backward(p, a, b):
+        """The same the other way."""
+        return a.v - b.v - p.stick_speed
+
     @guard("held", to="forward", unit="N")
     def breaks_forward(p, force, normal):
         """The force needed is more than stiction."""
@@ -54,16 +66,6 @@ class Hold(Contact):
     def breaks_backward(p, force, normal):
         """The same the other way."""
         return -force - normal * p.curve.breakaway()
-
-    @guard("held", to="forward", unit="m/s")
-    def torn_forward(p, a, b):
-        """A jump of a prescribed speed tears the contact loose."""
-        return b.v - a.v - p.stick_speed
-
-    @guard("held", to="backward", unit="m/s")
-    def torn_backward(p, a, b):
-        """The same the other way."""
-        return a.v - b.v - p.stick_speed
 
     @guard("forward", to="held", unit="m/s")
     def stops_forward(p, a, b):

@@ -276,11 +276,16 @@ class Hold:
     """The demand that a relative speed stays zero; the engine writes the row (see `docs/integrator.md`)."""
 
     slip: Any
+    within: Any = None
 
 
-def hold(slip: Any) -> Any:
-    """Law of an algebraic unknown in a zone that holds: keep `slip` [m/s or rad/s] at zero."""
-    return Hold(slip)
+def hold(slip: Any, within: Any = None) -> Any:
+    """Law of an algebraic unknown in a zone that holds: keep `slip` [m/s or rad/s] at zero.
+
+    When the zone is entered with some slip, an impulse brings it to zero: without limit (a rigid link), or
+    only a slip of at most `within`. A contact has such a limit: friction is finite, and gives no impulse.
+    """
+    return Hold(slip, within)
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ class HoldRow:
 
     slip: sympy.Expr
     rates: dict[str, sympy.Expr]  # input key of a speed -> coefficient in the mass row
+    impulse: sympy.Expr  # the slip that an impulse takes away when the zone is entered
 
 
 @dataclass
@@ -174,12 +175,16 @@ def _trace_sample(variant: Variant, has: Declaration) -> dict[str, sympy.Expr]:
         said = _run(sample.law, _arguments(variant, has, has.zones[0], reads))
         terms = said.terms if isinstance(said, Law) else {}
         if set(terms) != set(has.discrete) or reads:
-            raise TraceError(f"{source_place(sample.law)}: a sampled law gives Law({', '.join(has.discrete)}) and reads no table")
+            raise TraceError(
+                f"{source_place(sample.law)}: a sampled law gives Law({', '.join(has.discrete)}) and reads no table"
+            )
         return {name: _expression(value, sample.law) for name, value in terms.items()}
     return {}
 
 
-def trace_function(variant: Variant, function: Callable[..., Any], *arguments: sympy.Expr) -> tuple[Any, dict[str, sympy.Expr]]:
+def trace_function(
+    variant: Variant, function: Callable[..., Any], *arguments: sympy.Expr
+) -> tuple[Any, dict[str, sympy.Expr]]:
     """What a function of a class, such as a curve's `coefficient`, gives; and the tables it reads, where."""
     reads: dict[str, sympy.Expr] = {}
     names = function.__code__.co_varnames
@@ -193,7 +198,7 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
         if key in has.ports:
             zone.flows[key] = _smooth(value, law)
         elif isinstance(value, Hold):
-            zone.holds[key] = _hold_row(_smooth(value.slip, law), law)
+            zone.holds[key] = _hold_row(value, law)
             zone.own[key] = _hold_right_side(zone.holds[key].slip)
         elif key in has.outputs:
             zone.outputs[key] = _expression(value, law)
@@ -257,7 +262,9 @@ def _explained(error: Exception) -> str:
 def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     """What an author's function gave, when a kernel can compute it."""
     place = source_place(function)
-    if isinstance(value, str | bool) or not (isinstance(value, int | float | sympy.Expr) or hasattr(value, "__float__")):
+    if isinstance(value, str | bool) or not (
+        isinstance(value, int | float | sympy.Expr) or hasattr(value, "__float__")
+    ):
         raise TraceError(f"{place}: {function.__name__} gives {value!r}, which is not a number")
     expression = sympy.sympify(value)
     if expression.has(sympy.nan, sympy.zoo, sympy.oo):
@@ -294,11 +301,13 @@ def _without(expression: sympy.Expr, law: Callable[..., Any], ends: tuple[str, .
     return expression
 
 
-def _hold_row(slip: sympy.Expr, law: Callable[..., Any]) -> HoldRow:
+def _hold_row(said: Hold, law: Callable[..., Any]) -> HoldRow:
+    slip = _smooth(said.slip, law)
     speeds = [s for s in slip.free_symbols if s.name.startswith("port:") and s.name.endswith(":v")]
     if not speeds or any(sympy.diff(slip, s).free_symbols & set(speeds) for s in speeds):
         raise TraceError(f"{source_place(law)}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
-    return HoldRow(slip, {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)})
+    little = 1 if said.within is None else (1 + sympy.sign(_smooth(said.within, law) - sympy.Abs(slip))) / 2
+    return HoldRow(slip, {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)}, slip * little)
 
 
 def _hold_right_side(slip: Any) -> sympy.Expr:

@@ -52,7 +52,9 @@ class KernelText:
         self.traced = traced
         has = traced.variant.type.declaration
         self.zones = list(traced.zones.values())
-        self.ledger = [line for line in (layout.DISSIPATED, layout.SUPPLIED) if any(line in z.ledger for z in self.zones)]
+        self.ledger = [
+            line for line in (layout.DISSIPATED, layout.SUPPLIED) if any(line in z.ledger for z in self.zones)
+        ]
         self.targets = [f"port:{name}" for name in self._flowing()] + [f"own:{n}" for n in (*has.states, *has.unknowns)]
         self.outputs = list(has.outputs)
         symbols = sorted({s.name for e in self._everything() for s in e.free_symbols})
@@ -101,7 +103,9 @@ class KernelText:
         lines = (layout.DISSIPATED, layout.SUPPLIED)
         return [(f"out[li[{lines.index(n)}]] += {{}}", zone.ledger[n]) for n in self.ledger if zone.ledger.get(n)]
 
-    def _partials(self, zone: TracedZone, base: int, pairs: list[tuple[int, int]], values: list[Any]) -> list[Statement]:
+    def _partials(
+        self, zone: TracedZone, base: int, pairs: list[tuple[int, int]], values: list[Any]
+    ) -> list[Statement]:
         place = f"out[block[{base}] + i*{len(pairs)} + {{e}}] = {{{{}}}}"
         return [
             (place.format(e=e), sympy.diff(values[k] or 0, symbol(self.inputs[j]))) for e, (k, j) in enumerate(pairs)
@@ -110,13 +114,18 @@ class KernelText:
     def _mass(self, zone: TracedZone) -> list[Statement]:
         place = f"out[block[{layout.D_MASS}] + i*{len(self.mass)} + {{e}}] = {{{{}}}}"
         return [
-            (place.format(e=e), zone.holds[u].rates.get(self.inputs[j], sympy.S.Zero) if u in zone.holds else sympy.S.Zero)
+            (
+                place.format(e=e),
+                zone.holds[u].rates.get(self.inputs[j], sympy.S.Zero) if u in zone.holds else sympy.S.Zero,
+            )
             for e, (u, j) in enumerate(self.mass)
         ]
 
     def _slip(self, zone: TracedZone) -> list[Statement]:
         f = len(self.targets)
-        return [(f"out[fi[i*{f}+{self.targets.index('own:' + u)}]] = -({{}})", h.slip) for u, h in zone.holds.items()]
+        return [
+            (f"out[fi[i*{f}+{self.targets.index('own:' + u)}]] = -({{}})", h.impulse) for u, h in zone.holds.items()
+        ]
 
     def _guards(self, zone: TracedZone) -> list[Statement]:
         place = f"out[block[{layout.GUARDS}] + i*{self.slots} + {{s}}] = {{{{}}}}"
@@ -228,7 +237,7 @@ class KernelText:
         for z in self.zones:
             found += [*z.flows.values(), *z.own.values(), *z.outputs.values(), *z.ledger.values()]
             found += [value for g in z.guards for value in g.values]
-            found += [value for h in z.holds.values() for value in (h.slip, *h.rates.values())]
+            found += [value for h in z.holds.values() for value in (h.slip, h.impulse, *h.rates.values())]
         return found
 
     def _pairs(self, values: Any) -> list[tuple[int, int]]:
