@@ -6,9 +6,10 @@ the applied force is below stiction; so the force never jumps when the slip chan
 contacts stay cheap. The price is creep: a stuck contact under load af slips at about creep * af/F_s.
 """
 
-from fairlead.component import Choice, Input, Law, Output, Parameter, Zones, derived, guard, zone
 from fairlead.components.friction.binding_law import BOUND, IN_CONTACT, applied_force, direction, friction_in
 from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Choice, Input, Law, Output, Parameter, Zones, derived, guard, zone
 
 FORMS = {
     "robust": {"cap": "on", "latch": "on", "hysteresis": 0.1, "applied_force": "reduced"},
@@ -60,7 +61,11 @@ class Binding(Contact):
     def check(p):
         """The ramp begins before it ends."""
         if p.plateau_width >= p.ramp_width:
-            yield "ramp_width", f"ramp_width {p.ramp_width:g} is not above plateau_width {p.plateau_width:g}", "Raise it."
+            yield (
+                "ramp_width",
+                f"ramp_width {p.ramp_width:g} is not above plateau_width {p.plateau_width:g}",
+                "Raise it.",
+            )
 
     @derived
     def v_m(p):
@@ -119,7 +124,8 @@ class Binding(Contact):
     @guard(*BOUND, to="transit", unit="N")
     def lets_go(p, a, b, normal, bound_a, bound_b, zone):
         """Without the latch the contact goes through zero slip instead. With it a ramp needs no way out: capped, it
-        only leads back to the plateau, which breaks away in the direction of the load."""
+        only leads back to the plateau, which breaks away in the direction of the load.
+        """
         return abs(applied_force(p, zone, a, b, normal, bound_a, bound_b)) - normal * p.mu_s if p.latch == "off" else -1
 
     @guard("plateau", to="ramp_forward", unit="m/s")

@@ -1,7 +1,8 @@
 """The sliding contact: one component for every treatment of friction."""
 
-from fairlead.component import Component, Family, Input, Output, Parameter, Part, Translational
 from fairlead.components.friction.curve import Curve
+
+from fairlead.component import Component, Family, Input, Output, Parameter, Part, Translational
 
 
 class Contact(Family, Component, abstract=True):

@@ -1,7 +1,8 @@
 """Constant sliding friction, with its own level from rest if wanted."""
 
-from fairlead.component import Parameter, derived
 from fairlead.components.friction.curve import Curve
+
+from fairlead.component import Parameter, derived
 
 
 class Coulomb(Curve):

@@ -1,7 +1,8 @@
 """Friction coefficient measured over slip speed."""
 
-from fairlead.component import Table, derived
 from fairlead.components.friction.curve import Curve
+
+from fairlead.component import Table, derived
 
 
 class Data(Curve):

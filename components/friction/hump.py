@@ -2,8 +2,9 @@
 
 import math
 
-from fairlead.component import Parameter, derived, exp
 from fairlead.components.friction.curve import Curve
+
+from fairlead.component import Parameter, derived, exp
 
 
 class Hump(Curve):
@@ -46,4 +47,8 @@ class Hump(Curve):
     def check(p):
         """The peak is the highest of the three levels."""
         if p.peak <= max(p.stiction, p.coulomb):
-            yield "peak", f"peak {p.peak:g} is not above stiction {p.stiction:g} and coulomb {p.coulomb:g}", "Raise peak."
+            yield (
+                "peak",
+                f"peak {p.peak:g} is not above stiction {p.stiction:g} and coulomb {p.coulomb:g}",
+                "Raise peak.",
+            )

@@ -1,7 +1,8 @@
 """The smooth law: the sign of the slip is replaced by a hyperbolic tangent. A foil for the others."""
 
-from fairlead.component import Law, Parameter, Zones, guard, sqrt, tanh, zone
 from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Law, Parameter, Zones, guard, sqrt, tanh, zone
 
 
 class Smooth(Contact):
@@ -21,7 +22,9 @@ class Smooth(Contact):
         speed = sqrt(slip**2 + p.creep**2)
         friction = normal * p.curve.coefficient(speed) * tanh(slip / p.creep) + p.viscous * slip
         creeping = slip * (1 - tanh(slip / p.creep) ** 8)
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=creeping, dissipated=friction * slip)
+        return Law(
+            a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=creeping, dissipated=friction * slip
+        )
 
     @zone("off")
     def off(p, a, b):

@@ -1,7 +1,8 @@
 """Friction that falls from stiction to a sliding level: Stribeck (Gaussian) and Tustin (exponential)."""
 
-from fairlead.component import Parameter, exp
 from fairlead.components.friction.curve import Curve
+
+from fairlead.component import Parameter, exp
 
 
 class Falling(Curve, abstract=True):

@@ -4,11 +4,12 @@ import functools
 from dataclasses import dataclass, field
 from typing import Any
 
+from fairlead.components.friction.contact import Contact
+from fairlead.components.line.lateral_load import LateralLoad
+
 from fairlead.component.declare import Input
 from fairlead.component.instantiate import Join, PortRef
 from fairlead.component.piecewise import PiecewisePolynomial
-from fairlead.components.friction.contact import Contact
-from fairlead.components.line.lateral_load import LateralLoad
 from fairlead.errors import Fault
 
 FIXED_DEVICE = 1e9  # kg; what a hose node bound to a fixed device counts as
@@ -61,7 +62,9 @@ class _Adder:
         self.exchange(f"outer[{i}]", "bound_b", f"inner[{i}]")
         self.exchange(f"inner[{i}]", "bound_a", f"outer[{i}]")
 
-    def load(self, name: str, node: str, i: int, n: int, layers: tuple[str, ...], curvature: Any, length: float) -> None:
+    def load(
+        self, name: str, node: str, i: int, n: int, layers: tuple[str, ...], curvature: Any, length: float
+    ) -> None:
         """A LateralLoad fed by the tensions of the adjacent elements."""
         share = 0.5 if 0 < i < n else 1.0
         self.add(name, self.made(LateralLoad, curvature=curvature, length=length, share=share))
@@ -116,5 +119,9 @@ class _Adder:
     def prescribed(self) -> set[str]:
         """Paths of all instances that a motion source drives directly."""
         instances = self.assembly.instances
-        driven = (join.ports for join in self.assembly.joins if any(hasattr(instances[r.instance].type, "prescribes") for r in join.ports))
+        driven = (
+            join.ports
+            for join in self.assembly.joins
+            if any(hasattr(instances[r.instance].type, "prescribes") for r in join.ports)
+        )
         return {ref.instance for ports in driven for ref in ports}

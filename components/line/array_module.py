@@ -2,15 +2,22 @@
 
 import math
 
-from fairlead.component import (
-    Block, Composite, Expansion, Parameter, Part, Path, Translational,
-)  # fmt: skip
 from fairlead.components.friction.curve import Curve
 from fairlead.components.line.array_line import ArrayLine
 from fairlead.components.line.core_element import Core
 from fairlead.components.line.hose_element import Hose
 from fairlead.components.line.registration import Registration
 from fairlead.components.mechanics.mass import Mass
+
+from fairlead.component import (
+    Block,
+    Composite,
+    Expansion,
+    Parameter,
+    Part,
+    Path,
+    Translational,
+)  # fmt: skip
 
 LAYER = {
     "mass": Parameter("kg/m", "Mass per length.", above=0),
@@ -46,7 +53,11 @@ class ArrayModule(Composite):
     def check(p):
         """An element is no longer than the line."""
         if p.element > p.length:
-            yield "element", f"an element of {p.element:g} m is longer than the line of {p.length:g} m", "Make it shorter."
+            yield (
+                "element",
+                f"an element of {p.element:g} m is longer than the line of {p.length:g} m",
+                "Make it shorter.",
+            )
 
     def expand(p, scene):
         """Masses, elements and connectors; the contacts come when the line is laid on a route."""

@@ -28,7 +28,9 @@ class Core(Component):
         stretch, rate = b.x - a.x - p.length, b.v - a.v
         elastic = p.axial_stiffness / p.length * stretch
         tension = elastic + p.damping * rate
-        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2)
+        return Law(
+            a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2
+        )
 
     @zone("loose")
     def loose(p, a, b):

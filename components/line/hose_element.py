@@ -21,4 +21,6 @@ class Hose(Component):
         stretch, rate = b.x - a.x - p.length, b.v - a.v
         elastic = p.axial_stiffness / p.length * stretch
         tension = elastic + p.damping * rate
-        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2)
+        return Law(
+            a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2
+        )

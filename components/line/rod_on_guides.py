@@ -2,11 +2,12 @@
 
 import math
 
-from fairlead.component import Composite, Count, Expansion, Parameter, Translational
 from fairlead.components.friction.contact import Contact
 from fairlead.components.mechanics.ground import Ground
 from fairlead.components.mechanics.mass import Mass
 from fairlead.components.mechanics.spring_damper import SpringDamper
+
+from fairlead.component import Composite, Count, Expansion, Parameter, Translational
 
 
 class RodOnGuides(Composite):

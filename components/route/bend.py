@@ -1,8 +1,9 @@
 """A bend: a fixed guide that turns the line through an angle."""
 
-from fairlead.component import Parameter, Part
 from fairlead.components.friction.curve import Curve
 from fairlead.components.route.station import Station
+
+from fairlead.component import Parameter, Part
 
 
 class Bend(Station):

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 from typing import Any
 
+from fairlead.components.mechanics.ground import Ground
+from fairlead.components.route.station import Station
+
 from fairlead.component import Composite, Expansion, Path, Stations
 from fairlead.component.piecewise import PiecewisePolynomial, constant, linear_table
 from fairlead.component.tables import add
-from fairlead.components.mechanics.ground import Ground
-from fairlead.components.route.station import Station
 from fairlead.errors import Fault
 
 SHARPEST = 0.5  # rad per element; above about 0.25 rad the capstan error of the mesh shows
@@ -64,9 +65,19 @@ class RouteLine:
             turn = element / station.bend_radius()
             if turn > SHARPEST:
                 what = f"{where}: an element of {element:g} m turns through {turn:.2g} rad in a radius of {station.bend_radius():g} m."
-                found.append(Fault(route.where, what, f"Use elements of at most {0.25 * station.bend_radius():.3g} m (0.25 rad)."))
+                found.append(
+                    Fault(
+                        route.where, what, f"Use elements of at most {0.25 * station.bend_radius():.3g} m (0.25 rad)."
+                    )
+                )
             if station.extent() < (station.edge or element):
-                found.append(Fault(route.where, f"{where} is {station.extent():.3g} m long, shorter than its edge.", WORDS_OF_ADVICE))
+                found.append(
+                    Fault(
+                        route.where,
+                        f"{where} is {station.extent():.3g} m long, shorter than its edge.",
+                        WORDS_OF_ADVICE,
+                    )
+                )
             if repr(station.friction) != repr(self.stations[0].friction):
                 what = f"{where}: devices of one route with different friction are not supported yet."
                 found.append(Fault(route.where, what, "Give all stations of this route the same friction."))

@@ -13,7 +13,9 @@ class MotionSource(Component):
     flange = Translational("the driven point")
     velocity = Waveform("m/s", "Velocity in time.", default=None)
     position = Waveform("m", "Position in time.", default=None)
-    origin = Parameter("m", "Position at t = 0 when the velocity is given; else where the driven body starts.", default=None)
+    origin = Parameter(
+        "m", "Position at t = 0 when the velocity is given; else where the driven body starts.", default=None
+    )
     motion = Waveform("m", "Position in time, made from the above.", default=None)
     x = Output("m", "Position.")
     v = Output("m/s", "Velocity.")

@@ -38,4 +38,8 @@ class WorstCreep:
         if not len(self.worst):
             return None
         k = int(self.worst.argmax())
-        return {"value": float(self.worst[k]), "contact": self.names[k].removesuffix(".creep_rate"), "t": float(self.at[k])}
+        return {
+            "value": float(self.worst[k]),
+            "contact": self.names[k].removesuffix(".creep_rate"),
+            "t": float(self.at[k]),
+        }

@@ -2,8 +2,31 @@
 
 from fairlead.component.base import Component, Composite, Declared, Expansion, Family
 from fairlead.component.declare import (
-    Block, Choice, Count, Discrete, Electrical, Hydraulic, Input, Law, Output, Parameter, Part, Path, Rotational, State,
-    Stations, Table, Translational, Unknown, Waveform, Zones, derived, guard, hold, sampled, zone,
+    Block,
+    Choice,
+    Count,
+    Discrete,
+    Electrical,
+    Hydraulic,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    Path,
+    Rotational,
+    State,
+    Stations,
+    Table,
+    Translational,
+    Unknown,
+    Waveform,
+    Zones,
+    derived,
+    guard,
+    hold,
+    sampled,
+    zone,
 )  # fmt: skip
 from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tanh
 

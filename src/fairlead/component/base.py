@@ -22,8 +22,26 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, cast
 
 from fairlead.component.declare import (
-    Block, Choice, Count, Derived, Discrete, Guard, Input, Law, Output, Parameter, Part, Port, Sampled, State, Stations, Table,
-    Unknown, Waveform, ZoneLaw, Zones,
+    Block,
+    Choice,
+    Count,
+    Derived,
+    Discrete,
+    Guard,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    Port,
+    Sampled,
+    State,
+    Stations,
+    Table,
+    Unknown,
+    Waveform,
+    ZoneLaw,
+    Zones,
 )  # fmt: skip
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Part, Block, Table, Waveform, Stations)
@@ -160,10 +178,14 @@ def _check(cls: type[Declared]) -> None:
     for name, law in has.laws.items():
         _demand(cls, name in has.zones, f"a law is declared for {name!r}, which is not in zones {has.zones}")
         _check_arguments(cls, law, has.arguments)
-    _demand(cls, len(has.samples) <= 1, f"several sampled laws: {sorted(has.samples)}; one gives all discrete variables")
+    _demand(
+        cls, len(has.samples) <= 1, f"several sampled laws: {sorted(has.samples)}; one gives all discrete variables"
+    )
     _demand(cls, bool(has.samples) or not has.discrete, f"no sampled law gives {sorted(has.discrete)}")
     for name, sample in has.samples.items():
-        _demand(cls, sample.period in has.parameters, f"{name!r} is sampled every {sample.period!r}, which is no parameter")
+        _demand(
+            cls, sample.period in has.parameters, f"{name!r} is sampled every {sample.period!r}, which is no parameter"
+        )
         _check_arguments(cls, sample.law, has.arguments)
     for name, mark in has.guards.items():
         for zone in (*mark.zones, mark.to):

@@ -34,7 +34,9 @@ def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
     files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
-    files += [here.parent / "system" / n for n in ("kernels.py", "kernel_text.py", "lowering.py", "layout.py", "structure.py")]
+    files += [
+        here.parent / "system" / n for n in ("kernels.py", "kernel_text.py", "lowering.py", "layout.py", "structure.py")
+    ]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 
@@ -62,7 +64,12 @@ def _of(thing: Any, seen: set[int]) -> list[str]:
     if isinstance(thing, type):
         if _third_party(thing.__module__):
             return []
-        return [p for name, member in sorted(vars(thing).items()) if _matters(name, member) for p in [name, *_of(member, seen)]]
+        return [
+            p
+            for name, member in sorted(vars(thing).items())
+            if _matters(name, member)
+            for p in [name, *_of(member, seen)]
+        ]
     if isinstance(thing, ModuleType):
         return [_module_source(thing)] if not _third_party(thing.__name__) else []
     if isinstance(thing, Mapping):

@@ -98,7 +98,13 @@ def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assemb
         if kind is None:
             broken.add(entry.name)
             what = f"{entry.name}: there is no component type {shown(entry.type)}. {did_you_mean(entry.type, types)}"
-            faults.append(Fault(entry.type_where, what.rstrip(), "`fairlead describe` lists the types; --library adds a file of yours."))
+            faults.append(
+                Fault(
+                    entry.type_where,
+                    what.rstrip(),
+                    "`fairlead describe` lists the types; --library adds a file of yours.",
+                )
+            )
             continue
         found = _read(scene, kind, entry.parameters, entry.name, entry.where, faults)
         if found is None:
@@ -165,7 +171,9 @@ def _connect(assembly: Assembly, ends: tuple[EndPoint, ...], broken: set[str]) -
         return faults
     if all(isinstance(ref, str) for ref in refs):
         if len(refs) != 2:
-            return [Fault(ends[0].where, f"a path joins two ends, here are {len(refs)}", "Join one line with one route.")]
+            return [
+                Fault(ends[0].where, f"a path joins two ends, here are {len(refs)}", "Join one line with one route.")
+            ]
         assembly.routings.append((refs[0], refs[1], ends[0].where))
     elif any(isinstance(ref, str) for ref in refs):
         return [Fault(ends[0].where, f"{ends[0].text} -- {ends[1].text}: a path can only be joined with a path.")]
@@ -251,8 +259,11 @@ def _unknown_friction(netlist: Netlist, types: Mapping[str, type[Declared]]) -> 
     members = [m for kind in types.values() if is_head(kind) for m in kind.members.values()]  # type: ignore[attr-defined]
     known = {n for member in members for n in (*member.declaration.parameters, member.key)}
     return [
-        Fault(value.named_at, f"friction.{name}: no friction method has such a setting. {did_you_mean(name, known)}".rstrip(),
-              f"They have {listing(sorted(known))}.")  # fmt: skip
+        Fault(
+            value.named_at,
+            f"friction.{name}: no friction method has such a setting. {did_you_mean(name, known)}".rstrip(),
+            f"They have {listing(sorted(known))}.",
+        )  # fmt: skip
         for name, value in netlist.friction.items()
         if members and name not in known
     ]

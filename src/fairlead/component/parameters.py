@@ -18,7 +18,15 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from fairlead.component.base import Declared, Family
 from fairlead.component.declare import (
-    REQUIRED, Block, Choice, Count, Parameter, Part, Stations, Table, Waveform,
+    REQUIRED,
+    Block,
+    Choice,
+    Count,
+    Parameter,
+    Part,
+    Stations,
+    Table,
+    Waveform,
 )  # fmt: skip
 from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
 from fairlead.component.values import Values
@@ -57,7 +65,10 @@ def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
     fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
     if issubclass(kind, Family) and kind.key:
-        fields[kind.key] = (Literal[kind.word], Field(default=kind.word, description=(kind.__doc__ or kind.word).split("\n")[0]))
+        fields[kind.key] = (
+            Literal[kind.word],
+            Field(default=kind.word, description=(kind.__doc__ or kind.word).split("\n")[0]),
+        )
     return create_model(kind.__name__, __config__=STRICT, **fields)
 
 
@@ -125,7 +136,7 @@ def _table_type(declared: Table | Waveform) -> Any:
     return Annotated[Any, BeforeValidator(parse), _Schema(schema)]
 
 
-def _Schema(schema: dict[str, Any]) -> Any:  # noqa: N802 - stands for a class of pydantic
+def _Schema(schema: dict[str, Any]) -> Any:
     from pydantic import WithJsonSchema
 
     return WithJsonSchema(schema)
@@ -170,13 +181,15 @@ def _contradictions(
     """What the class's own `check(p)` says: (parameter, what is wrong, way out)."""
     check = getattr(kind, "check", None)
     faults = []
-    for name, what, way_out in (check(values) if check else ()):
+    for name, what, way_out in check(values) if check else ():
         place = raw[name].where if name in raw else where
         faults.append(Fault(place, f"{path}.{name}: {what}" if name else f"{path}: {what}", way_out))
     for name, value in values.given.items():
         if isinstance(value, Values):
             inner = raw[name].entries if name in raw else {}
-            faults += _contradictions(value.type, value, inner, f"{path}.{name}", raw[name].where if name in raw else where)
+            faults += _contradictions(
+                value.type, value, inner, f"{path}.{name}", raw[name].where if name in raw else where
+            )
     return faults
 
 
@@ -188,7 +201,9 @@ def _fault(kind: type[Declared], detail: Any, tree: Value, path: str) -> Fault:
             node = node.content[step]
         elif isinstance(node.content, list) and isinstance(step, int) and step < len(node.content):
             node = node.content[step]
-        elif not (isinstance(step, str) and detail["type"] in ("missing", "extra_forbidden") and step == detail["loc"][-1]):
+        elif not (
+            isinstance(step, str) and detail["type"] in ("missing", "extra_forbidden") and step == detail["loc"][-1]
+        ):
             continue  # the tag of a union, not a key of the netlist
         names.append(f"[{step}]" if isinstance(step, int) else f".{step}")
     full = path + "".join(names)
@@ -209,7 +224,11 @@ def _explain(kind: type[Declared], detail: Any, node: Value, full: str) -> Fault
     for key, words in limits.items():
         if key in context:
             unit = _unit(kind, detail["loc"])
-            return Fault(node.where, f"{full} = {shown(node.plain())} is out of range.", f"Allowed: {words} {context[key]:g} {unit}.")
+            return Fault(
+                node.where,
+                f"{full} = {shown(node.plain())} is out of range.",
+                f"Allowed: {words} {context[key]:g} {unit}.",
+            )
     if detail["type"] == "literal_error":
         return Fault(node.where, f"{full} = {shown(node.plain())} is not one of {context['expected']}.")
     if detail["type"].startswith("union_tag"):

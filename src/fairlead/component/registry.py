@@ -83,7 +83,9 @@ def load_library(path: str) -> ModuleType:
         spec.loader.exec_module(module)
     except Exception as error:
         del sys.modules[name]
-        raise ModelError((Fault(None, f"--library {path} cannot be loaded: {_place(error, target)}{error}"),)) from error
+        raise ModelError(
+            (Fault(None, f"--library {path} cannot be loaded: {_place(error, target)}{error}"),)
+        ) from error
     return module
 
 

@@ -25,7 +25,14 @@ import numpy as np
 
 from fairlead.component.declare import Table, Waveform
 from fairlead.component.piecewise import (
-    DEGREE, FAR, PiecewisePolynomial, Sine, constant, linear_table, monotone_cubic_table, pieces,
+    DEGREE,
+    FAR,
+    PiecewisePolynomial,
+    Sine,
+    constant,
+    linear_table,
+    monotone_cubic_table,
+    pieces,
 )  # fmt: skip
 from fairlead.component.values import Wave
 from fairlead.errors import did_you_mean, listing
@@ -117,7 +124,9 @@ def _only(settings: Any, allowed: set[str], needed: set[str] = frozenset()) -> N
         raise ValueError(f"expected a map with {listing(sorted(allowed))}")
     for name in settings:
         if name not in allowed:
-            raise ValueError(f"there is no {name} here. {did_you_mean(str(name), allowed)} It has {listing(sorted(allowed))}.")
+            raise ValueError(
+                f"there is no {name} here. {did_you_mean(str(name), allowed)} It has {listing(sorted(allowed))}."
+            )
     for name in sorted(needed - set(settings)):
         raise ValueError(f"{name} is missing; needed are {listing(sorted(needed))}")
 
@@ -137,7 +146,9 @@ def _positive(settings: dict[str, float], *names: str) -> None:
 def _path_of_points(times: list[float], levels: list[float]) -> PiecewisePolynomial:
     """Straight lines through points; two points at one time are a jump."""
     borders, terms = [times[0]], [[levels[0]]]
-    for (t0, y0), (t1, y1) in zip(zip(times, levels, strict=True), list(zip(times, levels, strict=True))[1:], strict=False):
+    for (t0, y0), (t1, y1) in zip(
+        zip(times, levels, strict=True), list(zip(times, levels, strict=True))[1:], strict=False
+    ):
         if t1 > t0:
             terms.append([y0, (y1 - y0) / (t1 - t0)])
             borders.append(t1)
@@ -221,4 +232,7 @@ def waveform_schema(declared: Waveform) -> dict[str, Any]:
     """JSON Schema of a quantity in time."""
     terms = {name: {} for name in TERMS}
     named = {"type": "object", "properties": terms, "additionalProperties": False, "minProperties": 1}
-    return {"description": f"{declared.doc} {wanted(declared.unit)}".strip(), "anyOf": [{"type": ["number", "string"]}, named]}
+    return {
+        "description": f"{declared.doc} {wanted(declared.unit)}".strip(),
+        "anyOf": [{"type": ["number", "string"]}, named],
+    }

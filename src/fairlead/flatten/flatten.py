@@ -1,6 +1,6 @@
 """Third stage: from component instances to nodes, groups and links; a chain of named passes.
 
-    flat = flatten(assembly)       route -> wire -> group -> check
+flat = flatten(assembly)       route -> wire -> group -> check
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ def flatten(assembly: Assembly) -> FlatModel:
     _fail_on(faults)
     node_of = {port: number for number, node in enumerate(nodes) for port in node.ports}
     groups, group_of, faults = group(assembly, nodes, node_of)
-    flat = FlatModel(assembly, tuple(assembly.instances.values()), tuple(nodes), tuple(groups), node_of, group_of, links)
+    flat = FlatModel(
+        assembly, tuple(assembly.instances.values()), tuple(nodes), tuple(groups), node_of, group_of, links
+    )
     _fail_on(faults + _contacts_between_prescribed(flat) + _missing_inputs(flat))
     _start_sources(flat)
     return flat

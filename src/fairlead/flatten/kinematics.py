@@ -48,7 +48,9 @@ class Ties:
         return True
 
 
-def group(assembly: Assembly, nodes: list[Node], node_of: dict[PortRef, int]) -> tuple[list[Group], dict[int, Any], list[Fault]]:
+def group(
+    assembly: Assembly, nodes: list[Node], node_of: dict[PortRef, int]
+) -> tuple[list[Group], dict[int, Any], list[Fault]]:
     """Merge tied nodes; returns groups, node -> (group, ratio, offset), and contradictions."""
     count = len(nodes)
     ties = Ties(list(range(count)), [1.0] * count, [0.0] * count)
@@ -76,7 +78,9 @@ def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> 
                 loop = nx.shortest_path(written, one, two) if one in written and two in written else []
                 names = [written.edges[x, y]["path"] for x, y in zip(loop, loop[1:], strict=False)]
                 what = f"the rigid loop {' - '.join([instance.path, *names])} contradicts itself"
-                faults.append(Fault(instance.where, what, "Its ratios and lengths must agree all round, or one link must go."))
+                faults.append(
+                    Fault(instance.where, what, "Its ratios and lengths must agree all round, or one link must go.")
+                )
             written.add_edge(one, two, path=instance.path)
     return faults
 
@@ -115,7 +119,9 @@ def _group(nodes: list[Node], inside: list[tuple[int, float, float]], facts: Any
                 prescribed.append((instance, Prescribed(ref, value)))
     if len(prescribed) > 1:
         paths = " and ".join(instance.path for instance, _ in prescribed)
-        faults.append(Fault(prescribed[1][0].where, f"{paths} both prescribe the motion of one body.", "Keep one of them."))
+        faults.append(
+            Fault(prescribed[1][0].where, f"{paths} both prescribe the motion of one body.", "Keep one of them.")
+        )
     position, wrong = _agreed(starts, 2)
     rate, also = _agreed(starts, 3)
     made = Group(

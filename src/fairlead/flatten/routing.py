@@ -14,7 +14,11 @@ def lay(assembly: Assembly) -> list[Fault]:
         lines = [end for end in ends.values() if hasattr(end.line, "lay")]
         routes = [end for end in ends.values() if not hasattr(end.line, "lay")]
         if len(lines) != 1 or len(routes) != 1:
-            faults.append(Fault(where, f"{one}.path -- {two}.path joins no line with a route.", "Join an ArrayModule with a Route."))
+            faults.append(
+                Fault(
+                    where, f"{one}.path -- {two}.path joins no line with a route.", "Join an ArrayModule with a Route."
+                )
+            )
             continue
         faults += lines[0].line.lay(assembly, lines[0], routes[0])
     return faults

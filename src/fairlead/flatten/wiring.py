@@ -1,7 +1,7 @@
 """Connected components of the port graph: nodes, and the links of signals.
 
-    vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
-    edges      written connections, with the place they were written
+vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
+edges      written connections, with the place they were written
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ def port_graph(assembly: Assembly) -> nx.Graph:
 
 def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef, PortRef], list[Fault]]:
     """Nodes and signal links, and everything wrong with the connections."""
-    faults = [_to_itself(join.ports[0], join.where) for join in assembly.joins if len(set(join.ports)) < len(join.ports)]
+    faults = [
+        _to_itself(join.ports[0], join.where) for join in assembly.joins if len(set(join.ports)) < len(join.ports)
+    ]
     nodes: list[Node] = []
     links: dict[PortRef, PortRef] = {}
     alone: dict[str, list[PortRef]] = {}
@@ -61,7 +63,9 @@ def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
     return graph.nodes[ports[0]]["where"]
 
 
-def _signal(declared: dict[PortRef, Port | Input | Output], where: Location) -> tuple[dict[PortRef, PortRef], list[Fault]]:
+def _signal(
+    declared: dict[PortRef, Port | Input | Output], where: Location
+) -> tuple[dict[PortRef, PortRef], list[Fault]]:
     """One output feeds any number of inputs."""
     outputs = [ref for ref, d in declared.items() if isinstance(d, Output)]
     inputs = [ref for ref, d in declared.items() if isinstance(d, Input)]
@@ -73,7 +77,9 @@ def _signal(declared: dict[PortRef, Port | Input | Output], where: Location) -> 
         return {}, [Fault(where, what, "A signal joins one output to inputs; a sensor turns motion into a signal.")]
     if len(outputs) != 1:
         names = ", ".join(map(str, outputs)) or "none"
-        return {}, [Fault(where, f"{inputs[0] if inputs else outputs[0]}: a signal needs exactly one output, here: {names}")]
+        return {}, [
+            Fault(where, f"{inputs[0] if inputs else outputs[0]}: a signal needs exactly one output, here: {names}")
+        ]
     return {target: outputs[0] for target in inputs}, []
 
 
@@ -96,9 +102,15 @@ def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault
     for path, ports in alone.items():
         instance = assembly.instances[path]
         if len(ports) == len(instance.type.declaration.ports) and path in assembly.netlist.components:
-            what, way_out = f"{path} is connected to nothing.", f"Connect {', '.join(map(str, ports))}, or remove {path}."
+            what, way_out = (
+                f"{path} is connected to nothing.",
+                f"Connect {', '.join(map(str, ports))}, or remove {path}.",
+            )
         else:
-            what, way_out = f"{ports[0]} is connected to nothing.", "Connect it; a free end needs a Mass, a fixed one a Ground."
+            what, way_out = (
+                f"{ports[0]} is connected to nothing.",
+                "Connect it; a free end needs a Mass, a fixed one a Ground.",
+            )
             what = f"{', '.join(map(str, ports))}: connected to nothing." if len(ports) > 1 else what
         faults.append(Fault(instance.where, what, way_out))
     return faults

@@ -28,9 +28,7 @@ def behaviour(kind: type[Declared]) -> Iterator[str]:
     writing = writing_of(traced, _inertias(kind, traced))
     if len(traced.zones) > 1:
         yield from heading("zones")
-        yield from columns(
-            _without_repeats((name, first_line(kind.declaration.laws[name])) for name in traced.zones)
-        )
+        yield from columns(_without_repeats((name, first_line(kind.declaration.laws[name])) for name in traced.zones))
         yield from _transitions(kind, traced, writing)
     yield from heading(f"equations{_chosen(kind, traced)}")
     yield from _equations(traced, writing)
@@ -65,9 +63,7 @@ def _inertias(kind: Any, traced: Traced) -> dict[str, Any]:
 
 def _chosen(kind: type[Declared], traced: Traced) -> str:
     """The words the equations are traced with, where other words give others."""
-    words = [
-        f"{n}: {w}" for n, w in traced.variant.words if isinstance(kind.declaration.parameters.get(n), Choice)
-    ]
+    words = [f"{n}: {w}" for n, w in traced.variant.words if isinstance(kind.declaration.parameters.get(n), Choice)]
     return f", with {', '.join(words)}" if words else ""
 
 
@@ -91,9 +87,7 @@ def _transitions(kind: type[Declared], traced: Traced, writing: Writing) -> Iter
     )
     used = {guard for guard, _, _ in lines}
     yield ""
-    yield from columns(
-        (n, first_line(mark.function)) for n, mark in kind.declaration.guards.items() if n in used
-    )
+    yield from columns((n, first_line(mark.function)) for n, mark in kind.declaration.guards.items() if n in used)
 
 
 def _without_repeats(rows: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
@@ -107,9 +101,7 @@ def _equations(traced: Traced, writing: Writing) -> Iterator[str]:
     """What all zones have in common, then what each says; zones that say the same share a paragraph."""
     said = {name: equations(zone, writing) for name, zone in traced.zones.items()}
     first = next(iter(said.values()))
-    common = (
-        [line for line in first if all(line in lines for lines in said.values())] if len(said) > 1 else first
-    )
+    common = [line for line in first if all(line in lines for lines in said.values())] if len(said) > 1 else first
     for line in common:
         yield from wrapped(f"  {line}", 6)
     own: dict[tuple[str, ...], list[str]] = {}
@@ -126,11 +118,7 @@ def _legend(traced: Traced) -> Iterator[str]:
     """What the words that no list explains stand for."""
     has = traced.variant.type.declaration
     names = {
-        s.name
-        for zone in traced.zones.values()
-        for guard in zone.guards
-        for v in guard.values
-        for s in v.free_symbols
+        s.name for zone in traced.zones.values() for guard in zone.guards for v in guard.values for s in v.free_symbols
     }
     port, word = next(((n, p.domain.through[0]) for n, p in has.ports.items() if p.domain.across), ("", ""))
     if port:

@@ -67,7 +67,9 @@ class Block:
         return len(self.instances)
 
 
-def build_blocks(flat: FlatModel, kernels: dict[str, Kernel], numbering: Numbering, ranks: dict[str, int], tau: float) -> tuple[list[Block], Tables, list[tuple[str, int]]]:
+def build_blocks(
+    flat: FlatModel, kernels: dict[str, Kernel], numbering: Numbering, ranks: dict[str, int], tau: float
+) -> tuple[list[Block], Tables, list[tuple[str, int]]]:
     """Blocks, tables, and the machines in the order of their positions in `zones`: (instance, number in it)."""
     grouped: dict[int, list[Instance]] = {}
     for instance in flat.instances:

@@ -26,9 +26,7 @@ def columns(rows: Iterable[Sequence[str]], indent: int = 2) -> list[str]:
     """Rows with their cells below each other; the last is wrapped, and may have several lines."""
     rows = [tuple(row) for row in rows]
     count = max(map(len, rows), default=0)
-    widths = [
-        max((len(r[k]) for r in rows if k < len(r) and len(r[k]) <= WIDEST), default=0) for k in range(count)
-    ]
+    widths = [max((len(r[k]) for r in rows if k < len(r) and len(r[k]) <= WIDEST), default=0) for k in range(count)]
     lines = []
     for row in rows:
         front = " " * indent
@@ -47,7 +45,5 @@ def wrapped(line: str, hang: int) -> list[str]:
     """A line broken to the width of the page, not inside short brackets; the rest hangs at column `hang`."""
     kept = SHORT_BRACKETS.sub(lambda match: match[0].replace(" ", HARD_SPACE), line)
     below = " " * min(hang, WIDTH - 40)
-    lines = textwrap.wrap(
-        kept, WIDTH, subsequent_indent=below, break_long_words=False, break_on_hyphens=False
-    )
+    lines = textwrap.wrap(kept, WIDTH, subsequent_indent=below, break_long_words=False, break_on_hyphens=False)
     return [text.replace(HARD_SPACE, " ") for text in lines] or [""]

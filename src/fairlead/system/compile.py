@@ -81,7 +81,12 @@ def _offsets(blocks: list[Block], numbering: Numbering, memory: dict[str, NDArra
                   block.sig_index, block.flow_index, block.flow_coef, block.ledger_index)  # fmt: skip
         row[: len(arrays)] = [array.ctypes.data for array in arrays]
         s = block.kernel.structure
-        for place, pairs in ((layout.D_SIGNALS, s.d_signals), (layout.D_FLOWS, s.d_flows), (layout.D_LEDGER, s.d_ledger), (layout.D_MASS, s.mass)):
+        for place, pairs in (
+            (layout.D_SIGNALS, s.d_signals),
+            (layout.D_FLOWS, s.d_flows),
+            (layout.D_LEDGER, s.d_ledger),
+            (layout.D_MASS, s.mass),
+        ):
             row[place] = partials
             partials += block.count * len(pairs)
         row[layout.GUARDS], row[layout.OUTPUTS] = guards, outputs
@@ -281,7 +286,9 @@ def _time_places(blocks: list[Block]) -> Integers:
 
 def _samplers(flat: FlatModel, blocks: list[Block]) -> dict[str, NDArray[Any]]:
     """Instances with sample times, in the order of the blocks."""
-    sampled = [(b, i, block) for b, block in enumerate(blocks) if block.kernel.structure.period for i in range(block.count)]
+    sampled = [
+        (b, i, block) for b, block in enumerate(blocks) if block.kernel.structure.period for i in range(block.count)
+    ]
     periods = [float(getattr(block.instances[i].values, block.kernel.structure.period)) for _, i, block in sampled]
     return {
         "sampled": np.array([(b, i) for b, i, _ in sampled], dtype=np.int64).reshape(-1, 2),
@@ -323,7 +330,9 @@ def _signals(flat: FlatModel, blocks: list[Block], numbering: Numbering) -> list
         for i, instance in enumerate(block.instances):
             for k, name in enumerate(s.outputs):
                 declared = has.outputs[name]
-                found.append(OutputSignal(f"{instance.path}.{name}", declared.unit, declared.doc, first + i * width + k))
+                found.append(
+                    OutputSignal(f"{instance.path}.{name}", declared.unit, declared.doc, first + i * width + k)
+                )
     by_name = {signal.name: signal for signal in found}
     for outer, inner in flat.assembly.aliases.items():
         if str(inner) in by_name and outer != str(inner):
@@ -331,7 +340,9 @@ def _signals(flat: FlatModel, blocks: list[Block], numbering: Numbering) -> list
             found.append(OutputSignal(outer, signal.unit, signal.doc, signal.at))
     order = {instance.path: number_ for number_, instance in enumerate(flat.instances)}
     found.sort(key=lambda signal: order.get(signal.name.rpartition(".")[0], -1))
-    return found + [OutputSignal(f"energy.{line}", "J", f"Energy {line}.", -1 - at) for line, at in numbering.ledger.items()]
+    return found + [
+        OutputSignal(f"energy.{line}", "J", f"Energy {line}.", -1 - at) for line, at in numbering.ledger.items()
+    ]
 
 
 def _machine_zones(blocks: list[Block]) -> list[Any]:

@@ -87,9 +87,7 @@ def _does(kind: type[Declared]) -> Iterator[str]:
     if kind.declaration.laws:
         yield from behaviour(kind)
     else:
-        yield from heading(
-            "Made of other components: `fairlead describe MODEL --stage component` lists them."
-        )
+        yield from heading("Made of other components: `fairlead describe MODEL --stage component` lists them.")
 
 
 def _variants(head: type[Family]) -> Iterator[str]:

@@ -39,7 +39,17 @@ def evaluate(ctx, t, y):
     schedule = i8(ctx[SCHEDULE])
     for s in range(0, ctx[N_SCHEDULE]):
         b = schedule[3 * s]
-        call_kernel(kernels[b], SIGNALS, i8(blocks + 8 * BLOCK * b), schedule[3 * s + 1], schedule[3 * s + 2], z, zones, tables, z)
+        call_kernel(
+            kernels[b],
+            SIGNALS,
+            i8(blocks + 8 * BLOCK * b),
+            schedule[3 * s + 1],
+            schedule[3 * s + 2],
+            z,
+            zones,
+            tables,
+            z,
+        )
     for i in range(0, n + ctx[N_REACTIONS] + 1):
         w[i] = 0.0
     for b in range(0, ctx[N_BLOCKS]):
@@ -110,7 +120,9 @@ def mass(ctx, values):
     zones, partials, static = i8(ctx[ZONES]), f8(ctx[PARTIALS]), f8(ctx[MASS_STATIC])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], MASS, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), partials)
+        call_kernel(
+            kernels[b], MASS, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), partials
+        )
     for i in range(0, ctx[N_MASS]):
         values[i] = static[i]
     program, coefficient = i8(ctx[MASS_PROGRAM]), f8(ctx[MASS_COEF])
@@ -123,7 +135,9 @@ def guards(ctx, t, y, g):
     accelerate(ctx, t, y)
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], GUARD, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g)
+        call_kernel(
+            kernels[b], GUARD, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g
+        )
 
 
 def switch(ctx, t, y, fired, n_fired):
@@ -164,7 +178,9 @@ def slip(ctx, t, y, r):
         r[i] = 0.0
     if held > 0:
         for b in range(0, ctx[N_BLOCKS]):
-            call_kernel(kernels[b], SLIP, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), r)
+            call_kernel(
+                kernels[b], SLIP, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), r
+            )
     return held
 
 
@@ -207,7 +223,9 @@ def outputs(ctx, t, y, out):
     z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], OUTPUT, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)
+        call_kernel(
+            kernels[b], OUTPUT, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything
+        )
     for k in range(0, ctx[N_SELECTED]):
         if selected[k] >= 0:
             out[k] = everything[selected[k]]
@@ -222,7 +240,9 @@ def outputs(ctx, t, y, out):
 @functools.cache
 def callbacks() -> Native:
     """The compiled driver; `address` holds the C address of every callback."""
-    sources = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("driver.py", "lowering.py", "layout.py")]
+    sources = [
+        Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("driver.py", "lowering.py", "layout.py")
+    ]
     return load_or_compile(digest(*sources), _build)
 
 

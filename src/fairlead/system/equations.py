@@ -38,9 +38,7 @@ def writing_of(traced: Traced, inertias: Mapping[str, sympy.Expr]) -> Writing:
     kind, has = traced.variant.type, traced.variant.type.declaration
     prescribes = getattr(kind, "prescribes", None)
     positive = (
-        f"p:{n}"
-        for n, d in has.parameters.items()
-        if isinstance(d, Parameter) and d.above is not None and d.above >= 0
+        f"p:{n}" for n, d in has.parameters.items() if isinstance(d, Parameter) and d.above is not None and d.above >= 0
     )
     return Writing(
         has.ports,
@@ -61,9 +59,7 @@ def equations(zone: TracedZone, writing: Writing) -> list[str]:
     lines += [_own(name, value, say, writing) for name, value in zone.own.items() if name not in zone.holds]
     lines += _together(_balances(zone, writing, say) | {n: t for n, t in outputs.items() if _is_number(t)})
     lines += _prescribed(writing)
-    return lines + [
-        f"{LEDGER_WORDS[name]} = {say(value)}" for name, value in zone.ledger.items() if value != 0
-    ]
+    return lines + [f"{LEDGER_WORDS[name]} = {say(value)}" for name, value in zone.ledger.items() if value != 0]
 
 
 def _together(values: Mapping[str, str]) -> list[str]:
@@ -90,9 +86,7 @@ class _Say:
 
     def __init__(self, zone: TracedZone, writing: Writing) -> None:
         self._writing, self._tables = writing, zone.tables
-        named = {
-            e: n for n, e in reversed(zone.outputs.items()) if len(e.free_symbols) > 1 or e.count_ops() > 1
-        }
+        named = {e: n for n, e in reversed(zone.outputs.items()) if len(e.free_symbols) > 1 or e.count_ops() > 1}
         self._short = sorted(((n, e) for e, n in named.items()), key=lambda item: -item[1].count_ops())
 
     def __call__(self, value: sympy.Expr, leave_out: str = "") -> str:

@@ -85,9 +85,7 @@ class _Writer:
         if negative(e):
             return "-" + self.text(-e, PRODUCT)
         above, below = sympy.fraction(e, exact=True)
-        text = "*".join(
-            self.text(f, PRODUCT) for f in sorted(sympy.Mul.make_args(above), key=self._place_in_product)
-        )
+        text = "*".join(self.text(f, PRODUCT) for f in sorted(sympy.Mul.make_args(above), key=self._place_in_product))
         if below == 1:
             return text
         return f"{text}/{self.text(below, POWER)}"
@@ -117,14 +115,10 @@ def _kind(s: sympy.Symbol) -> int:
 
 def _without_minus(term: sympy.Expr) -> sympy.Expr:
     """k*(y - x) for -k*(x - y)."""
-    differences = [
-        f for f in sympy.Mul.make_args(term) if f.is_Add and len(f.args) == 2 and any(map(negative, f.args))
-    ]
+    differences = [f for f in sympy.Mul.make_args(term) if f.is_Add and len(f.args) == 2 and any(map(negative, f.args))]
     if not negative(term) or len(differences) != 1:
         return term
-    return sympy.Mul(
-        *(-f for f in differences), *(f for f in sympy.Mul.make_args(-term) if f not in differences)
-    )
+    return sympy.Mul(*(-f for f in differences), *(f for f in sympy.Mul.make_args(-term) if f not in differences))
 
 
 def negative(e: sympy.Expr) -> bool:

@@ -28,7 +28,14 @@ F8, I8 = DOUBLE.as_pointer(), INT.as_pointer()
 TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": I8, "None": ir.VoidType()}
 SHARED = ("I8", "float", "F8")
 KERNEL = ("int", "I8", "int", "int", "F8", "I8", "F8", "F8")
-INTRINSIC = {"exp": "llvm.exp", "log": "llvm.log", "sqrt": "llvm.sqrt", "sin": "llvm.sin", "cos": "llvm.cos", "abs": "llvm.fabs"}
+INTRINSIC = {
+    "exp": "llvm.exp",
+    "log": "llvm.log",
+    "sqrt": "llvm.sqrt",
+    "sin": "llvm.sin",
+    "cos": "llvm.cos",
+    "abs": "llvm.fabs",
+}
 CONSTANTS = {name: value for name, value in vars(layout).items() if name.isupper() and isinstance(value, int)}
 LIBRARY = ("tan", "tanh", "atan")  # from the C library of the process
 
@@ -97,7 +104,7 @@ class _Lowering:
         for statement in statements:
             getattr(self, "_" + type(statement).__name__)(statement)
 
-    def _For(self, loop: Any) -> None:  # noqa: N802 - named after the syntax node
+    def _For(self, loop: Any) -> None:
         builder = self.builder
         start, stop = (self.value(argument) for argument in loop.iter.args)
         before = builder.block
@@ -115,7 +122,7 @@ class _Lowering:
         builder.branch(test)
         builder.position_at_end(done)
 
-    def _If(self, branch: Any) -> None:  # noqa: N802
+    def _If(self, branch: Any) -> None:
         left, right = self.value(branch.test.left), self.value(branch.test.comparators[0])
         sign = {ast.Eq: "==", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}[type(branch.test.ops[0])]
         if left.type == INT and right.type == INT:
@@ -125,13 +132,13 @@ class _Lowering:
         with self.builder.if_then(holds):
             self.body(branch.body)
 
-    def _Expr(self, statement: Any) -> None:  # noqa: N802
+    def _Expr(self, statement: Any) -> None:
         self.value(statement.value)
 
-    def _Return(self, statement: Any) -> None:  # noqa: N802
+    def _Return(self, statement: Any) -> None:
         self.builder.ret(self.value(statement.value))
 
-    def _Assign(self, assignment: Any) -> None:  # noqa: N802
+    def _Assign(self, assignment: Any) -> None:
         target = assignment.targets[0]
         if isinstance(target, ast.Tuple):
             for name, each in zip(target.elts, assignment.value.elts, strict=True):
@@ -144,9 +151,13 @@ class _Lowering:
             place = self.place(target)
             self.builder.store(value if place.type.pointee == value.type else self.double(value), place)
 
-    def _AugAssign(self, assignment: Any) -> None:  # noqa: N802
+    def _AugAssign(self, assignment: Any) -> None:
         added = self.value(assignment.value)
-        place = self.variables[assignment.target.id] if isinstance(assignment.target, ast.Name) else self.place(assignment.target)
+        place = (
+            self.variables[assignment.target.id]
+            if isinstance(assignment.target, ast.Name)
+            else self.place(assignment.target)
+        )
         if place.type.pointee == INT:
             self.builder.store(self.builder.add(self.builder.load(place), added), place)
         else:
@@ -215,7 +226,9 @@ class _Lowering:
         if name in ("min", "max"):
             best = values[0]
             for value in values[1:]:
-                best = self.builder.select(self.builder.fcmp_ordered("<" if name == "min" else ">", value, best), value, best)
+                best = self.builder.select(
+                    self.builder.fcmp_ordered("<" if name == "min" else ">", value, best), value, best
+                )
             return best
         if name == "sign":
             above, below = (self.builder.fcmp_ordered(s, values[0], DOUBLE(0.0)) for s in "><")

@@ -58,7 +58,10 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers) -> Progra
     by their place in z: below n an unknown, then the signals, and n + n_signals + 1 the time; the rest
     (zero, accelerations) has no derivative.
     """
-    row, z, partial, coef = (np.concatenate(x) if x else np.zeros(0, np.int64) for x in (entries.row, entries.z, entries.partial, entries.coef))
+    row, z, partial, coef = (
+        np.concatenate(x) if x else np.zeros(0, np.int64)
+        for x in (entries.row, entries.z, entries.partial, entries.coef)
+    )
     direct = (z < n) | (z == n + n_signals + 1)
     via = (z >= n) & (z < n + n_signals)
     column = np.where(z < n, z, n)

@@ -29,9 +29,7 @@ def traced_specimen(kind: type[Declared]) -> Traced:
 
 def specimen(kind: type[Declared], *, open_parts: bool) -> Variant:
     """Every word at its default; waveforms and tables are given, optional numbers are not."""
-    given = {
-        name: _usual(name, declared, open_parts) for name, declared in kind.declaration.parameters.items()
-    }
+    given = {name: _usual(name, declared, open_parts) for name, declared in kind.declaration.parameters.items()}
     prepare = getattr(kind, "prepare", None)
     return variant_of(Values(kind, prepare(given) if prepare else given))
 
@@ -67,11 +65,7 @@ def _first(family: Any) -> type[Declared]:
 def _any_member(path: str, family: Any) -> type[Declared]:
     """A stand-in whose functions are those that all members have, left unsaid."""
     member = _first(family)
-    names = [
-        n
-        for n, f in inspect.getmembers(member, inspect.isfunction)
-        if not n.startswith("_") and n not in METHODS
-    ]
+    names = [n for n, f in inspect.getmembers(member, inspect.isfunction) if not n.startswith("_") and n not in METHODS]
     everywhere = [n for n in names if all(hasattr(other, n) for other in family.members.values())]
     return type(
         family.__name__,

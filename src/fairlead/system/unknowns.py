@@ -110,7 +110,9 @@ def _number_group(made: Numbering, index: int, group: Group, *, rate_matters: bo
         made.position[index] = made.balance[index] = row
         return
     made.position[index] = made.add(Unknown(f"{group.name}.{x}", x_unit, True, 1.0, group.start[0], "position"))
-    made.rate[index] = made.add(Unknown(f"{group.name}.{v}", v_unit, group.mass > 0, group.mass, group.start[1], "rate"))
+    made.rate[index] = made.add(
+        Unknown(f"{group.name}.{v}", v_unit, group.mass > 0, group.mass, group.start[1], "rate")
+    )
     made.balance[index] = made.rate[index]
     made.pairs.append((made.position[index], made.rate[index]))
 
