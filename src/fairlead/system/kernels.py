@@ -92,4 +92,4 @@ def _greatest(*values: Any) -> Any:
 
 
 def _direction(x: Any) -> Any:
-    return (x.real > 0) - (x.real < 0)
+    return int(x.real > 0) - int(x.real < 0)  # of numpy too, whose booleans cannot be subtracted
