@@ -45,7 +45,10 @@ class CacheWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Build:
-    """What a builder returns: facts to remember (JSON) and numba `cfunc` objects by name."""
+    """What a builder returns: facts to remember (JSON) and functions by name.
+
+    A function is a numba `cfunc`, or anything with its `inspect_llvm()` and `native_name`.
+    """
 
     meta: dict[str, Any]
     functions: dict[str, Any]
@@ -166,7 +169,7 @@ def _write(path: pathlib.Path, meta: dict[str, Any], objects: dict[str, _ObjectC
 
 
 @functools.cache
-def _target_machine() -> Any:
+def _prepare_llvm() -> None:
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
@@ -175,6 +178,13 @@ def _target_machine() -> Any:
     for name in UNREACHED:
         if llvm.address_of_symbol(name) is None:
             llvm.add_symbol(name, never)
+
+
+def target_machine() -> Any:
+    """A new LLVM target machine for this CPU; every execution engine takes over the one it is given."""
+    import llvmlite.binding as llvm
+
+    _prepare_llvm()
     return llvm.Target.from_default_triple().create_target_machine(
         cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=3,
         jit=True, codemodel="jitdefault",
@@ -185,7 +195,7 @@ def _compile(function: Any) -> _ObjectCode:
     """Object code of a numba `cfunc`, from the optimised LLVM text that numba publishes."""
     import llvmlite.binding as llvm
 
-    machine = _target_machine()
+    machine = target_machine()
     module = llvm.parse_assembly(function.inspect_llvm())
     return _ObjectCode(function.native_name, machine.emit_object(module))
 
@@ -193,10 +203,9 @@ def _compile(function: Any) -> _ObjectCode:
 def _load(meta: dict[str, Any], objects: dict[str, _ObjectCode], *, cached: bool) -> Native:
     import llvmlite.binding as llvm
 
-    machine = _target_machine()
     addresses, engines = {}, []
     for name, stored in objects.items():
-        engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+        engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target_machine())
         engine.add_object_file(llvm.ObjectFileRef.from_data(stored.code))
         engine.finalize_object()
         addresses[name] = engine.get_function_address(stored.symbol)
