@@ -1,10 +1,10 @@
 """fairlead: system models in which dry friction sticks and slips at many places at once.
 
-    import fairlead
+import fairlead
 
-    model = fairlead.load("belt")
-    result = model.run()
-    result["block.x"]
+model = fairlead.load("belt")
+result = model.run()
+result["block.x"]
 """
 
 from __future__ import annotations
