@@ -7,6 +7,7 @@ import pytest
 
 import fairlead
 from fairlead.netlist.files import bundled_models
+from fairlead.system.compile import HOLD_TIME
 
 SIZES = {"m": 1e-2, "m/s": 0.1, "N": 10.0}  # of the random states; as large as what moves in these scenes
 STEP = 1e-6  # of the sizes above: truncation and rounding of a central difference are then alike, about 1e-9
@@ -28,11 +29,6 @@ class Called:
         f = np.zeros(self.n)
         self._call("rhs", t, y, f)
         return f
-
-    def slip(self, t, y):
-        r = np.zeros(self.n)
-        self._call("slip", t, y, r)
-        return r
 
     def jacobian(self, t, y):
         values, ft = np.zeros(len(self.system.pattern.rows)), np.zeros(self.n)
@@ -93,13 +89,25 @@ def test_the_jacobian_equals_differences_in_random_zone_patterns(system):
         assert close_by_rows(ft, slope).all()
 
 
+def held_rows(system):
+    """Rows of the contacts that hold in the zones in force."""
+    for block in system.blocks:
+        s = block.kernel.structure
+        for unknown, zones in s.holds.items():
+            for i, instance in enumerate(block.instances):
+                zone = s.zones[system.zones[block.machines[i, 0]] if len(s.zones) > 1 else 0]
+                if zone in zones:
+                    yield system.numbering.own[instance.path, unknown]
+
+
 def test_the_mass_matrix_holds_inertias_and_the_slip_of_held_contacts(system):
-    """M v' is the inertia of a balance, and the rate of the slip in the row of a contact that holds."""
+    """M v' is the inertia of a balance and, where f says -slip/tau, the rate of that slip."""
     called = Called(system)
     masses = np.array([unknown.mass if unknown.differential else 0.0 for unknown in system.numbering.unknowns])
     for t, y, steps in random_points(system, 5):
-        held = differences(lambda at, t=t: -called.slip(t, at), y, steps)  # d(slip)/dy, on rows that hold
-        assert np.allclose(called.mass(), np.diag(masses) + held, atol=1e-7)
+        want, held = np.diag(masses), list(held_rows(system))
+        want[held] = -HOLD_TIME * differences(lambda at, t=t: called.rhs(t, at), y, steps)[held]
+        assert np.allclose(called.mass(), want, atol=1e-7)
 
 
 def test_only_unknowns_with_a_rate_have_a_column_in_the_mass_matrix(system):

@@ -3,7 +3,19 @@
 import pytest
 
 from fairlead.component import (
-    Component, Input, Law, Output, Parameter, State, Translational, Unknown, Zones, guard, hold, tanh, zone,
+    Component,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    State,
+    Translational,
+    Unknown,
+    Zones,
+    guard,
+    hold,
+    tanh,
+    zone,
 )  # fmt: skip
 from fairlead.component.registry import known_types
 from fairlead.testing import ContractError, checks, contract
@@ -91,7 +103,9 @@ def test_zones_that_run_in_a_circle_are_told():
 
         @zone("taut")
         def taut(p, a, b):
-            return Law(a=-p.stiffness * (b.x - a.x), b=p.stiffness * (b.x - a.x), stored=p.stiffness * (b.x - a.x) ** 2 / 2)
+            return Law(
+                a=-p.stiffness * (b.x - a.x), b=p.stiffness * (b.x - a.x), stored=p.stiffness * (b.x - a.x) ** 2 / 2
+            )
 
         @guard("slack", to="taut", unit="m")
         def tightens(p, a, b):
@@ -219,14 +233,16 @@ def test_parameters_that_random_numbers_do_not_suit_can_be_given():
             if p.exact != 0.125:
                 yield "exact", "exact must be 0.125", ""
 
-    with pytest.raises(ValueError, match=r"no random parameters pass its own check .* fix some: contract\(Choosy, exact=...\)"):
+    with pytest.raises(
+        ValueError, match=r"no random parameters pass its own check .* fix some: contract\(Choosy, exact=...\)"
+    ):
         contract(Choosy)
     contract(Choosy, exact=0.125)
 
 
 def test_a_derivative_that_is_wrong_in_the_machine_code_is_told(monkeypatch):
-    from fairlead.testing.rig import Rig
     from fairlead.system import layout
+    from fairlead.testing.rig import Rig
 
     ask = Rig.ask
 
@@ -235,7 +251,9 @@ def test_a_derivative_that_is_wrong_in_the_machine_code_is_told(monkeypatch):
         return said * (1 + 1e-6) if machine and mode == layout.PARTIALS_FLOWS else said
 
     monkeypatch.setattr(Rig, "ask", tampered)
-    with pytest.raises(ContractError, match="the derivative of port:a to port:a:x is .* in machine code and .* by complex step"):
+    with pytest.raises(
+        ContractError, match=r"the derivative of port:a to port:a:x is .* in machine code and .* by complex step"
+    ):
         next(check for check in checks(TwoEnded) if check.name == "derivatives")()
 
 

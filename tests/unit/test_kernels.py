@@ -1,4 +1,5 @@
 """Laws become expressions and kernels; a law that cannot is refused with its author's file and line."""
+# ruff: noqa: E501 - laws and messages read best on one line
 
 import re
 import textwrap

@@ -1,4 +1,5 @@
 """The cache of machine code: whatever happens to it, results are right and there is one warning at most."""
+# ruff: noqa: E501 - laws and messages read best on one line
 
 import json
 import os

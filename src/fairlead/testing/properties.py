@@ -18,7 +18,7 @@ import numpy as np
 from fairlead.component.base import terms_of
 from fairlead.component.declare import Hold, Table, Waveform
 from fairlead.system import layout
-from fairlead.testing.rig import Rig
+from fairlead.testing.rig import Rig, discrete_start
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
 Maker = Callable[[], World]
@@ -45,8 +45,10 @@ def derivatives(make: Maker, rng: np.random.Generator) -> None:
                 have = pairs.get((k, j), 0.0)
                 if not _close(have, want):
                     what = (s.outputs if name == "d_signals" else s.targets)[k]
-                    raise ContractError(f"{world.where(at)}: the derivative of {what} to {s.inputs[j]} is {have:.9g} in machine "
-                                        f"code and {want:.9g} by complex step")  # fmt: skip
+                    raise ContractError(
+                        f"{world.where(at)}: the derivative of {what} to {s.inputs[j]} is {have:.9g} in "
+                        f"machine code and {want:.9g} by complex step"
+                    )
 
 
 def machine_code(make: Maker, rng: np.random.Generator) -> None:
@@ -94,19 +96,16 @@ def balance(make: Maker, rng: np.random.Generator) -> None:
     """What the two ports of a massless two-port take in sums to zero."""
     for world, at in _settled(make, rng):
         ports = world.kind.declaration.ports
-        if (
-            len(ports) != 2
-            or len({p.domain for p in ports.values()}) != 1
-            or _massive(world)
-            or world.prescribed
-        ):
+        if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or _massive(world) or world.prescribed:
             return
         flows = {name: world.flows(at).get(f"port:{name}") for name in ports}
         (a, one), (b, two) = flows.items()
         if one is not None and two is not None and not _close(one.real, -two.real):
             unit = next(iter(ports.values())).domain.through[1]
-            raise ContractError(f"{world.where(at)}: what the two ports of a massless component take in must sum to zero; "
-                                f"{a} takes in {one.real:.6g} {unit} and {b} {two.real:.6g} {unit}")  # fmt: skip
+            raise ContractError(
+                f"{world.where(at)}: what the two ports of a massless component take in must sum to zero; "
+                f"{a} takes in {one.real:.6g} {unit} and {b} {two.real:.6g} {unit}"
+            )
 
 
 def dissipates(make: Maker, rng: np.random.Generator) -> None:
@@ -131,8 +130,10 @@ def energy(make: Maker, rng: np.random.Generator) -> None:
         dissipated, supplied = (float(x) for x in world.ask(layout.OUTPUT, at)[-2:].real)
         rate = stored.imag / STEP
         if not _close(taken, rate + dissipated - supplied, max(_power_met(world, at), abs(taken), abs(rate))):
-            raise ContractError(f"{world.where(at)}: energy is not accounted for: it takes in {taken:.6g} W, stores {rate:.6g} W, "
-                                f"dissipates {dissipated:.6g} W and is supplied {supplied:.6g} W")  # fmt: skip
+            raise ContractError(
+                f"{world.where(at)}: energy is not accounted for: it takes in {taken:.6g} W, stores {rate:.6g} W, "
+                f"dissipates {dissipated:.6g} W and is supplied {supplied:.6g} W"
+            )
 
 
 def settles(make: Maker, rng: np.random.Generator) -> None:
@@ -153,9 +154,7 @@ def zones_reached(make: Maker, rng: np.random.Generator) -> None:
             if not missing:
                 return
     names = ", ".join(sorted(missing))
-    raise ContractError(
-        f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there"
-    )
+    raise ContractError(f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there")
 
 
 def outputs_given(make: Maker, rng: np.random.Generator) -> None:
@@ -186,9 +185,7 @@ def instances(make: Maker, rng: np.random.Generator) -> None:
         )
         apart = apart.sum(axis=0, keepdims=True) if mode == layout.LEDGER else apart
         if not np.allclose(all_, apart, rtol=ROUNDING, atol=1e-300, equal_nan=True):
-            raise ContractError(
-                f"{variant.label}: {len(worlds)} instances together say {all_}, apart {apart}"
-            )
+            raise ContractError(f"{variant.label}: {len(worlds)} instances together say {all_}, apart {apart}")
 
 
 def odd(make: Maker, rng: np.random.Generator) -> None:
@@ -208,20 +205,20 @@ def odd(make: Maker, rng: np.random.Generator) -> None:
         for port in world.kind.declaration.ports:
             there, back = (world.flows(x).get(f"port:{port}", 0.0) for x in (one, other))
             if not _close(there.real, -back.real):
-                raise ContractError(f"{world.where(one)}: {port} takes in {there.real:.6g}, and {back.real:.6g} with every motion "
-                                    "reversed; friction is odd in slip")  # fmt: skip
+                raise ContractError(
+                    f"{world.where(one)}: {port} takes in {there.real:.6g}, and {back.real:.6g} with every motion "
+                    "reversed; friction is odd in slip"
+                )
 
 
-PROPERTIES: dict[str, Callable[[Maker, np.random.Generator], None]] = {
-    each.__name__: each for each in (
-        derivatives, machine_code, as_written, balance, dissipates, energy, settles, zones_reached, outputs_given, instances, odd,
-    )
-}  # fmt: skip
+_ALL = (
+    derivatives, machine_code, as_written, balance, dissipates, energy, settles, zones_reached, outputs_given,
+    instances, odd,
+)  # fmt: skip
+PROPERTIES: dict[str, Callable[[Maker, np.random.Generator], None]] = {each.__name__: each for each in _ALL}
 
 
-def _anywhere(
-    make: Maker, rng: np.random.Generator, *, alone: bool = False
-) -> Iterator[tuple[World, Instant]]:
+def _anywhere(make: Maker, rng: np.random.Generator, *, alone: bool = False) -> Iterator[tuple[World, Instant]]:
     """Random instants in every zone, whether the guards allow it or not."""
     for _ in range(INSTANCES):
         world = make()
@@ -263,17 +260,13 @@ def _in_pieces(world: World, at: Instant, rng: np.random.Generator) -> Instant:
 
 
 def _complex_steps(world: World, at: Instant, mode: int) -> Any:
-    columns = [
-        world.ask(mode, at.shifted({key: 1.0}, STEP * 1j)).imag / STEP for key in world.structure.inputs
-    ]
+    columns = [world.ask(mode, at.shifted({key: 1.0}, STEP * 1j)).imag / STEP for key in world.structure.inputs]
     rows = len(world.structure.outputs if mode == layout.SIGNALS else world.structure.targets)
     return np.array(columns).T.reshape(rows, len(columns))
 
 
 def _close(have: float, want: float, scale: float = 0.0) -> bool:
-    return abs(have - want) <= ROUNDING * max(1.0, scale, abs(have), abs(want)) or (
-        np.isnan(have) and np.isnan(want)
-    )
+    return abs(have - want) <= ROUNDING * max(1.0, scale, abs(have), abs(want)) or (np.isnan(have) and np.isnan(want))
 
 
 def _names(law: Callable[..., Any]) -> tuple[str, ...]:
@@ -288,11 +281,10 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         domain = has.ports[name].domain
         said = {variable: port[kind] for (variable, _), kind in zip(domain.across, "xv", strict=False)}
         said |= {domain.acceleration: port["a"].real} if domain.acceleration else {}
-        return SimpleNamespace(
-            **said, inverse_mass=1 / world.masses.get(name, 1.0), **{domain.through[0]: port["R"]}
-        )
-    return {"p": world.of, "t": values["t"], "zone": world.zone(at)}.get(name) if name in ("p", "t", "zone") else (
-        values.get(f"in:{name}", values.get(f"own:{name}")))  # fmt: skip
+        return SimpleNamespace(**said, inverse_mass=1 / world.masses.get(name, 1.0), **{domain.through[0]: port["R"]})
+    known = {"p": world.of, "t": values["t"], "zone": world.zone(at)}
+    known |= {name: discrete_start(world.of, name) for name in has.discrete}
+    return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
 
 
 def _inertia(world: World) -> dict[str, float]:

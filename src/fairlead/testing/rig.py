@@ -36,8 +36,7 @@ class Rig:
         bases = [[tables.place(table) for table in row] for row in self.pieces]
         self.tables = tables.vector()
         parameters = [
-            [_parameter(v, name, m) for name in s.parameters]
-            for v, m in zip(instances, inverse_masses, strict=True)
+            [_parameter(v, name, m) for name in s.parameters] for v, m in zip(instances, inverse_masses, strict=True)
         ]
         self._arrays = self._block(parameters, bases)
 
@@ -101,6 +100,8 @@ def polynomial(value: Any) -> PiecewisePolynomial:
 
 
 def _parameter(values: Values, name: str, inverse_masses: Mapping[str, float]) -> float:
+    if name.startswith("#"):
+        return discrete_start(values, name[1:])
     if name == "@tau":
         return TAU
     if name.endswith(".inverse_mass"):
@@ -108,3 +109,9 @@ def _parameter(values: Values, name: str, inverse_masses: Mapping[str, float]) -
     path, _, part = name.partition(":")
     value = values.path(path)
     return float(getattr(value.sine, part) if part else value)
+
+
+def discrete_start(values: Values, name: str) -> float:
+    """Value of a discrete variable before its first sample."""
+    start = values.type.declaration.discrete[name].start
+    return float(getattr(values, start) if isinstance(start, str) else start)

@@ -43,9 +43,7 @@ def families(kind: type[Declared]) -> Iterator[tuple[type[Declared], dict[str, A
                 yield from ((member, {name: option}) for option in d.options if option != d.default)
 
 
-def sample(
-    kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool
-) -> Values:
+def sample(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool) -> Values:
     """A random instance. `chosen` fixes parameters, parts by their word; `optional` gives those that may be absent.
 
     Raises SampleError when every draw contradicts the class's own `check`.
@@ -58,13 +56,12 @@ def sample(
             return values
     name, what, _ = faults[0]
     raise SampleError(
-        f"{kind.__name__}: no random parameters pass its own check ({name}: {what}); fix some: contract({kind.__name__}, {name or 'name'}=...)"
+        f"{kind.__name__}: no random parameters pass its own check ({name}: {what}); "
+        f"fix some: contract({kind.__name__}, {name or 'name'}=...)"
     )
 
 
-def _draw(
-    kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool
-) -> dict[str, Any]:
+def _draw(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool) -> dict[str, Any]:
     given: dict[str, Any] = {}
     for name, declared in kind.declaration.parameters.items():
         if name in chosen and not (isinstance(declared, Part) and isinstance(chosen[name], str)):

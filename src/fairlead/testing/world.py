@@ -19,9 +19,7 @@ from fairlead.component.values import Values
 from fairlead.system import layout
 from fairlead.testing.rig import Rig
 
-AT_ZERO = (
-    1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
-)
+AT_ZERO = 1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
 PASSES = 60  # more switches than any component has zones
 STEP = 1e-30  # of a complex step; its square vanishes beside 1
 
@@ -48,9 +46,7 @@ class Instant:
 
     def shifted(self, rates: Mapping[str, float], distance: complex) -> Instant:
         """The same with every value moved along its rate."""
-        return replace(
-            self, values={key: value + distance * rates.get(key, 0.0) for key, value in self.values.items()}
-        )
+        return replace(self, values={key: value + distance * rates.get(key, 0.0) for key, value in self.values.items()})
 
 
 @dataclass
@@ -69,9 +65,7 @@ class World:
         prescribes = getattr(self.kind, "prescribes", None)
         self.prescribed: dict[str, Any] = dict(prescribes()) if prescribes else {}
         ports = self.kind.declaration.ports
-        self.bodies = [
-            name for name, port in ports.items() if port.domain.mechanical and name not in self.prescribed
-        ]
+        self.bodies = [name for name, port in ports.items() if port.domain.mechanical and name not in self.prescribed]
         self.zoned = len(self.structure.zones) > 1
 
     def draw(self, rng: np.random.Generator, *, alone: bool = True) -> Instant:
@@ -83,9 +77,7 @@ class World:
         for name, port in has.ports.items():
             if port.domain.mechanical:
                 values |= {f"port:{name}:x": _around(rng, 0.3), f"port:{name}:v": _around(rng, 0.3)}
-                values |= {
-                    f"port:{name}:{k}": _around(rng, 10.0) if name in self.prescribed else 0.0 for k in "aA"
-                }
+                values |= {f"port:{name}:{k}": _around(rng, 10.0) if name in self.prescribed else 0.0 for k in "aA"}
                 if self.prescribed.get(name, "moves") is None:
                     values |= {f"port:{name}:{k}": 0.0 for k in "vaA"}
             else:
@@ -141,9 +133,7 @@ class World:
                 change = np.linalg.solve(np.array(slopes).T, -residual.real)
             except np.linalg.LinAlgError:
                 names = ", ".join(key[4:] for key in unknowns)
-                raise ContractError(
-                    f"{self.where(here)}: the law does not determine its unknown {names}"
-                ) from None
+                raise ContractError(f"{self.where(here)}: the law does not determine its unknown {names}") from None
             values = {
                 **values,
                 **{key: values[key] + step for key, step in zip(unknowns, change.tolist(), strict=True)},
@@ -187,14 +177,16 @@ class World:
         return self._at_rest(replace(at, zones=tuple(zones)))
 
     def _at_rest(self, at: Instant) -> Instant:
-        """Held speeds brought together by an impulse that conserves momentum."""
-        values = dict(at.values)
-        for rates in self.held(at).values():
-            slip = sum(c * values[f"port:{port}:v"] for port, c in rates.items())
+        """Held speeds brought together, where the hold takes them, by an impulse that conserves momentum."""
+        held = self.held(at)
+        if not held:
+            return at
+        values, slips = dict(at.values), dict(zip(self.structure.targets, self.ask(layout.SLIP, at), strict=True))
+        for unknown, rates in held.items():
             give = sum(c**2 / self.masses[port] for port, c in rates.items() if port in self.bodies)
             for port, c in rates.items():
                 if port in self.bodies:
-                    values[f"port:{port}:v"] -= slip * c / self.masses[port] / give
+                    values[f"port:{port}:v"] += slips[f"own:{unknown}"] * c / self.masses[port] / give
         return replace(at, values=values)
 
     def _residual(self, at: Instant) -> list[Any]:
@@ -213,13 +205,9 @@ class World:
     def _accelerations(self, at: Instant, flows: dict[str, Any] | None = None) -> dict[str, Any]:
         flows = flows or self.flows(at)
         given = {
-            f"port:{port}:a": at.values[f"port:{port}:a"]
-            for port in self.prescribed
-            if f"port:{port}:a" in at.values
+            f"port:{port}:a": at.values[f"port:{port}:a"] for port in self.prescribed if f"port:{port}:a" in at.values
         }
-        free = {
-            f"port:{p}:a": (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies
-        }
+        free = {f"port:{p}:a": (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies}
         return given | free
 
 
