@@ -75,7 +75,7 @@ def model_of(kind: type[Declared]) -> type[BaseModel]:
 def family_type(family: type[Family], keep: Callable[[type[Family]], Any] | None = None) -> Any:
     """The annotated union of all members of a family, with the bare value as a short form."""
     models = [model_of(member) for member in family.members.values()]
-    union: Any = Union[tuple(models)] if len(models) > 1 else models[0]  # noqa: UP007 - made at run time
+    union: Any = Union[tuple(models)] if len(models) > 1 else models[0]
     inner = Annotated[union, Field(discriminator=family.key)] if len(models) > 1 else union
     return Annotated[inner, BeforeValidator(functools.partial(_with_word, family))]
 
@@ -100,7 +100,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
     if isinstance(declared, Parameter):
         bounds = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
         limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
-        schema = {"type": ["number", "string"], "description": f"{declared.doc} {wanted(declared.unit)}".strip()}
+        schema = {"type": ["number", "string"], **_schema_bounds(declared)}
         kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: si(v, u)), limits, _Schema(schema)]
     elif isinstance(declared, Choice):
         kind = Literal[declared.options]
@@ -119,11 +119,24 @@ def _field(declared: Any) -> tuple[Any, Any]:
         kind = _table_type(declared)
     if default is None:
         kind = kind | None
-    described = getattr(declared, "doc", "")
+    described = _hover(declared)
     validated = isinstance(default, str | int | float) and not isinstance(declared, Choice)
     if default is ... or not isinstance(default, str | int | float | type(None)):
         return kind, default if default is not ... else Field(description=described)
     return kind, Field(default=default, description=described, validate_default=validated)
+
+
+def _hover(declared: Any) -> str:
+    """What an editor shows: the sentence, and how to write the quantity."""
+    quantity = isinstance(declared, Parameter | Waveform)
+    return f"{declared.doc} {wanted(declared.unit) if quantity else ''}".strip()
+
+
+def _schema_bounds(declared: Parameter) -> dict[str, float]:
+    """The range as a schema says it; it binds bare numbers only, which are in SI."""
+    words = {"exclusiveMinimum": declared.above, "minimum": declared.least}
+    words |= {"exclusiveMaximum": declared.below, "maximum": declared.most}
+    return {word: bound for word, bound in words.items() if bound is not None}
 
 
 def _table_type(declared: Table | Waveform) -> Any:

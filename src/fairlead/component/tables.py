@@ -225,7 +225,10 @@ def table_schema(declared: Table) -> dict[str, Any]:
     """JSON Schema of a table."""
     number = {"type": ["number", "string"]}
     pairs = {"type": "array", "items": {"type": "array", "items": number, "minItems": 2, "maxItems": 2}}
-    return {"description": declared.doc, "anyOf": [pairs, {"type": "object"}]}
+    column = {"type": "array", "items": number}
+    named = {"x": column, "y": column, "kind": {"enum": ["linear", "cubic"]}, "file": {"type": "string"}}
+    in_columns = {"type": "object", "properties": named, "additionalProperties": False}
+    return {"description": declared.doc, "anyOf": [pairs, in_columns]}
 
 
 def waveform_schema(declared: Waveform) -> dict[str, Any]:
