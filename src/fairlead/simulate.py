@@ -1,11 +1,11 @@
 """The pipeline, in order; the table of contents of fairlead.
 
-netlist      load(path)             Netlist      validated, every value knows its line
-component    instantiate(netlist)   Assembly     component instances, parameters in SI
-flatten      flatten(assembly)      FlatModel    nodes, kinematic groups, links
-system       compile(flat)          System       index arrays, kernels, patterns
-integrate    integrate(system)      Outcome      steps, switches, counters
-results      run(...)               Result       a directory, written as the run goes
+    netlist      load(path)             Netlist      validated, every value knows its line
+    component    instantiate(netlist)   Assembly     component instances, parameters in SI
+    flatten      flatten(assembly)      FlatModel    nodes, kinematic groups, links
+    system       compile(flat)          System       index arrays, kernels, patterns
+    integrate    integrate(system)      Outcome      steps, switches, counters
+    results      run(...)               Result       a directory, written as the run goes
 """
 
 from __future__ import annotations

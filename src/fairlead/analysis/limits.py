@@ -1,6 +1,6 @@
 """Limits of a netlist: which recorded signals leave the range they were given.
 
-limits: {"line.hose[*].tension": {above: -160 N}}       the signal must stay above -160 N
+    limits: {"line.hose[*].tension": {above: -160 N}}       the signal must stay above -160 N
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Third stage: from component instances to nodes, groups and links; a chain of named passes.
 
-flat = flatten(assembly)       route -> wire -> group -> check
+    flat = flatten(assembly)       route -> wire -> group -> check
 """
 
 from __future__ import annotations

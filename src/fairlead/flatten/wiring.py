@@ -1,7 +1,7 @@
 """Connected components of the port graph: nodes, and the links of signals.
 
-vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
-edges      written connections, with the place they were written
+    vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
+    edges      written connections, with the place they were written
 """
 
 from __future__ import annotations
