@@ -95,10 +95,10 @@ class Binding(Contact):
 
     @zone(*IN_CONTACT)
     def touching(p, a, b, normal, zone):
-        """The force of the zone; what counts as creep is the slip of a bound contact."""
+        """The force of the zone; what counts as creep is the slip on the plateau, where the contact sticks."""
         slip, bound = b.v - a.v, 1 if zone in BOUND else 0
         friction = friction_in(p, zone, slip, normal)
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, bound=bound, creep_rate=bound * slip,
+        return Law(a=-friction, b=+friction, slip=slip, friction=friction, bound=bound, creep_rate=slip if zone == "plateau" else 0,
                    dissipated=friction * slip)  # fmt: skip
 
     @zone("off")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
@@ -23,7 +24,9 @@ if TYPE_CHECKING:
     from fairlead.system.system import OutputSignal, System
 
 LOOSE = 1e-2  # from this accuracy on the method of order 3 is cheaper
-SIDES = np.array([0, -1, +1], dtype=np.int8)  # of the engine: ordinary, before an event, after it
+BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
+SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
+CONTINUOUS = 1e-9  # relative difference across an event that is rounding of the settlement
 
 
 @dataclass
@@ -37,11 +40,13 @@ class Watch:
     creep: WorstCreep
     limits: Limits
     progress: Callable[[float, float, Any], None] | None
+    on_grid: bool
 
     def __call__(self, block: Block) -> None:
         """Take one block."""
         columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
-        self.directory.append(block.t, block.values[:, : self.chosen], SIDES[block.side])
+        rows = worth_keeping(block.values[:, : self.chosen], block.side) if self.on_grid else slice(None)
+        self.directory.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
         self.directory.events(_named(self.system, row) for row in block.events)
         self.creep.watch(block.t, block.values[:, [columns[name] for name in self.creep.names]])
         self.limits.watch(block.t, block.values)
@@ -49,6 +54,19 @@ class Watch:
             self.ledger.watch(block.values[:, [columns["energy.dissipated"], columns["energy.supplied"], -1]])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
+
+
+def worth_keeping(values: NDArray[np.float64], side: NDArray[np.int8]) -> NDArray[np.bool_]:
+    """Rows (k,) to write when a grid was asked for: all but the two sides of events at which no recorded value jumps.
+
+    A kink needs no row of its own, and a long line switches thousands of times.
+    """
+    keep = np.ones(len(side), dtype=bool)
+    left = np.flatnonzero((side[:-1] == BEFORE) & (side[1:] == AFTER))
+    jump = np.abs(values[left + 1] - values[left]) > CONTINUOUS * (1 + np.abs(values[left]))
+    smooth = left[~jump.any(axis=1)]
+    keep[smooth] = keep[smooth + 1] = False
+    return keep
 
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
@@ -59,7 +77,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
     with RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force) as directory:
-        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress)
+        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, netlist.record.every is not None)
         outcome = integrate(system, _engine_settings(netlist, settings), watch)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
