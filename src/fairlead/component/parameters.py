@@ -284,7 +284,7 @@ def _siblings(kind: type[Declared], loc: tuple[Any, ...]) -> list[str]:
 
 def _needed(kind: type[Declared], loc: tuple[Any, ...]) -> str:
     found = _declared(kind, loc)[0]
-    return f"{found.doc} Give {wanted(found.unit)}." if isinstance(found, Parameter) else getattr(found, "doc", "")
+    return f"{found.doc} {wanted(found.unit)}" if isinstance(found, Parameter) else getattr(found, "doc", "")
 
 
 def _unit(kind: type[Declared], loc: tuple[Any, ...]) -> str:
