@@ -6,6 +6,7 @@ Inertias add with the ratio squared. A loop that contradicts itself is an error 
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,7 +14,7 @@ from typing import Any
 import networkx as nx
 
 from fairlead.component.instantiate import Assembly, Instance, PortRef
-from fairlead.errors import Fault
+from fairlead.errors import Fault, listing
 from fairlead.flatten.flat_model import Group, Node, Prescribed
 
 AGREES = 1e-9  # relative; ratios and offsets of a loop are products of a few rounded numbers
@@ -50,7 +51,7 @@ class Ties:
 
 def group(
     assembly: Assembly, nodes: list[Node], node_of: dict[PortRef, int]
-) -> tuple[list[Group], dict[int, Any], list[Fault]]:
+) -> tuple[list[Group], dict[int, tuple[int, float, float]], list[Fault]]:
     """Merge tied nodes; returns groups, node -> (group, ratio, offset), and contradictions."""
     count = len(nodes)
     ties = Ties(list(range(count)), [1.0] * count, [0.0] * count)
@@ -60,13 +61,24 @@ def group(
         root, ratio, offset = ties.root(node)
         members.setdefault(root, []).append((node, ratio, offset))
     facts = _facts(assembly, node_of)
-    groups, group_of = [], {}
-    for number, inside in enumerate(members.values()):
+    groups: list[Group] = []
+    group_of: dict[int, tuple[int, float, float]] = {}
+    for number, tied in enumerate(members.values()):
+        inside = _told_by_a_body(tied, facts)
         made, wrong = _group(nodes, inside, facts)
         groups.append(made)
         faults += wrong
         group_of |= {node: (number, ratio, offset) for node, ratio, offset in inside}
     return groups, group_of, faults
+
+
+def _told_by_a_body(tied: list[tuple[int, float, float]], facts: Any) -> list[tuple[int, float, float]]:
+    """The same group with the motion of its first body with mass (else of its first node) as its own, and that first."""
+    heavy = [k for k, (node, _, _) in enumerate(tied) if any(kind == "inertia" for kind, *_ in facts.get(node, ()))]
+    first = heavy[0] if heavy else 0
+    _, unit, zero = tied[first]
+    again = [(node, ratio / unit, offset - ratio / unit * zero) for node, ratio, offset in tied]
+    return [again[first], *again[:first], *again[first + 1 :]]
 
 
 def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> list[Fault]:
@@ -76,13 +88,21 @@ def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> 
             one, two = node_of[PortRef(instance.path, a)], node_of[PortRef(instance.path, b)]
             if not ties.tie(one, two, ratio, offset):
                 loop = nx.shortest_path(written, one, two) if one in written and two in written else []
-                names = [written.edges[x, y]["path"] for x, y in zip(loop, loop[1:], strict=False)]
-                what = f"the rigid loop {' - '.join([instance.path, *names])} contradicts itself"
-                faults.append(
-                    Fault(instance.where, what, "Its ratios and lengths must agree all round, or one link must go.")
-                )
+                names = [instance.path, *(written.edges[edge]["path"] for edge in itertools.pairwise(loop))]
+                what = f"the rigid loop {' - '.join(dict.fromkeys(names))} contradicts itself: {_twice(ties, instance, (one, two, ratio, offset))}."
+                way_out = f"Its ratios and lengths must agree all round, or one of {listing(dict.fromkeys(names))} must go."
+                faults.append(Fault(instance.where, what, way_out))
             written.add_edge(one, two, path=instance.path)
     return faults
+
+
+def _twice(ties: Ties, instance: Instance, tie: tuple[int, int, float, float]) -> str:
+    """How far the loop is from closing: by its ratio, else by its length."""
+    one, two, ratio, offset = tie
+    (_, ra, oa), (_, rb, ob) = ties.root(one), ties.root(two)
+    if not math.isclose(rb, ratio * ra, rel_tol=AGREES):
+        return f"{instance.path} has the ratio {ratio:g}, the others make it {rb / ra:g}"
+    return f"{instance.path} has the length {offset:g}, the others leave {ob - ratio * oa:g}"
 
 
 def _ties(instance: Instance) -> Any:
@@ -117,13 +137,16 @@ def _group(nodes: list[Node], inside: list[tuple[int, float, float]], facts: Any
                 starts.append((instance, ref, *_at_group(value, ratio, offset)))
             else:
                 prescribed.append((instance, Prescribed(ref, value)))
-    if len(prescribed) > 1:
-        paths = " and ".join(instance.path for instance, _ in prescribed)
-        faults.append(
-            Fault(prescribed[1][0].where, f"{paths} both prescribe the motion of one body.", "Keep one of them.")
-        )
+    if len(prescribed) > 1 and any(given.outputs is not None for _, given in prescribed):
+        first, second, *_ = prescribed
+        what = f"{first[0].path} and {second[0].path} both prescribe the motion of one body ({first[1].by}, {second[1].by})."
+        faults.append(Fault(second[0].where, what, "Keep one of them, or put a Spring between."))
     position, wrong = _agreed(starts, 2)
     rate, also = _agreed(starts, 3)
+    if prescribed and all(given.outputs is None for _, given in prescribed) and rate:
+        mover = next(s for s in starts if s[3])
+        what = f"{mover[1]} starts with a speed of {mover[3]:g} on a body that {prescribed[0][0].path} keeps at rest."
+        faults.append(Fault(mover[0].where, what, f"Leave out the speed, or disconnect {prescribed[0][0].path}."))
     made = Group(
         name or str(nodes[inside[0][0]].ports[0]), nodes[inside[0][0]].domain,
         tuple(n for n, _, _ in inside), tuple(r for _, r, _ in inside), tuple(o for _, _, o in inside),

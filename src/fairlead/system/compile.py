@@ -18,7 +18,9 @@ from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Tables, build_blocks
+from fairlead.system.determinacy import undetermined
 from fairlead.system.driver import callbacks
+from fairlead.system.initial import starts
 from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.program import Entries, Program, plan
 from fairlead.system.ranks import signal_ranks
@@ -32,13 +34,17 @@ Integers = NDArray[np.int64]
 
 
 def compile(flat: FlatModel, accuracy: float = 1e-3) -> System:
-    """Compile a flat model. Raises ModelError for laws that cannot be traced and loops of signals."""
+    """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
     kernels = _kernels(flat)
     structures = {path: made.structure for path, made in kernels.items()}
     effect = flat.assembly.netlist.effects.get("energy")
     numbering = number(flat, structures, energy=effect is None or effect.plain() != "off")
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
+    begin, faults = starts(flat, numbering)
+    faults += undetermined(flat, numbering, blocks)
+    if faults:
+        raise ModelError(faults)
     memory: dict[str, NDArray[Any]] = {}
     _offsets(blocks, numbering, memory)
     program = _program(flat, blocks, numbering)
@@ -49,7 +55,7 @@ def compile(flat: FlatModel, accuracy: float = 1e-3) -> System:
     unknowns = numbering.unknowns
     system = System(
         flat, numbering, blocks, callbacks().address, memory["context"].ctypes.data,
-        np.array([u.start for u in unknowns]), Pattern(program.starts, program.rows), mass_pattern, memory["zones"],
+        begin, Pattern(program.starts, program.rows), mass_pattern, memory["zones"],
         np.array([u.differential for u in unknowns], dtype=bool), np.array([u.kind == "ledger" for u in unknowns], dtype=bool),
         chosen.absolute, chosen.relative, chosen.cap, guard_tolerances([g[1] for g in guards], chosen.cap),
         memory["guard_machines"], [path for path, _ in machines], [g[0] for g in guards], _machine_zones(blocks),

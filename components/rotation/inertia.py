@@ -1,0 +1,26 @@
+"""A rotating body."""
+
+from fairlead.component import Component, Law, Output, Parameter, Rotational
+
+
+class Inertia(Component):
+    """A body that turns about a fixed axis:  torque = inertia * angular acceleration."""
+
+    shaft = Rotational("the body itself")
+    moment = Parameter("kg*m^2", "Moment of inertia about the axis.", above=0)
+    angle = Parameter("rad", "Angle at the start.", default=None)
+    speed = Parameter("rad/s", "Angular speed at the start.", default=None)
+    turned = Output("rad", "Angle.")
+    rate = Output("rad/s", "Angular speed.")
+
+    def law(p, shaft):
+        """Inertia is not a flow of this law but an entry of the mass matrix, see `inertia`."""
+        return Law(shaft=0, turned=shaft.angle, rate=shaft.speed, stored=p.moment * shaft.speed**2 / 2)
+
+    def inertia(p):
+        """Moment of inertia at the shaft [kg m^2]."""
+        return {"shaft": p.moment}
+
+    def start(p):
+        """Angle and speed at the start, where given."""
+        return {"shaft": (p.angle, p.speed)}
