@@ -41,7 +41,7 @@ class ArrayModule(Composite):
     inboard = Translational("inboard end connector")
     outboard = Translational("outboard end connector")
     path = Path("the route the line runs along")
-    length = Parameter("m", "Length without tension.", above=0)
+    length = Parameter("m", "Length at the start, under the tension it has there.", above=0)
     element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0)
     start = Parameter("m", "Position of the inboard end along the route at the start.", default=0.0)
     tension = Parameter("N", "Uniform tension at the start.", default=0.0, least=0)
@@ -63,12 +63,12 @@ class ArrayModule(Composite):
         """Masses, elements and connectors; the contacts come when the line is laid on a route."""
         n = max(1, round(p.length / p.element))
         each = p.length / n
-        strain = p.tension / (p.hose.stiffness + p.core.stiffness)
+        free = each / (1 + p.tension / (p.hose.stiffness + p.core.stiffness))
         children, joins = {}, []
         registration = scene.make(Registration)
         for i in range(n + 1):
             share = each if 0 < i < n else each / 2
-            x = p.start + i * each * (1 + strain)
+            x = p.start + i * each
             extra = p.connector_mass if i in (0, n) else 0.0
             children[f"hose_node[{i}]"] = scene.make(Mass, mass=p.hose.mass * share + extra, position=x)
             children[f"core_node[{i}]"] = scene.make(Mass, mass=p.core.mass * share, position=x)
@@ -77,7 +77,7 @@ class ArrayModule(Composite):
             joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
         for kind, layer, name in ((Hose, p.hose, "hose"), (Core, p.core, "core")):
             damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
-            element = scene.make(kind, axial_stiffness=layer.stiffness, length=each, damping=damping)
+            element = scene.make(kind, axial_stiffness=layer.stiffness, length=free, damping=damping)
             for i in range(n):
                 children[f"{name}[{i}]"] = element
                 joins.append((f"{name}[{i}].a", f"{name}_node[{i}].flange"))
