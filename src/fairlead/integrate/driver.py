@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 
-from fairlead.integrate import ordering
+import fairlead.integrate.ordering as ordering
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import Memory

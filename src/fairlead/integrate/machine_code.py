@@ -7,7 +7,7 @@ import functools
 import importlib.resources
 from collections.abc import Callable
 
-from fairlead import native
+import fairlead.native as native
 
 SOURCES = (
     "memory.py", "foreign.py", "linear.py", "sparse.py", "rosenbrock.py", "interpolant.py", "controller.py",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import fairlead.results.run_file as run_file
 from fairlead.errors import UsageError
-from fairlead.results import run_file
 from fairlead.results.events import EVENT_FILE
 from fairlead.results.store import SERIES_FILE, TEMPORARY
 

@@ -26,8 +26,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import fairlead.results.claim as claim
+import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError, listing
-from fairlead.results import claim, run_file
 from fairlead.results.events import EVENT_FILE, Event, EventWriter
 from fairlead.results.signal import Signal
 from fairlead.results.store import SERIES_FILE, SeriesWriter

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.results import layout
+import fairlead.results.layout as layout
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.results import layout
+import fairlead.results.layout as layout
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
 from fairlead.results.signal import Signal
 

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
-from fairlead.results import run_file
 from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.signal import Signal, matching
