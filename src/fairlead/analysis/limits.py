@@ -37,7 +37,7 @@ class Limit:
         if not len(rows):
             return
         beyond = self.sense * (rows[:, self.columns] - self.bound)
-        k, j = np.unravel_index(int(beyond.argmax()), beyond.shape)
+        k, j = divmod(int(beyond.argmax()), beyond.shape[1])
         if beyond[k, j] > self.worst:
             self.worst = float(beyond[k, j])
             value = rows[k, self.columns[j]]

@@ -10,9 +10,10 @@ tables and waves.
 from __future__ import annotations
 
 import functools
+import operator
 import pathlib
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal, Union
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, create_model
 
@@ -60,9 +61,13 @@ def make(kind: type[Declared], **given: Any) -> Values:
     return _values(kind, model)
 
 
-@functools.cache
 def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
+    return _model(cast(Any, kind))  # mypy takes the __hash__ of instances for that of the class
+
+
+@functools.cache
+def _model(kind: type[Declared]) -> type[BaseModel]:
     fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
     if issubclass(kind, Family) and kind.key:
         fields[kind.key] = (
@@ -75,7 +80,7 @@ def model_of(kind: type[Declared]) -> type[BaseModel]:
 def family_type(family: type[Family], keep: Callable[[type[Family]], Any] | None = None) -> Any:
     """The annotated union of all members of a family, with the bare value as a short form."""
     models = [model_of(member) for member in family.members.values()]
-    union: Any = Union[tuple(models)] if len(models) > 1 else models[0]
+    union: Any = functools.reduce(operator.or_, models)
     inner = Annotated[union, Field(discriminator=family.key)] if len(models) > 1 else union
     return Annotated[inner, BeforeValidator(functools.partial(_with_word, family))]
 
@@ -98,7 +103,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
     default = ... if getattr(declared, "default", REQUIRED) is REQUIRED else declared.default
     kind: Any
     if isinstance(declared, Parameter):
-        bounds = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
+        bounds: dict[str, Any] = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
         limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
         schema = {"type": ["number", "string"], **_schema_bounds(declared)}
         kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: si(v, u)), limits, _Schema(schema)]
@@ -107,22 +112,24 @@ def _field(declared: Any) -> tuple[Any, Any]:
     elif isinstance(declared, Count):
         kind = Annotated[int, BeforeValidator(_whole), Field(ge=declared.least, le=declared.most)]
     elif isinstance(declared, Part):
-        kind = family_type(declared.family)  # type: ignore[arg-type]
+        kind = family_type(declared.family)
     elif isinstance(declared, Block):
         inner: dict[str, Any] = {name: _field(d) for name, d in declared.parameters.items()}
         kind = create_model("Block", __config__=STRICT, **inner)
         if all(not model_field.is_required() for model_field in kind.model_fields.values()):
             default = Field(default_factory=kind)
     elif isinstance(declared, Stations):
-        kind = list[family_type(declared.family)]  # type: ignore[misc, arg-type]
+        kind = list[family_type(declared.family)]  # type: ignore[misc]  # a type made at run time
     else:
         kind = _table_type(declared)
     if default is None:
         kind = kind | None
     described = _hover(declared)
-    validated = isinstance(default, str | int | float) and not isinstance(declared, Choice)
-    if default is ... or not isinstance(default, str | int | float | type(None)):
-        return kind, default if default is not ... else Field(description=described)
+    if default is ...:
+        return kind, Field(description=described)
+    if not isinstance(default, str | int | float | None):
+        return kind, default
+    validated: Any = default is not None and not isinstance(declared, Choice)
     return kind, Field(default=default, description=described, validate_default=validated)
 
 
@@ -210,17 +217,23 @@ def _fault(kind: type[Declared], detail: Any, tree: Value, path: str) -> Fault:
     """One pydantic error as a Fault at the place in the netlist it speaks of."""
     node, names = tree, []
     for step in detail["loc"]:
-        if isinstance(node.content, dict) and step in node.content:
-            node = node.content[step]
-        elif isinstance(node.content, list) and isinstance(step, int) and step < len(node.content):
-            node = node.content[step]
-        elif not (
-            isinstance(step, str) and detail["type"] in ("missing", "extra_forbidden") and step == detail["loc"][-1]
-        ):
+        inner = _inside(node, step)
+        if inner is not None:
+            node = inner
+        elif detail["type"] not in ("missing", "extra_forbidden") or step != detail["loc"][-1]:
             continue  # the tag of a union, not a key of the netlist
         names.append(f"[{step}]" if isinstance(step, int) else f".{step}")
     full = path + "".join(names)
     return _explain(kind, detail, node, full)
+
+
+def _inside(node: Value, step: str | int) -> Value | None:
+    """The entry of a map or of a list, if it has it."""
+    if isinstance(node.content, dict):
+        return node.content.get(str(step))
+    if isinstance(node.content, list) and isinstance(step, int) and step < len(node.content):
+        return node.content[step]
+    return None
 
 
 def _explain(kind: type[Declared], detail: Any, node: Value, full: str) -> Fault:

@@ -8,6 +8,7 @@ while a step is tried.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -49,7 +50,7 @@ class PiecewisePolynomial:
         rows = self.rows.copy()
         rows[:, 4:] = self.rows[:, 3:7] / np.arange(1, DEGREE + 1)
         rows[:, 3] = 0.0
-        for before, row in zip(rows, rows[1:], strict=False):  # continuous at every border
+        for before, row in itertools.pairwise(rows):  # continuous at every border
             row[3] += _value(before, row[0]) - _value(row, row[0])
         whole = PiecewisePolynomial(rows)
         rows[:, 3] -= whole(start)

@@ -16,9 +16,10 @@ A quantity in time is a number, or a map of terms that add up:
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 import pathlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -85,7 +86,7 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
         raise ValueError(f"a table has 2 to {MOST_POINTS} points, this one has {len(rows)}")
     x = [si(row[0], x_unit) for row in rows]
     y = [si(row[1], y_unit) for row in rows]
-    for before, after in zip(x, x[1:], strict=False):
+    for before, after in itertools.pairwise(x):
         if not after > before:
             raise ValueError(f"{x_name} must rise from point to point; {after:g} follows {before:g}")
     return np.array(x), np.array(y), kind
@@ -119,7 +120,7 @@ def _from_file(name: Any, folder: pathlib.Path) -> list[list[Any]]:
         raise ValueError(f"file {name} is not two columns of numbers: {error}") from error
 
 
-def _only(settings: Any, allowed: set[str], needed: set[str] = frozenset()) -> None:  # type: ignore[assignment]
+def _only(settings: Any, allowed: Set[str], needed: Set[str] = frozenset()) -> None:
     if not isinstance(settings, Mapping):
         raise ValueError(f"expected a map with {listing(sorted(allowed))}")
     for name in settings:
@@ -146,9 +147,7 @@ def _positive(settings: dict[str, float], *names: str) -> None:
 def _path_of_points(times: list[float], levels: list[float]) -> PiecewisePolynomial:
     """Straight lines through points; two points at one time are a jump."""
     borders, terms = [times[0]], [[levels[0]]]
-    for (t0, y0), (t1, y1) in zip(
-        zip(times, levels, strict=True), list(zip(times, levels, strict=True))[1:], strict=False
-    ):
+    for (t0, y0), (t1, y1) in itertools.pairwise(zip(times, levels, strict=True)):
         if t1 > t0:
             terms.append([y0, (y1 - y0) / (t1 - t0)])
             borders.append(t1)
@@ -233,7 +232,7 @@ def table_schema(declared: Table) -> dict[str, Any]:
 
 def waveform_schema(declared: Waveform) -> dict[str, Any]:
     """JSON Schema of a quantity in time."""
-    terms = {name: {} for name in TERMS}
+    terms: dict[str, Any] = {name: {} for name in TERMS}
     named = {"type": "object", "properties": terms, "additionalProperties": False, "minProperties": 1}
     return {
         "description": f"{declared.doc} {wanted(declared.unit)}".strip(),

@@ -17,14 +17,20 @@ from typing import Any
 
 import sympy
 
-from fairlead.component.base import LEDGER, Declaration, Declared, source_place, terms_of
-from fairlead.component.declare import Choice, Count, Hold, Law, Part, Table, Waveform
+from fairlead.component.base import LEDGER, Declaration, source_place, terms_of
+from fairlead.component.declare import Choice, Count, Hold, Law, Part, Port, Table, Waveform
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.values import Variant
 
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
 TAU = "@tau"  # time constant of a hold row, a setting of the run
+
+
+class Unsaid(sympy.Function):
+    """A function of a part that a listing leaves open, such as `curve.coefficient`; no kernel has one."""
+
+    is_real = True
 
 
 class TraceError(TypeError):
@@ -140,9 +146,8 @@ class _TableReader:
 class _PortReader:
     """The symbolic view of a port: across variables, acceleration (guards, outputs), reaction, mass."""
 
-    def __init__(self, name: str, declared: Declared | Any) -> None:
+    def __init__(self, name: str, declared: Port) -> None:
         domain = declared.domain
-        self._key = name
         for (attribute, _), kind in zip(domain.across, ("x", "v"), strict=False):
             setattr(self, attribute, symbol(f"port:{name}:{kind}"))
         if domain.acceleration:
@@ -270,7 +275,7 @@ def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     if expression.has(sympy.nan, sympy.zoo, sympy.oo):
         raise TraceError(f"{place}: {function.__name__} gives {expression}, which is not finite")
     for part in expression.atoms(sympy.Function, sympy.Max, sympy.Min, sympy.Piecewise):
-        if not isinstance(part, (*SMOOTH, *KINKED)):
+        if not isinstance(part, (*SMOOTH, *KINKED, Unsaid)):
             raise TraceError(f"{place}: {part} cannot be compiled; use the functions of fairlead.component")
     return expression
 

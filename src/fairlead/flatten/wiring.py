@@ -9,9 +9,10 @@ from __future__ import annotations
 import networkx as nx
 
 from fairlead.component.declare import PATH, Input, Output, Port
-from fairlead.component.instantiate import Assembly, PortRef
+from fairlead.component.instantiate import Assembly, Join, PortRef
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import Node
+from fairlead.quantities import article, parse_unit
 
 
 def port_graph(assembly: Assembly) -> nx.Graph:
@@ -32,28 +33,32 @@ def port_graph(assembly: Assembly) -> nx.Graph:
 
 def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef, PortRef], list[Fault]]:
     """Nodes and signal links, and everything wrong with the connections."""
-    faults = [
-        _to_itself(join.ports[0], join.where) for join in assembly.joins if len(set(join.ports)) < len(join.ports)
-    ]
+    faults = [_to_itself(join) for join in assembly.joins if len(set(join.ports)) < len(join.ports)]
     nodes: list[Node] = []
     links: dict[PortRef, PortRef] = {}
     alone: dict[str, list[PortRef]] = {}
     for members in nx.connected_components(graph):
         ports = sorted(members, key=str) if len(members) < 50 else list(members)
         declared = {ref: graph.nodes[ref]["declared"] for ref in ports}
-        if any(isinstance(d, Input | Output) for d in declared.values()):
+        if len({_kind(d) for d in declared.values()}) > 1:
+            faults.append(_mixed(graph, declared))
+            assembly.excused.update(ports)
+        elif isinstance(declared[ports[0]], Input | Output):
             found, wrong = _signal(declared, _written(graph, ports))
             links |= found
             faults += wrong
-            continue
-        domains = {d.domain for d in declared.values()}
-        if len(domains) > 1:
-            faults.append(_mixed(declared, _written(graph, ports)))
-        elif PATH not in domains:
-            nodes.append(Node(tuple(ports), domains.pop()))
-            if len(ports) == 1 and not declared[ports[0]].optional:
-                alone.setdefault(ports[0].instance, []).append(ports[0])
+            assembly.excused.update(ports if wrong else ())
+        for domain in dict.fromkeys(d.domain for d in declared.values() if isinstance(d, Port)):
+            if domain != PATH:  # there are several only beside a fault, so that the other mistakes are found too
+                nodes.append(Node(tuple(r for r in ports if getattr(declared[r], "domain", None) == domain), domain))
+                if len(ports) == 1 and not declared[ports[0]].optional and ports[0] not in assembly.excused:
+                    alone.setdefault(ports[0].instance, []).append(ports[0])
     return nodes, links, faults + _dangling(assembly, alone)
+
+
+def _kind(declared: Port | Input | Output) -> str:
+    """What can be joined with what: the name of a domain, or "signal"."""
+    return declared.domain.name if isinstance(declared, Port) else "signal"
 
 
 def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
@@ -64,36 +69,48 @@ def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
 
 
 def _signal(
-    declared: dict[PortRef, Port | Input | Output], where: Location
+    declared: dict[PortRef, Input | Output], where: Location
 ) -> tuple[dict[PortRef, PortRef], list[Fault]]:
     """One output feeds any number of inputs."""
     outputs = [ref for ref, d in declared.items() if isinstance(d, Output)]
     inputs = [ref for ref, d in declared.items() if isinstance(d, Input)]
-    ports = [ref for ref, d in declared.items() if isinstance(d, Port)]
-    if len(declared) == 1:
-        return {}, []
-    if ports:
-        what = f"{ports[0]} is a {declared[ports[0]].domain.name} port, {(outputs + inputs)[0]} a signal"
-        return {}, [Fault(where, what, "A signal joins one output to inputs; a sensor turns motion into a signal.")]
-    if len(outputs) != 1:
-        names = ", ".join(map(str, outputs)) or "none"
-        return {}, [
-            Fault(where, f"{inputs[0] if inputs else outputs[0]}: a signal needs exactly one output, here: {names}")
-        ]
-    return {target: outputs[0] for target in inputs}, []
+    if len(declared) == 1 or (len(outputs) == 1 and not _other_unit(declared, outputs[0])):
+        return dict.fromkeys(inputs, outputs[0]) if outputs else {}, []
+    if len(outputs) == 1:
+        odd = _other_unit(declared, outputs[0])
+        what = f"{outputs[0]} is in {declared[outputs[0]].unit}, {odd} wants {declared[odd].unit}."
+        return {}, [Fault(where, what, "Join an output with inputs of its unit.")]
+    if outputs:
+        what = f"{' and '.join(map(str, outputs))} are outputs; a signal has one source."
+        return {}, [Fault(where, what, "Keep one of them.")]
+    what = f"{' and '.join(map(str, inputs))} are inputs, and nothing gives the signal."
+    return {}, [Fault(where, what, "Add the output that they are to read to this connection.")]
 
 
-def _mixed(declared: dict[PortRef, Port], where: Location) -> Fault:
-    first: dict[str, PortRef] = {}
-    for ref, port in declared.items():
-        first.setdefault(port.domain.name, ref)
-    (one, a), (two, b) = list(first.items())[:2]
-    return Fault(where, f"{a} is a {one} port, {b} a {two} one; they cannot be joined.",
+def _other_unit(declared: dict[PortRef, Input | Output], output: PortRef) -> PortRef | None:
+    """An input that wants another kind of quantity than the output gives."""
+    given = parse_unit(declared[output].unit).dimension
+    odd = (ref for ref, d in declared.items() if isinstance(d, Input) and parse_unit(d.unit).dimension != given)
+    return next(odd, None)
+
+
+def _mixed(graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
+    """Told where the two kinds meet."""
+    for a, b, data in graph.subgraph(declared).edges(data=True):
+        one, two = _kind(declared[a]), _kind(declared[b])
+        if one != two:
+            break
+    if "signal" in (one, two):
+        a, b, one = (b, a, two) if one == "signal" else (a, b, one)
+        return Fault(data["where"], f"{a} is a {one} port, {b} a signal; they cannot be joined.",
+                     "A signal joins one output to inputs; a sensor turns a motion into a signal.")  # fmt: skip
+    return Fault(data["where"], f"{a} is a {one} port, {b} {article(two)} one; they cannot be joined.",
                  f"Join {a} with another {one} port, or put a component with both kinds between them.")  # fmt: skip
 
 
-def _to_itself(port: PortRef, where: Location) -> Fault:
-    return Fault(where, f"{port} is connected to itself.", "Name the port it belongs to, or remove the connection.")
+def _to_itself(join: Join) -> Fault:
+    port = next(port for port in join.ports if join.ports.count(port) > 1)
+    return Fault(join.where, f"{port} is connected to itself.", "Name the port it belongs to, or remove the connection.")
 
 
 def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault]:
@@ -102,15 +119,10 @@ def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault
     for path, ports in alone.items():
         instance = assembly.instances[path]
         if len(ports) == len(instance.type.declaration.ports) and path in assembly.netlist.components:
-            what, way_out = (
-                f"{path} is connected to nothing.",
-                f"Connect {', '.join(map(str, ports))}, or remove {path}.",
-            )
+            what = f"{path} is connected to nothing."
+            way_out = f"Connect {', '.join(map(str, ports))}, or remove {path}."
         else:
-            what, way_out = (
-                f"{ports[0]} is connected to nothing.",
-                "Connect it; a free end needs a Mass, a fixed one a Ground.",
-            )
-            what = f"{', '.join(map(str, ports))}: connected to nothing." if len(ports) > 1 else what
+            what = f"{' and '.join(map(str, ports))} {'are' if len(ports) > 1 else 'is'} connected to nothing."
+            way_out = "Connect it; a free end needs a Mass, a fixed one a Ground."
         faults.append(Fault(instance.where, what, way_out))
     return faults

@@ -141,8 +141,9 @@ class _Lowering:
     def _Assign(self, assignment: Any) -> None:
         target = assignment.targets[0]
         if isinstance(target, ast.Tuple):
-            for name, each in zip(target.elts, assignment.value.elts, strict=True):
-                self._store(name.id, self.value(each))
+            names = [name.id for name in target.elts if isinstance(name, ast.Name)]
+            for name, value in zip(names, [self.value(each) for each in assignment.value.elts], strict=True):
+                self._store(name, value)
             return
         value = self.value(assignment.value)
         if isinstance(target, ast.Name):
@@ -188,7 +189,8 @@ class _Lowering:
             return self.builder.neg(inner) if inner.type == INT else self.builder.fneg(inner)
         if isinstance(node, ast.BinOp):
             return self.operation(node)
-        assert isinstance(node, ast.Call) and isinstance(node.func, ast.Name), ast.dump(node)
+        assert isinstance(node, ast.Call), ast.dump(node)
+        assert isinstance(node.func, ast.Name), ast.dump(node)
         return self.call(node.func.id, [self.value(argument) for argument in node.args])
 
     def operation(self, node: ast.BinOp) -> Any:

@@ -58,10 +58,8 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers) -> Progra
     by their place in z: below n an unknown, then the signals, and n + n_signals + 1 the time; the rest
     (zero, accelerations) has no derivative.
     """
-    row, z, partial, coef = (
-        np.concatenate(x) if x else np.zeros(0, np.int64)
-        for x in (entries.row, entries.z, entries.partial, entries.coef)
-    )
+    row, z, partial = (_joined(column) for column in (entries.row, entries.z, entries.partial))
+    coef = np.concatenate([*entries.coef, np.zeros(0)])
     direct = (z < n) | (z == n + n_signals + 1)
     via = (z >= n) & (z < n + n_signals)
     column = np.where(z < n, z, n)
@@ -90,6 +88,10 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers) -> Progra
         np.ascontiguousarray(np.concatenate(steps)), np.concatenate(coefs), length + len(keys) + n, length,
         starts.astype(np.int64), (keys % max(n, 1)).astype(np.int64),
     )  # fmt: skip
+
+
+def _joined(columns: list[Integers]) -> Integers:
+    return np.concatenate([*columns, np.zeros(0, np.int64)])
 
 
 @dataclass(frozen=True)

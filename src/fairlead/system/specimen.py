@@ -6,16 +6,14 @@ In `specimen(Hold)` the part `curve` stands for any curve: the laws say `curve.c
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
-
-import sympy
 
 from fairlead.component.base import METHODS, Declared, Family
 from fairlead.component.declare import REQUIRED, Choice, Parameter, Part, Table, Waveform
 from fairlead.component.piecewise import linear_table
 from fairlead.component.scene import is_head
-from fairlead.component.trace import Traced, TraceError, trace
+from fairlead.component.trace import Traced, TraceError, Unsaid, trace
 from fairlead.component.values import Values, Variant, steady, variant_of
 
 
@@ -75,8 +73,10 @@ def _any_member(path: str, family: Any) -> type[Declared]:
 
 
 def _unsaid(name: str) -> Callable[..., Any]:
+    said = type(name, (Unsaid,), {})
+
     def function(p: Any, *arguments: Any) -> Any:
-        return sympy.Function(name, real=True)(*arguments)
+        return said(*arguments)
 
     return function
 
@@ -84,7 +84,7 @@ def _unsaid(name: str) -> Callable[..., Any]:
 def families_of(kind: type[Declared]) -> list[type[Family]]:
     """Families that a class takes its parts from, nearest first."""
     found: dict[type[Family], None] = {}
-    kinds = kind.members.values() if is_head(kind) else [kind]  # type: ignore[attr-defined]
+    kinds: Iterable[type[Declared]] = kind.members.values() if is_head(kind) else [kind]
     for family in (getattr(d, "family", None) for k in kinds for d in k.declaration.parameters.values()):
         if family is not None and family not in found:
             found |= dict.fromkeys([family, *families_of(family)])
