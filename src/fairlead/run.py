@@ -81,7 +81,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         outcome = integrate(system, _engine_settings(netlist, settings), watch)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
-            summary["profile"] = _profile(system, outcome)
+            summary["profile"] = _profile(system, outcome, compiled, time.perf_counter() - begun)
         directory.finish(_status(outcome), summary)
     return Result.open(path)
 
@@ -142,18 +142,7 @@ def _named(system: System, row: Any) -> tuple[float, str, str, str, str]:
     return float(row["t"]), system.machine_names[machine], zones[before], zones[after], guard
 
 
-def _profile(system: System, outcome: Outcome) -> str:
-    """Who made the run slow: the machines that switched most, the unknowns that rejected steps."""
-    counters = outcome.counters
-    lines = ["zone switches by component:"]
-    for k in np.argsort(-counters.switches_by_machine, kind="stable")[:10]:
-        if counters.switches_by_machine[k]:
-            lines.append(f"  {counters.switches_by_machine[k]:8d}  {system.machine_names[k]}")
-    lines.append("rejected steps by the unknown with the largest error:")
-    for k in np.argsort(-counters.rejections_by_unknown, kind="stable")[:10]:
-        if counters.rejections_by_unknown[k]:
-            lines.append(f"  {counters.rejections_by_unknown[k]:8d}  {system.unknown_names[k]}")
-    steps, switches = counters.steps, counters.switches
-    advice = "Most steps end at a switch: loosen the accuracy or lower the number of contacts." if switches * 3 > steps else (
-        "Few switches: the smooth motion sets the step; damping of fast modes or a looser accuracy helps.")  # fmt: skip
-    return "\n".join([*lines, advice])
+def _profile(system: System, outcome: Outcome, compiled: float, wall: float) -> str:
+    from fairlead.analysis.profile import Times, profile
+
+    return profile(system, outcome.counters, Times(compiled, outcome.loop_wall, wall))

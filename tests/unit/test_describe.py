@@ -47,9 +47,7 @@ class Stop(Component):
     @zone("pressed")
     def pressed(p, a, b, force, depth):
         """The stop pushes."""
-        return Law(
-            a=-force, b=force, force=force - p.stiffness * (b.x - a.x - p.gap), depth=b.x - a.x - depth
-        )
+        return Law(a=-force, b=force, force=force - p.stiffness * (b.x - a.x - p.gap), depth=b.x - a.x - depth)
 
     @guard("apart", to="pressed", unit="1")
     def touches(p, a, b):
@@ -113,6 +111,24 @@ def test_inertia_and_prescribed_motion_are_told() -> None:
     assert "flange.force = mass*flange.a" in describe("Mass", TYPES)
     assert "flange does not move" in describe("Ground", TYPES)
     assert "v = motion'(t)" in describe("MotionSource", TYPES)
+
+
+def test_ties_are_told_with_the_forces_they_pass_on() -> None:
+    class Lever(Component):
+        """Moves b twice as far."""
+
+        a, b = Translational(), Translational()
+        arm = Parameter("m", "Shift.", default=0.0)
+
+        def law(p):
+            return Law()
+
+        def ties(p):
+            return (("a", "b", 2.0, p.arm),)
+
+    lines = describe("Lever", {"Lever": Lever}).splitlines()
+    assert "  b.x = arm + 2*a.x, always" in lines
+    assert "  a.force = -2*b.force" in lines
 
 
 @pytest.mark.parametrize("name", sorted(TYPES))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 from sympy import sympify
 
@@ -25,14 +24,15 @@ def behaviour(kind: type[Declared]) -> Iterator[str]:
     except TraceError as error:
         yield from (*heading("equations"), f"  cannot be traced: {error}")
         return
-    writing = writing_of(traced, _inertias(kind, traced))
+    writing = writing_of(traced)
     if len(traced.zones) > 1:
         yield from heading("zones")
         yield from columns(_without_repeats((name, first_line(kind.declaration.laws[name])) for name in traced.zones))
         yield from _transitions(kind, traced, writing)
     yield from heading(f"equations{_chosen(kind, traced)}")
-    yield from _equations(traced, writing)
-    yield from _legend(traced)
+    said = list(_equations(traced, writing))
+    yield from said or ["  none; it takes part in nothing but the graph"]
+    yield from _legend(traced, "\n".join(said))
 
 
 def functions(kind: type[Declared], indent: int = 2) -> list[str]:
@@ -51,14 +51,6 @@ def functions(kind: type[Declared], indent: int = 2) -> list[str]:
             said = formula(tables_as_functions(sympify(value), reads), {})
             rows.append((f"{name}({', '.join(arguments)}) = {said}", first_line(function)))
     return columns(rows, indent)
-
-
-def _inertias(kind: Any, traced: Traced) -> dict[str, Any]:
-    """Inertia at each port, as an expression; none where it is computed by plain Python."""
-    try:
-        return trace_function(traced.variant, kind.inertia)[0] if hasattr(kind, "inertia") else {}
-    except TraceError:
-        return {}
 
 
 def _chosen(kind: type[Declared], traced: Traced) -> str:
@@ -114,15 +106,16 @@ def _equations(traced: Traced, writing: Writing) -> Iterator[str]:
                 yield from wrapped(f"    {line}", 8)
 
 
-def _legend(traced: Traced) -> Iterator[str]:
+def _legend(traced: Traced, equations_said: str) -> Iterator[str]:
     """What the words that no list explains stand for."""
     has = traced.variant.type.declaration
     names = {
         s.name for zone in traced.zones.values() for guard in zone.guards for v in guard.values for s in v.free_symbols
     }
-    port, word = next(((n, p.domain.through[0]) for n, p in has.ports.items() if p.domain.across), ("", ""))
+    flows = [(n, f"{n}.{p.domain.through[0]}") for n, p in has.ports.items()]
+    port, flow = next(((n, flow) for n, flow in flows if f"{flow} =" in equations_said), ("", ""))
     if port:
-        yield from ("", f"  {port}.{word} is what acts on the component at {port}.")
+        yield from ("", f"  {flow} is what acts on the component at {port}.")
     for name in has.ports:
         if f"p:{name}.inverse_mass" in names:
             yield f"  {name}.inverse_mass is 1 / mass of the body at {name}, 0 if its motion is prescribed."

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterable, Iterator, Mapping
-from typing import cast
 
 from fairlead.component.base import Declared, Family
 from fairlead.component.scene import is_head
@@ -55,7 +54,7 @@ def _kinds(types: Iterable[type[Declared]]) -> dict[str, type[Family]]:
     """Members of all families in reach, by class name."""
     found: dict[str, type[Family]] = {}
     for kind in types:
-        heads = [cast(type[Family], kind)] if is_head(kind) else []
+        heads = [kind] if is_head(kind) else []
         for family in [*heads, *families_of(kind)]:
             found |= {member.__name__: member for member in family.members.values()}
     return found
@@ -65,7 +64,7 @@ def _type(name: str, kind: type[Declared]) -> Iterator[str]:
     yield name
     yield from paragraph(inspect.getdoc(kind))
     if is_head(kind):
-        yield from _variants(cast(type[Family], kind))
+        yield from _variants(kind)
     else:
         yield from interface(kind.declaration)
         yield from _does(kind)

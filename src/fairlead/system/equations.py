@@ -8,13 +8,14 @@ An output that stands for a longer expression is used by its name wherever that 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import sympy
 
 from fairlead.component.declare import Parameter, Port
-from fairlead.component.trace import Traced, TracedGuard, TracedZone, symbol
+from fairlead.component.trace import Traced, TracedGuard, TracedZone, TraceError, symbol, trace_function
 from fairlead.system.formula import Names, formula, is_parameter, names_of, negative
 
 LEDGER_WORDS = {"stored": "stored energy", "dissipated": "dissipated power", "supplied": "supplied power"}
@@ -31,9 +32,10 @@ class Writing:
     positive: frozenset[str]  # keys of parameters that are above zero
     inertias: Mapping[str, sympy.Expr]
     prescribed: Mapping[str, tuple[str, str, str] | None]
+    ties: tuple[tuple[str, str, sympy.Expr, sympy.Expr], ...]  # (a, b, ratio, offset):  b = ratio * a + offset
 
 
-def writing_of(traced: Traced, inertias: Mapping[str, sympy.Expr]) -> Writing:
+def writing_of(traced: Traced) -> Writing:
     """The writing of a traced class."""
     kind, has = traced.variant.type, traced.variant.type.declaration
     prescribes = getattr(kind, "prescribes", None)
@@ -45,9 +47,24 @@ def writing_of(traced: Traced, inertias: Mapping[str, sympy.Expr]) -> Writing:
         names_of(has),
         frozenset(has.states),
         frozenset(positive),
-        inertias,
+        _asked(traced, "inertia") or {},
         prescribes() if prescribes else {},
+        tuple((a, b, _exact(ratio), _exact(offset)) for a, b, ratio, offset in _asked(traced, "ties") or ()),
     )
+
+
+def _asked(traced: Traced, name: str) -> Any:
+    """What a method of `p` says of symbols; None if the class has none or computes it in plain Python."""
+    method = getattr(traced.variant.type, name, None)
+    try:
+        return trace_function(traced.variant, method)[0] if method else None
+    except TraceError:
+        return None
+
+
+def _exact(number: Any) -> sympy.Expr:
+    """1 for 1.0."""
+    return sympy.Integer(number) if isinstance(number, float) and number.is_integer() else sympy.sympify(number)
 
 
 def equations(zone: TracedZone, writing: Writing) -> list[str]:
@@ -58,7 +75,7 @@ def equations(zone: TracedZone, writing: Writing) -> list[str]:
     lines += [f"{say(row.slip)} is kept at 0 by {name}" for name, row in zone.holds.items()]
     lines += [_own(name, value, say, writing) for name, value in zone.own.items() if name not in zone.holds]
     lines += _together(_balances(zone, writing, say) | {n: t for n, t in outputs.items() if _is_number(t)})
-    lines += _prescribed(writing)
+    lines += [*_prescribed(writing), *_tied(writing)]
     return lines + [f"{LEDGER_WORDS[name]} = {say(value)}" for name, value in zone.ledger.items() if value != 0]
 
 
@@ -143,7 +160,17 @@ def _balances(zone: TracedZone, writing: Writing, say: _Say) -> dict[str, str]:
     return said
 
 
-def _prescribed(writing: Writing) -> Iterable[str]:
+def _tied(writing: Writing) -> Iterator[str]:
+    """Motions that follow each other, and the forces that do no work together."""
+    for a, b, ratio, offset in writing.ties:
+        y = writing.ports[b].domain.across[0][0]
+        one, other = symbol(f"port:{a}:x"), symbol(f"port:{b}:F")
+        names = {**writing.names, other.name: f"{b}.{writing.ports[b].domain.through[0]}"}
+        yield f"{b}.{y} = {formula(ratio * one + offset, names)}, always"
+        yield f"{a}.{writing.ports[a].domain.through[0]} = {formula(-ratio * other, names)}"
+
+
+def _prescribed(writing: Writing) -> Iterator[str]:
     for port, outputs in writing.prescribed.items():
         variables = [name for name, _ in writing.ports[port].domain.across]
         moves = (
