@@ -83,10 +83,36 @@ class Model:
         return compile(self.flat, self.netlist.run.accuracy)
 
     def check(self) -> list[Fault]:
-        """Go through all stages without running; returns warnings, raises ModelError for mistakes."""
-        from fairlead.analysis.limits import read_limits
+        """Go through all stages without running; returns warnings, raises ModelError for mistakes.
 
-        read_limits(self.netlist.limits, self.system.signals)
+        A stage that finds mistakes is passed on to the next as far as it goes, so that one call tells as many
+        as can be told.
+        """
+        from fairlead.analysis.names import unknown_signals
+        from fairlead.component.instantiate import survey as instantiate
+        from fairlead.component.registry import known_types
+        from fairlead.errors import without_echoes
+        from fairlead.flatten.flatten import survey as flatten
+        from fairlead.system.compile import untraceable
+
+        faults = list(self._faults)
+        assembly, found = instantiate(self.netlist, known_types(self.libraries))
+        faults += without_echoes(found, faults)
+        if self._faults:  # connections may be missing, so that open ports are only echoes
+            assembly.excuse_all()
+        flat, found = flatten(assembly)
+        faults += without_echoes(found, faults)
+        faults += unknown_signals(assembly)
+        if faults:
+            faults += without_echoes(untraceable(flat), faults)
+        else:
+            self.assembly, self.flat = assembly, flat
+            try:
+                assert self.system is not None
+            except ModelError as error:
+                faults += error.faults
+        if faults:
+            raise ModelError(_in_order(faults))
         return []
 
     def describe(self, stage: str = "flatten") -> str:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.declare import PATH, Input, Output, Port
 from fairlead.component.parameters import read
-from fairlead.component.scene import FRAMEWORK_EFFECTS, SWITCH, Scene, _is_switch, is_head
+from fairlead.component.scene import FRAMEWORK_EFFECTS, SWITCH, Scene, is_head, is_switch
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
@@ -75,12 +75,20 @@ class Assembly:
     instances: dict[str, Instance] = field(default_factory=dict)
     joins: list[Join] = field(default_factory=list)
     lines: dict[str, Line] = field(default_factory=dict)
-    routings: list[tuple[str, str, Location]] = field(default_factory=list)  # paths of two ends of a `path` connection
+    routings: list[tuple[str, str, Location]] = field(default_factory=list)  # the two ends of a `path` connection
     aliases: dict[str, PortRef] = field(default_factory=dict)  # outer name of an output or port -> the inner one
+    broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
+    excused: set[PortRef] = field(default_factory=set)  # ports joined to what could not be read: not open, if unconnected
 
     def add(self, path: str, values: Values, where: Location) -> None:
         """Add a leaf."""
         self.instances[path] = Instance(path, values, where, variant_of(values))
+
+    def excuse_all(self) -> None:
+        """Blame no port for being open: the netlist could not be read in full."""
+        for path, instance in self.instances.items():
+            has = instance.type.declaration
+            self.excused.update(PortRef(path, name) for name in (*has.ports, *has.inputs))
 
     def __str__(self) -> str:
         joins = (f"{' -- '.join(map(str, join.ports))}    {join.where}" for join in self.joins)
@@ -89,34 +97,31 @@ class Assembly:
 
 def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assembly:
     """Build all instances. Raises ModelError with every mistake of the netlist."""
-    scene = Scene(netlist.friction, netlist.effects, netlist.path.parent)
-    assembly = Assembly(netlist, scene)
+    assembly, faults = survey(netlist, types)
+    if faults:
+        raise ModelError(faults)
+    return assembly
+
+
+def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assembly, list[Fault]]:
+    """What can be made of a netlist in spite of its mistakes, and the mistakes, for `check`."""
+    assembly = Assembly(netlist, Scene(netlist.friction, netlist.effects, netlist.path.parent))
     faults: list[Fault] = []
-    broken: set[str] = set()
     for entry in netlist.components.values():
         kind = types.get(entry.type)
         if kind is None:
-            broken.add(entry.name)
-            what = f"{entry.name}: there is no component type {shown(entry.type)}. {did_you_mean(entry.type, types)}"
-            faults.append(
-                Fault(
-                    entry.type_where,
-                    what.rstrip(),
-                    "`fairlead describe` lists the types; --library adds a file of yours.",
-                )
-            )
-            continue
-        found = _read(scene, kind, entry.parameters, entry.name, entry.where, faults)
+            near = did_you_mean(entry.type, types) or f"There are {listing(sorted(types), 30)}."
+            what = f"{entry.name}: there is no component type {shown(entry.type)}. {near}"
+            faults.append(Fault(entry.type_where, what, "--library adds types from a file of yours."))
+        found = _read(assembly.scene, kind, entry.parameters, entry.name, entry.where, faults) if kind else None
         if found is None:
-            broken.add(entry.name)
+            assembly.broken.add(entry.name)
         else:
             _place(assembly, entry.name, found, entry.where)
     faults += _unknown_effects(assembly) + _unknown_friction(netlist, types)
     for ends in netlist.connections:
-        faults += _connect(assembly, ends, broken)
-    if faults:
-        raise ModelError(sorted(faults, key=lambda f: (f.where is None, f.where)))
-    return assembly
+        faults += _connect(assembly, ends)
+    return assembly, sorted(faults, key=lambda f: (f.where is None, f.where))
 
 
 def _read(
@@ -124,7 +129,7 @@ def _read(
 ) -> Values | None:
     member = scene.member(kind, given)
     if is_head(member):
-        key, words = member.key, list(member.members)  # type: ignore[attr-defined]
+        key, words = member.key, list(member.members)
         chosen = given.get(key) or scene.friction[key]
         what = f"{name}.{key}: there is no {key} {shown(chosen.plain())}. {did_you_mean(str(chosen.plain()), words)}"
         faults.append(Fault(chosen.where, what.rstrip(), f"There are {listing(words)}."))
@@ -156,39 +161,34 @@ def _inner(assembly: Assembly, text: str) -> PortRef:
     return assembly.aliases.get(text) or PortRef(instance, port)
 
 
-def _connect(assembly: Assembly, ends: tuple[EndPoint, ...], broken: set[str]) -> list[Fault]:
+def _connect(assembly: Assembly, ends: tuple[EndPoint, ...]) -> list[Fault]:
     """Resolve the ends of one connection; a path connection is noted for the flattening."""
-    refs, faults = [], []
-    for end in ends:
-        if end.component in broken:
-            return []
-        found = resolve(assembly, end)
-        if isinstance(found, Fault):
-            faults.append(found)
-        else:
-            refs.append(found)
-    if faults:
-        return faults
-    if all(isinstance(ref, str) for ref in refs):
-        if len(refs) != 2:
-            return [
-                Fault(ends[0].where, f"a path joins two ends, here are {len(refs)}", "Join one line with one route.")
-            ]
-        assembly.routings.append((refs[0], refs[1], ends[0].where))
-    elif any(isinstance(ref, str) for ref in refs):
-        return [Fault(ends[0].where, f"{ends[0].text} -- {ends[1].text}: a path can only be joined with a path.")]
-    else:
-        assembly.joins.append(Join(tuple(refs), ends[0].where))
-    return []
+    found = [resolve(assembly, end) for end in ends if end.component not in assembly.broken]
+    faults = [end for end in found if isinstance(end, Fault)]
+    paths = [end for end in found if isinstance(end, str)]
+    refs = [end for end in found if isinstance(end, PortRef)]
+    where = ends[0].where
+    if len(paths) + len(refs) < len(ends):  # the rest is joined, and nobody blamed for what is missing
+        assembly.excused.update(refs)
+    elif paths and refs:
+        what = f"{ends[0].text} -- {ends[1].text}: a path can only be joined with a path."
+        return [Fault(where, what, "A path joins a line with the route it runs along; flanges join bodies.")]
+    elif len(paths) > 2:
+        return [Fault(where, f"a path joins two ends, here are {len(paths)}.", "Join one line with one route.")]
+    elif paths:
+        assembly.routings.append((paths[0], paths[1], where))
+    if len(refs) > 1:
+        assembly.joins.append(Join(tuple(refs), where))
+    return faults
 
 
 def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
     """The port an end point names; the component's path alone when it is a `path` port."""
     owner, _, port = end.text.rpartition(".")
     line = assembly.lines.get(owner)
-    if line is not None and port in line.values.type.declaration.ports:
-        if line.values.type.declaration.ports[port].domain == PATH:
-            return owner
+    declared = line.values.type.declaration.ports.get(port) if line is not None else None
+    if declared is not None and declared.domain == PATH:
+        return owner
     if end.text in assembly.aliases:
         return assembly.aliases[end.text]
     instance = assembly.instances.get(owner)
@@ -197,14 +197,11 @@ def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
     has = instance.type.declaration
     connectable = {**has.ports, **has.inputs, **has.outputs}
     if port not in connectable:
-        what = f"{end.text}: {_label(instance)} has {_listing(connectable)}."
+        what = f"{end.text}: {instance.type.__name__} has {_listing(connectable)}."
         near = did_you_mean(port, connectable)
         return Fault(end.where, f"{what} {near.replace('mean ', f'mean {owner}.')}".rstrip())
     return PortRef(owner, port)
 
-
-def _label(instance: Instance) -> str:
-    return instance.type.__name__
 
 
 def _listing(connectable: Mapping[str, Any]) -> str:
@@ -242,7 +239,7 @@ def _unknown_effects(assembly: Assembly) -> list[Fault]:
     """Effects that nothing in the scene knows, and values that are not on or off."""
     values = [instance.values for instance in assembly.instances.values()]
     values += [line.values for line in assembly.lines.values()]
-    declared = {n for v in values for n, d in v.type.declaration.parameters.items() if _is_switch(d)}
+    declared = {n for v in values for n, d in v.type.declaration.parameters.items() if is_switch(d)}
     known = sorted({*FRAMEWORK_EFFECTS, *declared})
     faults = []
     for name, value in assembly.netlist.effects.items():
@@ -256,14 +253,14 @@ def _unknown_effects(assembly: Assembly) -> list[Fault]:
 
 def _unknown_friction(netlist: Netlist, types: Mapping[str, type[Declared]]) -> list[Fault]:
     """Scene-wide friction settings that no treatment knows."""
-    members = [m for kind in types.values() if is_head(kind) for m in kind.members.values()]  # type: ignore[attr-defined]
+    members = [m for kind in types.values() if is_head(kind) for m in kind.members.values()]
     known = {n for member in members for n in (*member.declaration.parameters, member.key)}
     return [
         Fault(
             value.named_at,
             f"friction.{name}: no friction method has such a setting. {did_you_mean(name, known)}".rstrip(),
             f"They have {listing(sorted(known))}.",
-        )  # fmt: skip
+        )
         for name, value in netlist.friction.items()
         if members and name not in known
     ]

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from fairlead.component.base import Family
 from fairlead.component.instantiate import Assembly, PortRef
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel, Group
@@ -15,40 +16,43 @@ from fairlead.flatten.wiring import port_graph, wire
 
 def flatten(assembly: Assembly) -> FlatModel:
     """Nodes, groups and links of all leaves. Raises ModelError with everything wrong with the graph."""
-    faults = lay(assembly)
-    _fail_on(faults)
-    nodes, links, faults = wire(assembly, port_graph(assembly))
-    _fail_on(faults)
-    node_of = {port: number for number, node in enumerate(nodes) for port in node.ports}
-    groups, group_of, faults = group(assembly, nodes, node_of)
-    flat = FlatModel(
-        assembly, tuple(assembly.instances.values()), tuple(nodes), tuple(groups), node_of, group_of, links
-    )
-    _fail_on(faults + _contacts_between_prescribed(flat) + _missing_inputs(flat))
-    _start_sources(flat)
+    flat, faults = survey(assembly)
+    if faults:
+        raise ModelError(faults)
     return flat
 
 
-def _fail_on(faults: list[Fault]) -> None:
-    if faults:
-        raise ModelError(sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what)))
+def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
+    """The flat model as far as it can be made, and everything wrong with the graph."""
+    faults = lay(assembly)
+    nodes, links, wrong = wire(assembly, port_graph(assembly))
+    faults += wrong
+    node_of = {port: number for number, node in enumerate(nodes) for port in node.ports}
+    groups, group_of, wrong = group(assembly, nodes, node_of)
+    faults += wrong
+    instances = tuple(assembly.instances.values())
+    flat = FlatModel(assembly, instances, tuple(nodes), tuple(groups), node_of, group_of, links)
+    faults += _contacts_between_prescribed(flat) + _missing_inputs(flat)
+    _start_sources(flat)
+    return flat, sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what))
 
 
 def _contacts_between_prescribed(flat: FlatModel) -> list[Fault]:
-    """A contact that may hold needs one side whose motion is unknown, else its force is not determined."""
+    """What may hold two sides together needs one whose motion is unknown, else its force is not determined."""
     faults = []
     for instance in flat.instances:
         has = instance.type.declaration
         if not has.unknowns or not {"a", "b"} <= set(has.ports):
             continue
         sides = [flat.groups[flat.place(PortRef(instance.path, port))[0]] for port in ("a", "b")]
-        if all(not side.free for side in sides):
+        if sides[0] is sides[1]:
+            what = f"{instance.path} has both sides on one rigid body ({sides[0].name}); they can never slip."
+            faults.append(Fault(instance.where, what, f"Remove {instance.path}, or the rigid link or connection round it."))
+        elif all(not side.free for side in sides):
             who = " and ".join(str(side.prescribed.by) for side in sides if side.prescribed)
-            what = f"{instance.path} lies between two prescribed motions ({who}); the force while it holds is not determined."
-            faults.append(Fault(instance.where, what, "Put a Mass and a Spring between, or use method: binding."))
-        elif sides[0] is sides[1]:
-            what = f"{instance.path} has both sides on one rigid body ({sides[0].name}); it can never slip."
-            faults.append(Fault(instance.where, what, "Remove it, or the rigid link round it."))
+            what = f"{instance.path} lies between two prescribed motions ({who}); its force while it holds is not determined."
+            other = ", or use method: binding" if issubclass(instance.type, Family) else ""
+            faults.append(Fault(instance.where, what, f"Put a Mass and a Spring between{other}."))
     return faults
 
 
@@ -56,13 +60,13 @@ def _missing_inputs(flat: FlatModel) -> list[Fault]:
     faults = []
     for instance in flat.instances:
         for name, declared in instance.type.declaration.inputs.items():
-            if PortRef(instance.path, name) in flat.sources:
+            ref, default = PortRef(instance.path, name), declared.default
+            if ref in flat.sources or ref in flat.assembly.excused:
                 continue
-            default = declared.default
             if default is None or (isinstance(default, str) and getattr(instance.values, default) is None):
                 give = f", or give {default}" if isinstance(default, str) else ""
-                faults.append(Fault(instance.where, f"{instance.path}.{name}: nothing is connected to this input.",
-                                    f"Connect an output to it{give}."))  # fmt: skip
+                what = f"{ref}: nothing is connected to this input [{declared.unit}]."
+                faults.append(Fault(instance.where, what, f"Connect an output to it{give}."))
     return faults
 
 

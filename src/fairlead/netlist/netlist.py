@@ -89,6 +89,7 @@ class Netlist:
     initial: Mapping[str, Value] = field(default_factory=dict)
     limits: Mapping[str, Value] = field(default_factory=dict)
     digest: str = ""
+    recorded: Mapping[str, Value] = field(default_factory=dict)  # the record block as written, for messages about it
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

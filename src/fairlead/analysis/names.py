@@ -1,0 +1,69 @@
+"""Names of signals in a netlist that no signal has: what is recorded, plotted or limited in vain."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from fairlead.analysis.limits import read_limits
+from fairlead.component.instantiate import Assembly
+from fairlead.errors import Fault, ModelError, did_you_mean, listing
+from fairlead.netlist.netlist import Value
+from fairlead.system.system import OutputSignal, glob
+from fairlead.system.unknowns import LEDGER
+
+
+def unknown_signals(assembly: Assembly) -> list[Fault]:
+    """Mistakes in `record` and `limits`, told from what the components declare; nothing is compiled for it."""
+    signals = _signals(assembly)
+    names = [signal.name for signal in signals]
+    faults = [_no_such(pattern, text, names) for pattern, text in _recorded(assembly) if not _any(text, names)]
+    judged = {text: value for text, value in assembly.netlist.limits.items() if not _excused(assembly, text)}
+    try:
+        read_limits(judged, signals)
+    except ModelError as error:
+        faults += error.faults
+    return faults
+
+
+def _signals(assembly: Assembly) -> list[OutputSignal]:
+    found = [
+        OutputSignal(f"{path}.{name}", output.unit, output.doc, 0)
+        for path, instance in assembly.instances.items()
+        for name, output in instance.type.declaration.outputs.items()
+    ]
+    by_name = {signal.name: signal for signal in found}
+    outer = [(name, by_name[str(inner)]) for name, inner in assembly.aliases.items() if str(inner) in by_name]
+    found += [OutputSignal(name, signal.unit, signal.doc, 0) for name, signal in outer]
+    return found + [OutputSignal(f"energy.{line}", "J", "", 0) for line in LEDGER]
+
+
+def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
+    """The patterns under record.signals and record.plots, each with its place."""
+    block = assembly.netlist.recorded
+    lists = [block.get("signals")]
+    plots = block["plots"].content if "plots" in block else []
+    lists += [plot.entries.get("signals") for plot in plots] if isinstance(plots, list) else []
+    for listed in lists:
+        for value in listed.content if listed is not None and isinstance(listed.content, list) else []:
+            if isinstance(value.content, str) and not _excused(assembly, value.content):
+                yield value, value.content
+
+
+def _excused(assembly: Assembly, pattern: str) -> bool:
+    """True when the name may be one of a component that could not be made."""
+    first = re.split(r"[.\[]", pattern)[0]
+    return bool(assembly.broken) and (first in assembly.broken or any(c in first for c in "*?"))
+
+
+def _any(pattern: str, names: list[str]) -> bool:
+    wanted = re.compile(glob(pattern))
+    return any(wanted.fullmatch(name) for name in names)
+
+
+def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:
+    owner = pattern.rpartition(".")[0]
+    here = [name for name in names if name.rpartition(".")[0] == owner]
+    near = did_you_mean(pattern, here or names)
+    way_out = f"{owner} gives {listing(here)}." if here else ""
+    return Fault(value.where, f"record: no signal has the name {pattern}. {near}".rstrip(), way_out)
