@@ -51,8 +51,7 @@ ZONES = WORLDS["robust"].structure.zones
 
 def instant(world: World, v: float, af: float, normal: float) -> Instant:
     """The contact at slip v, pulled by loads that it would have to carry af against."""
-    keys = {key: 0.0 for key in world.structure.inputs}
-    keys |= {"port:b:v": v, "in:normal": normal}
+    keys = dict.fromkeys(world.structure.inputs, 0.0) | {"port:b:v": v, "in:normal": normal}
     # af = m_red (F_b/m_b - F_a/m_a), physics 1.6; all of it is put on b.
     loads = {"a": 0.0, "b": af * MASS_B / REDUCED}
     return Instant(keys, loads, tuple(0 for _ in range(world.structure.machines)))

@@ -109,6 +109,25 @@ def test_a_block_put_on_a_belt_slides_and_then_rides_along(simulate, method: str
     np.testing.assert_allclose(result["block.x"][later], exact.position(result.t[later]), rtol=1e-4)
 
 
+@BOTH
+def test_a_belt_that_starts_with_a_jerk_slips_under_the_block(simulate, method: str) -> None:
+    """Friction is finite: however the contact held before, the block gains speed at mu g and no faster."""
+    text = CARRIED.replace("velocity: 0.3 m/s", "velocity: {step: {to: 0.3 m/s, at: 0.5 s}}")
+    exact, result = CarriedBlock(belt=0.3, friction=0.35), simulate(text, method=method)
+    assert result.at("block.v", 0.5, side="right") == pytest.approx(0.0, abs=1e-9)
+    after = result.t > 0.5
+    np.testing.assert_allclose(result["block.v"][after], exact.velocity(result.t[after] - 0.5), atol=1e-4 * 0.3)
+    assert result["block.x"][-1] == pytest.approx(float(exact.position(0.5)), rel=1e-4)
+
+
+def test_a_block_keeps_the_speed_it_is_given_at_the_start(simulate) -> None:
+    """A contact tries to hold first; a block that is faster than the belt at the start must not be stopped by that."""
+    result = simulate(THROWN)
+    assert result["block.v"][0] == 0.3
+    start = result.events[0]
+    assert (start.t, start.zone_to, start.guard) == (0.0, "forward", "torn_forward")
+
+
 def test_half_of_what_the_belt_gives_becomes_heat(simulate) -> None:
     exact, result = CarriedBlock(belt=0.3, friction=0.35), simulate(CARRIED)
     assert result.run["energy"]["dissipated"] == pytest.approx(exact.heat(MASS), rel=1e-6)

@@ -10,7 +10,9 @@ SIDE_BY_SIDE = """
       hose: {type: Hose, axial_stiffness: 8 kN, length: 0.25 m, damping: 60 N*s/m}
       core: {type: Core, axial_stiffness: 500 kN, length: 0.25 m, damping: 60 N*s/m}
       connector: {type: Mass, mass: 1 kg, position: 0.25 m}
-      pull: {type: ForceSource, force: {ramp: {to: "{pull}", over: 0.1 s}, sine: {amplitude: "{swing}", frequency: 3 Hz}}}
+      pull:
+        type: ForceSource
+        force: {ramp: {to: "{pull}", over: 0.1 s}, sine: {amplitude: "{swing}", frequency: 3 Hz}}
     connections:
       - [anchor.flange, hose.a, core.a]
       - [connector.flange, hose.b, core.b, pull.flange]

@@ -48,7 +48,8 @@ def travelling_chain(edge: float, nodes: int = 20) -> str:
     for i in range(nodes):
         lines.append(f"node{i}: {{type: MotionSource, velocity: -0.3 m/s, origin: {1 + i * PITCH} m}}")
         lines.append(f"load{i}: {{type: LateralLoad, length: {PITCH} m, curvature: {table}}}")
-        joins += [f"[node{i}.flange, load{i}.flange]", f"[pull.applied, load{i}.hose_in]", f"[pull.applied, load{i}.hose_out]"]
+        joins += [f"[node{i}.flange, load{i}.flange]"]
+        joins += [f"[pull.applied, load{i}.{side}]" for side in ("hose_in", "hose_out")]
     components = "\n".join(f"  {line}" for line in lines)
     connections = "\n".join(f"  - {join}" for join in joins)
     return f"""
