@@ -31,7 +31,7 @@ class ArrayModule(Composite):
 
     hose[i], core[i]            elements between node i and i+1, i = 0 at the inboard end
     hose_node[i], core_node[i]  masses; at both ends hose and core are one body (end connector)
-    registration[i]             core against hose
+    registration[i]             core against hose, between the connectors
     outer[i], inner[i]          contacts with the devices of the route and of bulkheads with the hose
 
     Friction passes only where a device presses: without lateral load hose and core are free of each
@@ -72,9 +72,10 @@ class ArrayModule(Composite):
             extra = p.connector_mass if i in (0, n) else 0.0
             children[f"hose_node[{i}]"] = scene.make(Mass, mass=p.hose.mass * share + extra, position=x)
             children[f"core_node[{i}]"] = scene.make(Mass, mass=p.core.mass * share, position=x)
-            children[f"registration[{i}]"] = registration
-            joins.append((f"hose_node[{i}].flange", f"registration[{i}].hose"))
-            joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
+            if 0 < i < n:
+                children[f"registration[{i}]"] = registration
+                joins.append((f"hose_node[{i}].flange", f"registration[{i}].hose"))
+                joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
         for kind, layer, name in ((Hose, p.hose, "hose"), (Core, p.core, "core")):
             damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
             element = scene.make(kind, axial_stiffness=layer.stiffness, length=free, damping=damping)

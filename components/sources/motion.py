@@ -1,6 +1,9 @@
 """A motion given in time."""
 
-from fairlead.component import Component, Law, Output, Parameter, Translational, Waveform
+import math
+
+from fairlead.component import Component, Law, Output, Parameter, Translational, Waveform, derived_wave
+from fairlead.component.piecewise import Sine
 from fairlead.component.values import Wave
 
 
@@ -16,7 +19,6 @@ class MotionSource(Component):
     origin = Parameter(
         "m", "Position at t = 0 when the velocity is given; else where the driven body starts.", default=None
     )
-    motion = Waveform("m", "Position in time, made from the above.", default=None)
     x = Output("m", "Position.")
     v = Output("m/s", "Velocity.")
     a = Output("m/s^2", "Acceleration.")
@@ -37,19 +39,20 @@ class MotionSource(Component):
         """Exactly one of the two ways."""
         if (p.velocity is None) == (p.position is None):
             yield "", "give either velocity or position", "A velocity is integrated from `origin`."
-        elif p.velocity is not None and p.velocity.sine.amplitude != 0:
-            yield "velocity", "a sine cannot be given as a velocity", "Give it as a position."
 
     def starts_at(p, x):
         """Where the driven body starts, when only a velocity is given."""
         if p.position is None and p.origin is None:
             p.motion.polynomial.rows[:, 3] += x - p.motion(0.0)
 
-    def prepare(given):
+    @derived_wave
+    def motion(p):
         """The position as one wave."""
-        motion = given["position"]
-        if given["velocity"] is not None and given["position"] is None:
-            path = given["velocity"].polynomial.integral(0.0)
-            path.rows[:, 3] += given["origin"] or 0.0
-            motion = Wave(path)
-        return {**given, "motion": motion}
+        if p.position is not None:
+            return p.position
+        path, sine = p.velocity.polynomial.integral(0.0), p.velocity.sine
+        swing = Sine()
+        if sine.amplitude != 0:
+            swing = Sine(sine.amplitude / sine.omega, sine.omega, sine.phase - math.pi / 2)
+        path.rows[:, 3] += (p.origin or 0.0) - swing.amplitude * math.sin(swing.phase)
+        return Wave(path, swing)

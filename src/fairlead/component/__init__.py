@@ -23,6 +23,7 @@ from fairlead.component.declare import (
     Waveform,
     Zones,
     derived,
+    derived_wave,
     guard,
     hold,
     sampled,
@@ -33,6 +34,6 @@ from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tan
 __all__ = [
     "Block", "Choice", "Component", "Composite", "Count", "Declared", "Discrete", "Electrical", "Expansion", "Family", "Hydraulic",
     "Input", "Law", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Table", "Translational",
-    "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "exp", "guard", "hold", "log", "pi", "sampled", "sin", "sqrt", "tanh",
+    "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "derived_wave", "exp", "guard", "hold", "log", "pi", "sampled", "sin", "sqrt", "tanh",
     "zone",
 ]  # fmt: skip

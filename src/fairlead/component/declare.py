@@ -242,9 +242,10 @@ class Guard:
 
 @dataclass(frozen=True)
 class Derived:
-    """A number computed from the parameters when an instance is made; plain Python, not traced."""
+    """A number, or a Wave, computed from the parameters when an instance is made; plain Python, not traced."""
 
-    function: Callable[..., float]
+    function: Callable[..., Any]
+    wave: bool = False
 
 
 def zone(*names: str) -> Callable[[Callable[..., Any]], Any]:
@@ -269,6 +270,11 @@ def sampled(*, every: str) -> Callable[[Callable[..., Any]], Any]:
 def derived(function: Callable[..., float]) -> Any:
     """Mark a method as a number derived from the parameters, read as `p.name` in laws."""
     return Derived(function)
+
+
+def derived_wave(function: Callable[..., Any]) -> Any:
+    """Mark a method that makes a quantity in time (a Wave) from the parameters, read as `p.name(t)` in laws."""
+    return Derived(function, wave=True)
 
 
 @dataclass(frozen=True)

@@ -99,7 +99,7 @@ class _Recorder:
         if name in parts:
             return _Recorder(parts[name], path + ".", self._reads)
         declared = has.parameters.get(name)
-        if isinstance(declared, Table | Waveform):
+        if isinstance(declared, Table | Waveform) or (name in has.derived and has.derived[name].wave):
             return _TableReader(path, self._reads)
         if isinstance(declared, Choice | Count | Part):
             raise TraceError(f"{name!r} shapes the component and is not a number in its law")

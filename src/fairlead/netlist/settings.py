@@ -35,7 +35,6 @@ def _number(value: object) -> float:
 
 # Text with a unit (or an expression in braces) or a bare number comes in, an SI float is kept.
 Seconds = Annotated[float, BeforeValidator(lambda value: si(value, "s")), _schema_of("s")]
-Speed = Annotated[float, BeforeValidator(lambda value: si(value, "m/s")), _schema_of("m/s")]
 Number = Annotated[float, BeforeValidator(_number), _schema_of("1")]
 Count = Annotated[int, BeforeValidator(_whole), Field(gt=0)]
 Duration = Annotated[Seconds, Field(gt=0)]
@@ -49,7 +48,7 @@ class RunSettings(Strict):
     start: Seconds = 0.0
     """Time at which the run starts."""
     accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-3
-    """Relative accuracy; sets tolerances, creep and guard tolerances together."""
+    """Relative accuracy; sets the tolerances of all unknowns together."""
     engine: Literal["auto", "rodas"] = "auto"
     """The engine; auto chooses by the number of contacts and the accuracy."""
     method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
@@ -70,8 +69,6 @@ class RunSettings(Strict):
     """What happens to a contact that toggles faster than its dwell."""
     dwell: Duration | None = None
     """Shortest time a zone lasts before its toggling counts as chatter."""
-    creep: Annotated[Speed, Field(gt=0)] | None = None
-    """Slip speed a contact may have while it sticks."""
 
     @model_validator(mode="after")
     def _ends_after_it_starts(self) -> RunSettings:
