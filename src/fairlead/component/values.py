@@ -29,6 +29,11 @@ class Wave:
         return self.polynomial(t) + self.sine.amplitude * math.sin(self.sine.omega * t + self.sine.phase)
 
 
+def polynomial(value: PiecewisePolynomial | Wave) -> PiecewisePolynomial:
+    """The pieces of a table or of a quantity in time."""
+    return value.polynomial if isinstance(value, Wave) else value
+
+
 def steady(value: float) -> Wave:
     """A wave that never changes."""
     return Wave(constant(value))

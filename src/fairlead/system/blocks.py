@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
-from fairlead.component.values import Wave
+from fairlead.component.values import polynomial
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.kernels import Kernel
 from fairlead.system.unknowns import LEDGER, Numbering
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Memory = dict[str, NDArray[Any]]  # arrays that compiled code reads and writes, by the names of `layout.py`
 MASSLESS = 1e12  # inverse mass of a node without mass: light beside everything else
-NEVER = -1
 
 
 @dataclass
@@ -99,8 +99,9 @@ def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering
         _floats([[_parameter(flat, i, name, tau) for name in s.parameters] for i in instances]),
         _integers([[z for z, _, _ in row] for row in inputs]), _floats([[c for _, c, _ in row] for row in inputs]),
         _floats([[o for _, _, o in row] for row in inputs]), _integers(slots),
-        _integers([[tables.place(_polynomial(i.values.path(name))) for name in s.tables] for i in instances]),
-        _integers(signals), _integers([[w for w, _ in row] for row in flows]), _floats([[c for _, c in row] for row in flows]),
+        _integers([[tables.place(polynomial(i.values.path(name))) for name in s.tables] for i in instances]),
+        _integers(signals),
+        _integers([[w for w, _ in row] for row in flows]), _floats([[c for _, c in row] for row in flows]),
         np.array([numbering.ledger.get(line, numbering.w_dump) for line in LEDGER], dtype=np.int64),
     )  # fmt: skip
 
@@ -112,9 +113,6 @@ def _floats(rows: Iterable[Iterable[float]]) -> Floats:
 def _integers(rows: Iterable[Iterable[int]]) -> Integers:
     return np.array(list(rows), dtype=np.int64)
 
-
-def _polynomial(value: Any) -> PiecewisePolynomial:
-    return value.polynomial if isinstance(value, Wave) else value
 
 
 def _signal(numbering: Numbering, output: PortRef) -> int:
@@ -145,7 +143,7 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
 
 
 def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
-    """x position or potential, v rate, a acceleration, A prescribed acceleration, R reaction."""
+    """Position or potential (x), rate (v), acceleration (a), prescribed acceleration (A), reaction (R)."""
     index, ratio, offset = flat.place(port)
     group, nothing = flat.groups[index], (numbering.zero, 0.0, 0.0)
     if variable == "R":

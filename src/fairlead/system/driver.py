@@ -39,26 +39,17 @@ def evaluate(ctx, t, y):
     schedule = i8(ctx[SCHEDULE])
     for s in range(0, ctx[N_SCHEDULE]):
         b = schedule[3 * s]
-        call_kernel(
-            kernels[b],
-            SIGNALS,
-            i8(blocks + 8 * BLOCK * b),
-            schedule[3 * s + 1],
-            schedule[3 * s + 2],
-            z,
-            zones,
-            tables,
-            z,
-        )
+        start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
+        call_kernel(kernels[b], SIGNALS, block, start, stop, z, zones, tables, z)
     for i in range(0, n + ctx[N_REACTIONS] + 1):
         w[i] = 0.0
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], FLOWS, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, zones, tables, w)
+        call_kernel(kernels[b], FLOWS, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
     mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
     for r in range(0, ctx[N_REACTIONS]):
         z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], LEDGER, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, zones, tables, w)
+        call_kernel(kernels[b], LEDGER, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
         w[pairs[2 * k]] = y[pairs[2 * k + 1]]
@@ -81,7 +72,7 @@ def take_samples(ctx, t, y):
     for k in range(0, ctx[N_SAMPLED]):
         if begun[0] + count[k] * period[k] <= t:
             b, i = places[2 * k], places[2 * k + 1]
-            call_kernel(kernels[b], SAMPLE, i8(blocks + 8 * BLOCK * b), i, i + 1, z, zones, tables, z)
+            call_kernel(kernels[b], SAMPLE, i8(blocks + WORD * BLOCK * b), i, i + 1, z, zones, tables, z)
             count[k] += 1
 
 
@@ -99,7 +90,7 @@ def jacobian(ctx, t, y, values, ft):
     z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        block = i8(blocks + 8 * BLOCK * b)
+        block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], PARTIALS_SIGNALS, block, 0, counts[b], z, zones, tables, partials)
         call_kernel(kernels[b], PARTIALS_FLOWS, block, 0, counts[b], z, zones, tables, partials)
         call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
@@ -120,9 +111,8 @@ def mass(ctx, values):
     zones, partials, static = i8(ctx[ZONES]), f8(ctx[PARTIALS]), f8(ctx[MASS_STATIC])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(
-            kernels[b], MASS, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), partials
-        )
+        block = i8(blocks + WORD * BLOCK * b)
+        call_kernel(kernels[b], MASS, block, 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), partials)
     for i in range(0, ctx[N_MASS]):
         values[i] = static[i]
     program, coefficient = i8(ctx[MASS_PROGRAM]), f8(ctx[MASS_COEF])
@@ -135,9 +125,8 @@ def guards(ctx, t, y, g):
     accelerate(ctx, t, y)
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(
-            kernels[b], GUARD, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g
-        )
+        block = i8(blocks + WORD * BLOCK * b)
+        call_kernel(kernels[b], GUARD, block, 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g)
 
 
 def switch(ctx, t, y, fired, n_fired):
@@ -178,27 +167,24 @@ def slip(ctx, t, y, r):
         r[i] = 0.0
     if held > 0:
         for b in range(0, ctx[N_BLOCKS]):
-            call_kernel(
-                kernels[b], SLIP, i8(blocks + 8 * BLOCK * b), 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), r
-            )
+            block = i8(blocks + WORD * BLOCK * b)
+            call_kernel(kernels[b], SLIP, block, 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), r)
     return held
 
 
 def next_time(ctx, t):
     """The end of the piece in force that comes first."""
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    soonest = 1e309
+    soonest = 1e309  # read as infinity
     for k in range(0, ctx[N_TIME]):
-        right = tables[place[3 * k + 1] + 8 * zones[place[3 * k]] + 1]
+        right = tables[place[3 * k + 1] + STRIDE * zones[place[3 * k]] + RIGHT]
         if right > t:
-            if right < soonest:
-                soonest = right
+            soonest = min(soonest, right)
     period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
     for k in range(0, ctx[N_SAMPLED]):
         sample = begun[0] + count[k] * period[k]
         if sample > t:
-            if sample < soonest:
-                soonest = sample
+            soonest = min(soonest, sample)
     return soonest
 
 
@@ -207,8 +193,8 @@ def at_time(ctx, t, y):
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
     changed = 0
     for k in range(0, ctx[N_TIME]):
-        for q in range(0, place[3 * k + 2]):
-            if tables[place[3 * k + 1] + 8 * zones[place[3 * k]] + 1] <= t:
+        for _ in range(0, place[3 * k + 2]):
+            if tables[place[3 * k + 1] + STRIDE * zones[place[3 * k]] + RIGHT] <= t:
                 zones[place[3 * k]] += 1
                 changed = 1
     if ctx[N_SAMPLED] > 0:
@@ -223,9 +209,8 @@ def outputs(ctx, t, y, out):
     z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(
-            kernels[b], OUTPUT, i8(blocks + 8 * BLOCK * b), 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything
-        )
+        block = i8(blocks + WORD * BLOCK * b)
+        call_kernel(kernels[b], OUTPUT, block, 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)
     for k in range(0, ctx[N_SELECTED]):
         if selected[k] >= 0:
             out[k] = everything[selected[k]]

@@ -13,7 +13,7 @@ For every mode the text has one loop over instances and, inside, one branch per 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import sympy
@@ -72,20 +72,22 @@ class KernelText:
     def write(self) -> tuple[str, Structure]:
         """The text and the structure."""
         fields = {name: value for name, value in vars(layout).items() if name.isupper()}
-        modes = [
-            (layout.SIGNALS, self._signals), (layout.FLOWS, self._flows), (layout.LEDGER, self._ledger_lines),
-            (layout.PARTIALS_SIGNALS, lambda z: self._partials(z, layout.D_SIGNALS, self.d_signals, self._output_values(z))),
-            (layout.PARTIALS_FLOWS, lambda z: self._partials(z, layout.D_FLOWS, self.d_flows, self._target_values(z))),
-            (layout.PARTIALS_LEDGER, lambda z: self._partials(z, layout.D_LEDGER, self.d_ledger, self._ledger_values(z))),
-            (layout.MASS, self._mass), (layout.SLIP, self._slip), (layout.GUARD, self._guards), (layout.OUTPUT, self._all_outputs),
-            (layout.SAMPLE, self._sample),
-        ]  # fmt: skip
-        text = HEAD.format(**fields)
-        for mode, statements in modes:
-            text += self._loop(mode, statements)
-        return text, self._structure()
+        modes: dict[int, Callable[[TracedZone], list[Statement]]] = {
+            layout.SIGNALS: self._signals,
+            layout.FLOWS: self._flows,
+            layout.LEDGER: self._ledger_lines,
+            layout.PARTIALS_SIGNALS: lambda z: self._partials(layout.D_SIGNALS, self.d_signals, self._output_values(z)),
+            layout.PARTIALS_FLOWS: lambda z: self._partials(layout.D_FLOWS, self.d_flows, self._target_values(z)),
+            layout.PARTIALS_LEDGER: lambda z: self._partials(layout.D_LEDGER, self.d_ledger, self._ledger_values(z)),
+            layout.MASS: self._mass,
+            layout.SLIP: self._slip,
+            layout.GUARD: self._guards,
+            layout.OUTPUT: self._all_outputs,
+            layout.SAMPLE: self._sample,
+        }
+        loops = [self._loop(mode, [statements(zone) for zone in self.zones]) for mode, statements in modes.items()]
+        return HEAD.format(**fields) + "".join(loops), self._structure()
 
-    # What each mode computes, zone by zone ------------------------------------------------------
 
     def _signals(self, zone: TracedZone) -> list[Statement]:
         place = f"out[si[i*{len(self.outputs)}+{{k}}]] = {{{{}}}}"
@@ -103,9 +105,7 @@ class KernelText:
         lines = (layout.DISSIPATED, layout.SUPPLIED)
         return [(f"out[li[{lines.index(n)}]] += {{}}", zone.ledger[n]) for n in self.ledger if zone.ledger.get(n)]
 
-    def _partials(
-        self, zone: TracedZone, base: int, pairs: list[tuple[int, int]], values: list[Any]
-    ) -> list[Statement]:
+    def _partials(self, base: int, pairs: list[tuple[int, int]], values: list[Any]) -> list[Statement]:
         place = f"out[block[{base}] + i*{len(pairs)} + {{e}}] = {{{{}}}}"
         return [
             (place.format(e=e), sympy.diff(values[k] or 0, symbol(self.inputs[j]))) for e, (k, j) in enumerate(pairs)
@@ -134,7 +134,7 @@ class KernelText:
         return used + idle
 
     def _all_outputs(self, zone: TracedZone) -> list[Statement]:
-        names = [*self.outputs, "stored", "dissipated", "supplied"]
+        names = [*self.outputs, *layout.OUTPUT_LINES]
         place = f"out[block[{layout.OUTPUTS}] + i*{len(names)} + {{k}}] = {{{{}}}}"
         values = {**zone.outputs, **zone.ledger}
         return [(place.format(k=k), values.get(n, sympy.S.Zero)) for k, n in enumerate(names)]
@@ -144,10 +144,9 @@ class KernelText:
         place = f"par[i*{len(self.parameters)}+{{k}}] = {{{{}}}}"
         return [(place.format(k=self.parameters.index(f"#{n}")), e) for n, e in self.traced.sample.items()]
 
-    # The text of a loop --------------------------------------------------------------------------
 
-    def _loop(self, mode: int, statements: Any) -> str:
-        bodies = [statements(zone) for zone in self.zones]
+    def _loop(self, mode: int, bodies: list[list[Statement]]) -> str:
+        """One loop over the instances, with a branch per zone."""
         if not any(bodies):
             return ""
         lines = [f"    if mode == {mode}:", "        for i in range(start, stop):"]
@@ -208,7 +207,6 @@ class KernelText:
                 lines.append(f"{name} = tables[b{table} + {COEFFICIENT[what]}]")
         return lines
 
-    # Facts about the class ----------------------------------------------------------------------
 
     def _flowing(self) -> list[str]:
         return [n for n in self.traced.variant.type.declaration.ports if any(n in z.flows for z in self.zones)]
@@ -254,8 +252,9 @@ class KernelText:
         t = self.traced
         return Structure(
             inputs=self.inputs, parameters=self.parameters, tables=t.tables, time_tables=t.time_tables,
-            zones=list(t.zones), machines=self.machines, outputs=self.outputs, unfit=self.unfit, targets=self.targets, ledger=self.ledger,
-            d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger, mass=self.mass,
+            zones=list(t.zones), machines=self.machines, outputs=self.outputs, unfit=self.unfit,
+            targets=self.targets, ledger=self.ledger, mass=self.mass,
+            d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             guards={name: [_describe(g, self) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots,

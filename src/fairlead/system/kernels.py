@@ -50,7 +50,7 @@ def _build(variant: Variant) -> Build:
 
 
 def write_source(variant: Variant) -> tuple[str, Structure]:
-    """Python text of the kernel (numba compiles it) and its structure."""
+    """Python text of the kernel, in the subset that `lowering.py` understands, and its structure."""
     from fairlead.component.trace import trace
     from fairlead.system.kernel_text import KernelText
 

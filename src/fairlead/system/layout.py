@@ -12,6 +12,9 @@ of its tables of indices and numbers. The names below are positions in that bloc
 
 from __future__ import annotations
 
+WORD = 8  # bytes of an int64: addresses count in bytes, positions in words
+STRIDE, RIGHT = 8, 1  # numbers in a row of a table, and where its right border is; see component/piecewise.py
+
 # Positions in a kernel's block (int64 each). Addresses point to C-contiguous arrays.
 PAR = 0  # float64 (count, NP)   parameters
 IN_INDEX = 1  # int64 (count, NI)    where in z an input lies
@@ -34,7 +37,8 @@ BLOCK = 16
 # What a kernel is asked to do. `out` is z for SIGNALS, w for FLOWS, LEDGER and SLIP, else the vector named.
 SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
 
-DISSIPATED, SUPPLIED = "dissipated", "supplied"
+DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
+OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance
 NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
 
 # Positions in the context, the int64 vector that every callback of the driver gets. Sizes first, then

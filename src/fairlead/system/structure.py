@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from fairlead.system.layout import OUTPUT_LINES
+
 
 @dataclass(frozen=True)
 class Structure:
@@ -30,3 +32,8 @@ class Structure:
     flow_inputs: dict[str, dict[str, list[str]]]  # zone -> target -> input keys it depends on
     reaches: dict[str, dict[str, str]]  # zone -> table -> input or expression it is read at
     period: str = ""  # the parameter that gives the sample period; empty without sampling
+
+    @property
+    def all_outputs(self) -> list[str]:
+        """What an instance gives when asked for its outputs: these, then its lines of the energy ledger."""
+        return [*self.outputs, *OUTPUT_LINES]

@@ -113,7 +113,8 @@ class System:
         algebraic = sum(not u.differential for u in unknowns)
         lines = [
             f"{self.n} unknowns, {algebraic} of them algebraic; {len(self.pattern.rows)} entries in df/dy; "
-            f"{len(self.zones)} machines with zones; {len(self.guard_tolerance)} guard slots; {len(self.blocks)} kernels"
+            f"{len(self.zones)} machines with zones; {len(self.guard_tolerance)} guard slots; "
+            f"{len(self.blocks)} kernels",
         ]
         lines += [f"  kernel {b.kernel.variant.label}: {b.count} instances" for b in self.blocks]
         lines += [f"  unknown {u.name} [{u.unit}] {'' if u.differential else 'algebraic'}".rstrip() for u in unknowns]

@@ -141,6 +141,17 @@ def _groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure
     return found
 
 
+def reaction_masses(flat: FlatModel, numbering: Numbering) -> list[tuple[int, float, int]]:
+    """(reaction, mass, where its acceleration lies in z) of every prescribed group."""
+    found = []
+    for index, row in numbering.reactions.items():
+        prescribed, a = flat.groups[index].prescribed, numbering.zero
+        if prescribed is not None and prescribed.outputs is not None:
+            a = numbering.n + numbering.signals[PortRef(prescribed.by.instance, prescribed.outputs[2])]
+        found.append((row, flat.groups[index].mass, a))
+    return found
+
+
 def _connected_outputs(flat: FlatModel) -> list[PortRef]:
     """Outputs that feed an input or prescribe a motion, each once."""
     found = dict.fromkeys(flat.sources.values())

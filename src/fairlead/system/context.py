@@ -1,0 +1,84 @@
+"""The context: sizes, and the addresses of all arrays, in the one vector that every callback gets."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system import layout
+from fairlead.system.blocks import Block, Floats, Integers, Memory, Tables
+from fairlead.system.program import Program
+from fairlead.system.switching import holds
+from fairlead.system.timing import time_places
+from fairlead.system.unknowns import Numbering, reaction_masses
+
+# Positions of the context that hold the address of the array of that name, in lower case, in memory.
+ADDRESSES = (
+    "Z", "W", "ZONES", "TABLES", "KERNELS", "BLOCKS", "COUNTS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS",
+    "REACTION_A", "PARTIALS", "WORK", "PROGRAM", "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS",
+    "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
+    "SAMPLE_COUNT", "SAMPLE_START", "OUTPUTS_ALL",
+)  # fmt: skip
+# Positions that hold how many rows an array has.
+COUNTED = {
+    "N_REACTIONS": "reaction_mass", "N_BLOCKS": "counts", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
+    "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
+    "N_HOLDS": "holds", "N_TIME": "time_place", "N_SELECTED": "selected", "N_STORED": "stored", "N_SAMPLED": "sampled",
+}  # fmt: skip
+
+
+def working_arrays(
+    flat: FlatModel, blocks: Sequence[Block], numbering: Numbering, tables: Tables, machines: int, program: Program
+) -> Memory:
+    """What the driver reads and writes, beside what belongs to the mass matrix, guards, samples and outputs."""
+    reactions = reaction_masses(flat, numbering)
+    return {
+        "z": np.zeros(numbering.dump + 1), "w": np.zeros(numbering.w_dump + 1),
+        "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
+        "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
+        "counts": np.array([b.count for b in blocks], dtype=np.int64), "schedule": _schedule(blocks, numbering),
+        "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2),
+        "inverse_mass": _inverse_mass(flat, numbering),
+        "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
+        "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
+        "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),
+        "program": program.steps, "program_coef": program.coef,
+        "holds": holds(blocks)[0], "time_place": time_places(blocks), "selected": np.zeros(0, dtype=np.int64),
+    }  # fmt: skip
+
+
+def context(blocks: Sequence[Block], numbering: Numbering, program: Program, memory: Memory) -> Integers:
+    """The vector itself, in the order of `layout.py`."""
+    sizes = {name: len(memory[array]) for name, array in COUNTED.items()} | {
+        "N": numbering.n, "N_SIGNALS": len(numbering.signals), "N_JACOBIAN": len(program.rows),
+        "N_WORK": program.length, "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
+        "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
+    }  # fmt: skip
+    vector = np.zeros(layout.CONTEXT, dtype=np.int64)
+    for name, value in sizes.items():
+        vector[getattr(layout, name)] = value
+    for name in ADDRESSES:
+        vector[getattr(layout, name)] = memory[name.lower()].ctypes.data
+    return vector
+
+
+def _inverse_mass(flat: FlatModel, numbering: Numbering) -> Floats:
+    """1/M of the rows with mass, else 0."""
+    inverse = np.zeros(numbering.n)
+    for index, row in numbering.rate.items():
+        if flat.groups[index].mass > 0:
+            inverse[row] = 1 / flat.groups[index].mass
+    return inverse
+
+
+def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:
+    """Calls that compute signals: runs of equal rank inside every block that gives any, by rank."""
+    calls = []
+    for place, block in enumerate(blocks):
+        if not block.sig_index.size or (block.sig_index == numbering.dump).all():
+            continue
+        ranks = np.array(block.ranks)
+        calls += [(rank, place, *np.searchsorted(ranks, [rank, rank + 1])) for rank in np.unique(ranks)]
+    return np.array([call[1:] for call in sorted(calls)], dtype=np.int64).reshape(-1, 3)
