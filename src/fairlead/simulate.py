@@ -99,7 +99,7 @@ class Model:
         assembly, found = instantiate(self.netlist, known_types(self.libraries))
         faults += without_echoes(found, faults)
         if self._faults:  # connections may be missing, so that open ports are only echoes
-            assembly.excuse_all()
+            assembly.excuse(assembly.instances)
         flat, found = flatten(assembly)
         faults += without_echoes(found, faults)
         faults += unknown_signals(assembly)

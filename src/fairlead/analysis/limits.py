@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.errors import Fault, ModelError, did_you_mean, listing, shown
+from fairlead.errors import Fault, ModelError, did_you_mean, listing
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import QuantityError, si
 from fairlead.system.system import OutputSignal, glob
@@ -81,7 +81,7 @@ def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) ->
             try:
                 number = si(bound.plain(), unit)
             except QuantityError as error:
-                faults.append(Fault(bound.where, f"limits.{pattern}.{word} = {shown(bound.plain())}: {error}"))
+                faults.append(Fault(bound.where, f"limits.{pattern}.{word} = {error.what}.", error.allowed))
                 continue
             names = [recorded[k].name for k in columns]
             found.limits.append(Limit(f"{word} {bound.plain()}", np.array(columns), names, SENSES[word], number, unit))

@@ -65,5 +65,9 @@ def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:
     owner = pattern.rpartition(".")[0]
     here = [name for name in names if name.rpartition(".")[0] == owner]
     near = did_you_mean(pattern, here or names)
+    if not near and owner:
+        near = did_you_mean(owner, {name.rpartition(".")[0] for name in names}).replace(
+            "?", pattern[len(owner) :] + "?"
+        )
     way_out = f"{owner} gives {listing(here)}." if here else ""
     return Fault(value.where, f"record: no signal has the name {pattern}. {near}".rstrip(), way_out)

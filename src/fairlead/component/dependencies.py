@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from fairlead.component.declare import Derived, Guard, ZoneLaw
+from fairlead.component.declare import Derived, Guard, Sampled, ZoneLaw
 from fairlead.component.values import Variant
 
 
@@ -47,18 +47,9 @@ def _of(thing: Any, seen: set[int]) -> list[str]:
     if id(thing) in seen:
         return []
     seen.add(id(thing))
-    if isinstance(thing, ZoneLaw):
-        return [repr(thing.zones), *_of(thing.law, seen)]
-    if isinstance(thing, Guard):
-        return [repr((thing.zones, thing.to, thing.unit)), *_of(thing.function, seen)]
-    if isinstance(thing, Derived):
-        return _of(thing.function, seen)
-    if isinstance(thing, functools.partial):
-        return _of(thing.func, seen) + [repr(thing.args)]
-    if isinstance(thing, staticmethod | classmethod):
-        return _of(thing.__func__, seen)
-    if isinstance(thing, property):
-        return _of(thing.fget, seen)
+    inner = _wrapped(thing)
+    if inner:
+        return [p for one in inner for p in _of(one, seen)]
     if isinstance(thing, FunctionType):
         return _of_function(thing, seen)
     if isinstance(thing, type):
@@ -79,6 +70,23 @@ def _of(thing: Any, seen: set[int]) -> list[str]:
     if isinstance(thing, set | frozenset):  # its order differs from process to process
         return sorted(repr(value) for value in thing)
     return [repr(thing.tolist())] if hasattr(thing, "tolist") else []
+
+
+def _wrapped(thing: Any) -> list[Any]:
+    """What a declaration or a wrapper of Python's holds."""
+    if isinstance(thing, ZoneLaw):
+        return [thing.zones, thing.law]
+    if isinstance(thing, Guard):
+        return [thing.zones, thing.to, thing.unit, thing.function]
+    if isinstance(thing, Sampled):
+        return [thing.period, thing.law]
+    if isinstance(thing, functools.partial):
+        return [thing.func, thing.args]
+    if isinstance(thing, staticmethod | classmethod):
+        return [thing.__func__]
+    if isinstance(thing, property):
+        return [thing.fget]
+    return [thing.function] if isinstance(thing, Derived) else []
 
 
 def _matters(name: str, member: Any) -> bool:

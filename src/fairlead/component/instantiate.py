@@ -7,7 +7,7 @@ Composites are expanded here, so that the next stage sees leaves only. All mista
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -78,17 +78,20 @@ class Assembly:
     routings: list[tuple[str, str, Location]] = field(default_factory=list)  # the two ends of a `path` connection
     aliases: dict[str, PortRef] = field(default_factory=dict)  # outer name of an output or port -> the inner one
     broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
-    excused: set[PortRef] = field(default_factory=set)  # ports joined to what could not be read: not open, if unconnected
+    excused: set[PortRef] = field(
+        default_factory=set
+    )  # ports joined to what could not be read: not open, if unconnected
 
     def add(self, path: str, values: Values, where: Location) -> None:
         """Add a leaf."""
         self.instances[path] = Instance(path, values, where, variant_of(values))
 
-    def excuse_all(self) -> None:
-        """Blame no port for being open: the netlist could not be read in full."""
-        for path, instance in self.instances.items():
-            has = instance.type.declaration
-            self.excused.update(PortRef(path, name) for name in (*has.ports, *has.inputs))
+    def excuse(self, paths: Iterable[str]) -> None:
+        """Blame no port of these instances for being open: what is written about them could not be read."""
+        for path in paths:
+            if path in self.instances:
+                has = self.instances[path].type.declaration
+                self.excused.update(PortRef(path, name) for name in (*has.ports, *has.inputs))
 
     def __str__(self) -> str:
         joins = (f"{' -- '.join(map(str, join.ports))}    {join.where}" for join in self.joins)
@@ -163,13 +166,17 @@ def _inner(assembly: Assembly, text: str) -> PortRef:
 
 def _connect(assembly: Assembly, ends: tuple[EndPoint, ...]) -> list[Fault]:
     """Resolve the ends of one connection; a path connection is noted for the flattening."""
+    ends = tuple({end.text: end for end in ends}.values())  # one joined to itself is told by the netlist stage
     found = [resolve(assembly, end) for end in ends if end.component not in assembly.broken]
     faults = [end for end in found if isinstance(end, Fault)]
     paths = [end for end in found if isinstance(end, str)]
     refs = [end for end in found if isinstance(end, PortRef)]
     where = ends[0].where
-    if len(paths) + len(refs) < len(ends):  # the rest is joined, and nobody blamed for what is missing
+    if len(paths) + len(refs) < max(len(ends), 2):  # the rest is joined, and nobody blamed for what is missing
         assembly.excused.update(refs)
+        assembly.excuse(
+            {end.text.rpartition(".")[0] for end, it in zip(ends, found, strict=False) if isinstance(it, Fault)}
+        )
     elif paths and refs:
         what = f"{ends[0].text} -- {ends[1].text}: a path can only be joined with a path."
         return [Fault(where, what, "A path joins a line with the route it runs along; flanges join bodies.")]
@@ -198,10 +205,16 @@ def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
     connectable = {**has.ports, **has.inputs, **has.outputs}
     if port not in connectable:
         what = f"{end.text}: {instance.type.__name__} has {_listing(connectable)}."
-        near = did_you_mean(port, connectable)
+        near = did_you_mean(port, connectable) or _only_free(assembly, owner, has.ports)
         return Fault(end.where, f"{what} {near.replace('mean ', f'mean {owner}.')}".rstrip())
     return PortRef(owner, port)
 
+
+def _only_free(assembly: Assembly, owner: str, ports: Iterable[str]) -> str:
+    """The sentence that offers the one port of a component that no connection names."""
+    used = {end.text for ends in assembly.netlist.connections for end in ends}
+    free = [port for port in ports if f"{owner}.{port}" not in used]
+    return f"Did you mean {free[0]}?" if len(free) == 1 else ""
 
 
 def _listing(connectable: Mapping[str, Any]) -> str:
@@ -247,7 +260,7 @@ def _unknown_effects(assembly: Assembly) -> list[Fault]:
             what = f"effects.{name}: nothing in this scene has such an effect. {did_you_mean(name, known)}"
             faults.append(Fault(value.named_at, what.rstrip(), f"It has {listing(known)}."))
         elif value.plain() not in (*SWITCH, True, False):
-            faults.append(Fault(value.where, f"effects.{name} = {shown(value.plain())} is neither on nor off."))
+            faults.append(Fault(value.where, f"effects.{name} = {shown(value.plain())} is not a switch.", "Write on or off."))
     return faults
 
 

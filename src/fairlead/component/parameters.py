@@ -29,9 +29,10 @@ from fairlead.component.declare import (
     Table,
     Waveform,
 )  # fmt: skip
+from fairlead.component.mistakes import explain
 from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
 from fairlead.component.values import Values
-from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import si, wanted
 
@@ -50,7 +51,7 @@ def read(
         model = model_of(kind).model_validate(plain, context={"folder": folder})
     except ValidationError as error:
         tree = Value(dict(raw), where)
-        return None, [_fault(kind, detail, tree, path) for detail in error.errors(include_url=False)]
+        return None, explain(kind, error.errors(include_url=False), tree, path)
     values = _values(kind, model)
     return values, _contradictions(kind, values, raw, path, where)
 
@@ -89,7 +90,7 @@ def _with_word(family: type[Family], value: Any) -> Any:
     """Write out the short forms: a bare number, a bare word, a map without the word."""
     if isinstance(value, Values):
         return {family.key: value.type.word, **value.given}  # type: ignore[attr-defined]
-    if isinstance(value, str) and value in family.members:
+    if isinstance(value, str) and (value in family.members or value[:1].isalpha()):
         return {family.key: value}
     if not isinstance(value, Mapping) and family.bare is not None:
         return {family.key: family.bare[0], family.bare[1]: value}
@@ -203,7 +204,7 @@ def _contradictions(
     faults = []
     for name, what, way_out in check(values) if check else ():
         place = raw[name].where if name in raw else where
-        faults.append(Fault(place, f"{path}.{name}: {what}" if name else f"{path}: {what}", way_out))
+        faults.append(Fault(place, f"{path}{'.' + name if name else ''}: {what.removesuffix('.')}.", way_out))
     for name, value in values.given.items():
         if isinstance(value, Values):
             inner = raw[name].entries if name in raw else {}
@@ -211,96 +212,3 @@ def _contradictions(
                 value.type, value, inner, f"{path}.{name}", raw[name].where if name in raw else where
             )
     return faults
-
-
-def _fault(kind: type[Declared], detail: Any, tree: Value, path: str) -> Fault:
-    """One pydantic error as a Fault at the place in the netlist it speaks of."""
-    node, names = tree, []
-    for step in detail["loc"]:
-        inner = _inside(node, step)
-        if inner is not None:
-            node = inner
-        elif detail["type"] not in ("missing", "extra_forbidden") or step != detail["loc"][-1]:
-            continue  # the tag of a union, not a key of the netlist
-        names.append(f"[{step}]" if isinstance(step, int) else f".{step}")
-    full = path + "".join(names)
-    return _explain(kind, detail, node, full)
-
-
-def _inside(node: Value, step: str | int) -> Value | None:
-    """The entry of a map or of a list, if it has it."""
-    if isinstance(node.content, dict):
-        return node.content.get(str(step))
-    if isinstance(node.content, list) and isinstance(step, int) and step < len(node.content):
-        return node.content[step]
-    return None
-
-
-def _explain(kind: type[Declared], detail: Any, node: Value, full: str) -> Fault:
-    name, owner, context = str(detail["loc"][-1]), kind.__name__, detail.get("ctx", {})
-    if detail["type"] == "extra_forbidden":
-        allowed = _siblings(kind, detail["loc"])
-        return Fault(node.named_at, f"{full}: {owner} has no parameter {name}. {did_you_mean(name, allowed)}".rstrip(),
-                     f"It has {listing(allowed)}." if allowed else "")  # fmt: skip
-    if detail["type"] == "missing":
-        return Fault(node.where, f"{full} is missing; {owner} needs it.", _needed(kind, detail["loc"]))
-    if "error" in context:  # raised by our own readers, already a sentence
-        return Fault(node.where, f"{full} = {shown(node.plain())}: {context['error']}")
-    limits = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
-    for key, words in limits.items():
-        if key in context:
-            unit = _unit(kind, detail["loc"])
-            return Fault(
-                node.where,
-                f"{full} = {shown(node.plain())} is out of range.",
-                f"Allowed: {words} {context[key]:g} {unit}.",
-            )
-    if detail["type"] == "literal_error":
-        return Fault(node.where, f"{full} = {shown(node.plain())} is not one of {context['expected']}.")
-    if detail["type"].startswith("union_tag"):
-        return _wrong_word(node, full, detail, context)
-    return Fault(node.where, f"{full} = {shown(node.plain())}: {detail['msg']}.")
-
-
-def _wrong_word(node: Value, full: str, detail: Any, context: Any) -> Fault:
-    """The word that selects a member of a family is missing or unknown."""
-    key = context["discriminator"].strip("'")
-    if "tag" not in context:
-        return Fault(node.where, f"{full} = {shown(node.plain())} needs the key {key}.")
-    chosen, expected = str(context["tag"]), [w.strip("' ") for w in context["expected_tags"].split(",")]
-    place = node.entries[key].where if key in node.entries else node.where
-    return Fault(place, f"{full}.{key}: there is no {key} {chosen}. {did_you_mean(chosen, expected)}".rstrip(),
-                 f"There are {listing(expected)}.")  # fmt: skip
-
-
-def _declared(kind: type[Declared], loc: tuple[Any, ...]) -> Any:
-    """The declaration that `loc` points to, through blocks, parts and stations."""
-    names: Mapping[str, Any] = kind.declaration.parameters
-    found: Any = None
-    for step in loc:
-        if isinstance(found, Part | Stations) and step in getattr(found.family, "members", {}):
-            names = found.family.members[step].declaration.parameters  # type: ignore[attr-defined]
-        elif isinstance(step, str) and step in names:
-            found = names[step]
-            names = found.parameters if isinstance(found, Block) else _only_member(found)
-    return found, names
-
-
-def _only_member(found: Any) -> Mapping[str, Any]:
-    members = getattr(getattr(found, "family", None), "members", {})
-    return next(iter(members.values())).declaration.parameters if len(members) == 1 else {}
-
-
-def _siblings(kind: type[Declared], loc: tuple[Any, ...]) -> list[str]:
-    return list(_declared(kind, loc[:-1])[1])
-
-
-def _needed(kind: type[Declared], loc: tuple[Any, ...]) -> str:
-    found = _declared(kind, loc)[0]
-    return f"{found.doc} {wanted(found.unit)}" if isinstance(found, Parameter) else getattr(found, "doc", "")
-
-
-def _unit(kind: type[Declared], loc: tuple[Any, ...]) -> str:
-    found = _declared(kind, loc)[0]
-    unit = getattr(found, "unit", "")
-    return "" if unit == "1" else unit

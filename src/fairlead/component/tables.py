@@ -16,6 +16,7 @@ A quantity in time is a number, or a map of terms that add up:
 from __future__ import annotations
 
 import csv
+import functools
 import itertools
 import math
 import pathlib
@@ -36,15 +37,42 @@ from fairlead.component.piecewise import (
     pieces,
 )  # fmt: skip
 from fairlead.component.values import Wave
-from fairlead.errors import did_you_mean, listing
-from fairlead.quantities import si, wanted
+from fairlead.errors import did_you_mean, listing, shown
+from fairlead.quantities import QuantityError, si, wanted
 
 MOST_POINTS = 100_000
 MOST_BYTES = 10_000_000
 
 
+class TableError(ValueError):
+    """What is wrong in a table or a waveform: `path` leads to the place inside it, `what` reads on from its name.
+
+    `of_name`: the name at the end of the path is wrong, not the value that stands under it.
+    """
+
+    def __init__(
+        self, what: str, way_out: str = "", path: tuple[str | int, ...] = (), *, of_name: bool = False
+    ) -> None:
+        super().__init__(what, way_out)
+        self.what, self.way_out, self.path, self.of_name = what, way_out, path, of_name
+
+    def __str__(self) -> str:
+        return f"{'.'.join(map(str, self.path))}{': ' if self.path else ''}{self.what}. {self.way_out}".strip()
+
+    def below(self, *path: str | int) -> TableError:
+        """The same, seen from further up."""
+        return TableError(self.what, self.way_out, (*path, *self.path), of_name=self.of_name)
+
+
+def _si(value: Any, unit: str, *path: str | int) -> float:
+    try:
+        return si(value, unit)
+    except QuantityError as error:
+        raise TableError(f" = {error.what}", error.allowed, path) from None
+
+
 def read_table(value: Any, declared: Table, folder: pathlib.Path) -> PiecewisePolynomial:
-    """A table in SI. Raises ValueError with what is wrong and what is allowed."""
+    """A table in SI. Raises TableError with what is wrong and what is allowed."""
     if isinstance(value, PiecewisePolynomial):
         return value
     x, y, kind = _points(value, declared.x, declared.y, "x", folder)
@@ -52,18 +80,27 @@ def read_table(value: Any, declared: Table, folder: pathlib.Path) -> PiecewisePo
 
 
 def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave | None:
-    """A quantity in time, in SI. Raises ValueError."""
+    """A quantity in time, in SI. Raises TableError."""
     if value is None or isinstance(value, Wave):
         return value
     if not isinstance(value, Mapping):
         return Wave(constant(si(value, declared.unit)))
     if not value:
-        raise ValueError(f"nothing is given; allowed are {listing(TERMS)}, or {wanted(declared.unit)}")
+        raise TableError("nothing is given", f"Give {listing(TERMS)}. Or: {wanted(declared.unit)}")
     polynomial, sine = constant(0.0), Sine()
     for name, settings in value.items():
         if name not in TERMS:
-            raise ValueError(f"there is no waveform {name}. {did_you_mean(str(name), TERMS)} It has {listing(TERMS)}.")
-        term = TERMS[name](settings, declared.unit, folder)
+            way_out = f"There are {listing(TERMS)}."
+            raise TableError(
+                f"there is no such waveform. {did_you_mean(str(name), TERMS)}".rstrip(" ."),
+                way_out,
+                (str(name),),
+                of_name=True,
+            )
+        try:
+            term = TERMS[name](settings, declared.unit, folder)
+        except TableError as error:
+            raise error.below(name) from None
         if isinstance(term, tuple):
             term, sine = term
         polynomial = add(polynomial, term)
@@ -71,77 +108,112 @@ def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave 
 
 
 def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> tuple[Any, Any, str]:
-    kind = "linear"
+    kind, at = "linear", _row
     if isinstance(value, Mapping):
         _only(value, {x_name, "y", "kind", "file"})
         kind = str(value.get("kind", "linear"))
         if kind not in ("linear", "cubic"):
-            raise ValueError(f"kind = {kind} is not one of linear, cubic")
+            raise TableError(f" = {shown(kind)} is not known", "Allowed: linear, cubic.", ("kind",))
         rows = _from_file(value["file"], folder) if "file" in value else _columns(value, x_name)
+        at = _in_file if "file" in value else functools.partial(_column, (x_name, "y"))
     else:
         rows = value
     if not isinstance(rows, list) or any(not isinstance(row, list | tuple) or len(row) != 2 for row in rows):
-        raise ValueError(f"a table is a list of [{x_name}, y] pairs, or a map with {x_name}, y and kind, or with file")
+        raise TableError(
+            "this is not a table",
+            f"Write a list of [{x_name}, y] pairs, or a map with {x_name}, y and kind, or with file.",
+        )
     if not 2 <= len(rows) <= MOST_POINTS:
-        raise ValueError(f"a table has 2 to {MOST_POINTS} points, this one has {len(rows)}")
-    x = [si(row[0], x_unit) for row in rows]
-    y = [si(row[1], y_unit) for row in rows]
-    for before, after in itertools.pairwise(x):
+        raise TableError(f"a table has 2 to {MOST_POINTS} points, this one has {len(rows)}")
+    x = [_si(row[0], x_unit, *at(k, 0)) for k, row in enumerate(rows)]
+    y = [_si(row[1], y_unit, *at(k, 1)) for k, row in enumerate(rows)]
+    for k, (before, after) in enumerate(itertools.pairwise(x)):
         if not after > before:
-            raise ValueError(f"{x_name} must rise from point to point; {after:g} follows {before:g}")
+            raise TableError(f"{x_name} must rise from point to point; {after:g} follows {before:g}", "", at(k + 1, 0))
     return np.array(x), np.array(y), kind
+
+
+def _row(k: int, column: int) -> tuple[str | int, ...]:
+    """Where a number of a list of pairs stands."""
+    return k, column
+
+
+def _column(names: tuple[str, str], k: int, column: int) -> tuple[str | int, ...]:
+    return names[column], k
+
+
+def _in_file(k: int, column: int) -> tuple[str | int, ...]:
+    return ("file",)
 
 
 def _columns(value: Mapping[str, Any], x_name: str) -> list[list[Any]]:
     x, y = value.get(x_name), value.get("y")
     if not isinstance(x, list) or not isinstance(y, list) or len(x) != len(y):
-        raise ValueError(f"{x_name} and y must be lists of the same length")
+        raise TableError(f"{x_name} and y must be lists of the same length")
     return [list(pair) for pair in zip(x, y, strict=True)]
 
 
 def _from_file(name: Any, folder: pathlib.Path) -> list[list[Any]]:
     """Two columns of a CSV file inside the netlist's folder; a header line is passed over."""
-    path = (folder / str(name)).resolve()
-    if not path.is_relative_to(folder.resolve()):
-        raise ValueError(f"file {name} lies outside the folder of the netlist")
-    if not path.is_file():
-        raise ValueError(f"there is no file {name} in the folder of the netlist")
-    if path.stat().st_size > MOST_BYTES:
-        raise ValueError(f"file {name} is larger than {MOST_BYTES} bytes")
-    with path.open(encoding="utf-8", newline="") as stream:
-        rows = [row for row in csv.reader(stream) if row and not row[0].lstrip().startswith("#")]
+    try:
+        text = _inside(folder, str(name)).read_text(encoding="utf-8-sig")
+        rows = [row for row in csv.reader(text.splitlines()) if row and not row[0].lstrip().startswith("#")]
+    except (OSError, ValueError, csv.Error) as error:  # ValueError: not text, or not a name of a file
+        if isinstance(error, TableError):
+            raise
+        raise TableError(f" = {shown(name)} cannot be read: {error}", "", ("file",)) from error
     try:
         float(rows[0][0])
     except (ValueError, IndexError):
         rows = rows[1:]
     try:
         return [[float(row[0]), float(row[1])] for row in rows]
-    except (ValueError, IndexError) as error:
-        raise ValueError(f"file {name} is not two columns of numbers: {error}") from error
+    except (ValueError, IndexError):
+        raise TableError(
+            f" = {shown(name)} is not two columns of numbers", "Separate them by a comma.", ("file",)
+        ) from None
+
+
+def _inside(folder: pathlib.Path, name: str) -> pathlib.Path:
+    """The file of a name, which must lie below the folder and be of a bearable size."""
+    path = (folder / name).resolve()
+    if not path.is_relative_to(folder.resolve()):
+        raise TableError(
+            f" = {shown(name)} lies outside the folder of the netlist", "Put the file beside the netlist.", ("file",)
+        )
+    if not path.is_file():
+        beside = [file.name for file in folder.iterdir() if file.suffix == ".csv"]
+        near = did_you_mean(path.name, beside)
+        raise TableError(
+            f": there is no file {shown(name)} in the folder of the netlist. {near}".rstrip(" ."), "", ("file",)
+        )
+    if path.stat().st_size > MOST_BYTES:
+        raise TableError(f" = {shown(name)} is larger than {MOST_BYTES} bytes", "", ("file",))
+    return path
 
 
 def _only(settings: Any, allowed: Set[str], needed: Set[str] = frozenset()) -> None:
+    names = listing(sorted(allowed))
     if not isinstance(settings, Mapping):
-        raise ValueError(f"expected a map with {listing(sorted(allowed))}")
+        raise TableError(f" = {shown(settings)} is not a map", f"Write a map with {names}.")
     for name in settings:
         if name not in allowed:
-            raise ValueError(
-                f"there is no {name} here. {did_you_mean(str(name), allowed)} It has {listing(sorted(allowed))}."
-            )
+            what = f"there is no such setting. {did_you_mean(str(name), allowed)}".rstrip(" .")
+            raise TableError(what, f"There are {names}.", (str(name),), of_name=True)
     for name in sorted(needed - set(settings)):
-        raise ValueError(f"{name} is missing; needed are {listing(sorted(needed))}")
+        raise TableError(f"{name} is missing", f"Needed: {listing(sorted(needed))}.")
 
 
 def _numbers(settings: Any, **declared: tuple[str, float | None]) -> dict[str, float]:
     """Settings in SI: name -> (unit, default or None when it must be given)."""
     _only(settings, set(declared), {n for n, (_, default) in declared.items() if default is None})
-    return {n: si(settings.get(n, default), unit) for n, (unit, default) in declared.items()}
+    return {n: _si(settings.get(n, default), unit, n) for n, (unit, default) in declared.items()}
 
 
 def _positive(settings: dict[str, float], *names: str) -> None:
     for name in names:
         if settings[name] < 0:
-            raise ValueError(f"{name} = {settings[name]:g} s must not be negative")
+            raise TableError(f" = {settings[name]:g} s is negative", "A time span is zero or more.", (name,))
 
 
 def _path_of_points(times: list[float], levels: list[float]) -> PiecewisePolynomial:
@@ -191,7 +263,7 @@ def _table(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomia
 
 
 def _constant(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    return constant(si(settings, unit))
+    return constant(_si(settings, unit))
 
 
 TERMS: dict[str, Callable[[Any, str, pathlib.Path], Any]] = {

@@ -1,13 +1,13 @@
 """Third stage: from component instances to nodes, groups and links; a chain of named passes.
 
-    flat = flatten(assembly)       route -> wire -> group -> check
+flat = flatten(assembly)       route -> wire -> group -> check
 """
 
 from __future__ import annotations
 
 from fairlead.component.base import Family
 from fairlead.component.instantiate import Assembly, PortRef
-from fairlead.errors import Fault, ModelError
+from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.flatten.kinematics import group
 from fairlead.flatten.routing import lay
@@ -32,25 +32,45 @@ def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
     faults += wrong
     instances = tuple(assembly.instances.values())
     flat = FlatModel(assembly, instances, tuple(nodes), tuple(groups), node_of, group_of, links)
-    faults += _contacts_between_prescribed(flat) + _missing_inputs(flat)
+    faults += _without_effect(flat) + _held_between_prescribed(flat) + _missing_inputs(flat)
     _start_sources(flat)
     return flat, sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what))
 
 
-def _contacts_between_prescribed(flat: FlatModel) -> list[Fault]:
+def _without_effect(flat: FlatModel) -> list[Fault]:
+    """Components whose two mechanical ends are one node: they can neither stretch nor slip."""
+    faults = []
+    for instance in flat.instances:
+        ports = [PortRef(instance.path, n) for n, p in instance.type.declaration.ports.items() if p.domain.mechanical]
+        ends = {flat.node_of[port] for port in ports if port in flat.node_of}
+        if len(ports) > 1 and len(ends) == 1:
+            both = " and ".join(map(str, ports))
+            what = f"{both} are joined with each other, so {instance.path} has no effect."
+            faults.append(Fault(_where_joined(flat, ports), what, "Join them to different bodies."))
+    return faults
+
+
+def _where_joined(flat: FlatModel, ports: list[PortRef]) -> Location:
+    """The connection that names the last of the ports."""
+    named = [join.where for join in flat.assembly.joins if ports[-1] in join.ports]
+    return named[-1] if named else flat.assembly.instances[ports[0].instance].where
+
+
+def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
     """What may hold two sides together needs one whose motion is unknown, else its force is not determined."""
     faults = []
     for instance in flat.instances:
         has = instance.type.declaration
-        if not has.unknowns or not {"a", "b"} <= set(has.ports):
+        ends = [PortRef(instance.path, port) for port in ("a", "b")]
+        if not has.unknowns or not {"a", "b"} <= set(has.ports) or flat.node_of[ends[0]] == flat.node_of[ends[1]]:
             continue
-        sides = [flat.groups[flat.place(PortRef(instance.path, port))[0]] for port in ("a", "b")]
+        sides = [flat.groups[flat.place(end)[0]] for end in ends]
         if sides[0] is sides[1]:
             what = f"{instance.path} has both sides on one rigid body ({sides[0].name}); they can never slip."
-            faults.append(Fault(instance.where, what, f"Remove {instance.path}, or the rigid link or connection round it."))
+            faults.append(Fault(instance.where, what, f"Remove {instance.path}, or what ties {ends[0]} to {ends[1]}."))
         elif all(not side.free for side in sides):
             who = " and ".join(str(side.prescribed.by) for side in sides if side.prescribed)
-            what = f"{instance.path} lies between two prescribed motions ({who}); its force while it holds is not determined."
+            what = f"{instance.path} lies between two prescribed motions ({who}); no law determines its force."
             other = ", or use method: binding" if issubclass(instance.type, Family) else ""
             faults.append(Fault(instance.where, what, f"Put a Mass and a Spring between{other}."))
     return faults

@@ -73,7 +73,7 @@ def group(
 
 
 def _told_by_a_body(tied: list[tuple[int, float, float]], facts: Any) -> list[tuple[int, float, float]]:
-    """The same group with the motion of its first body with mass (else of its first node) as its own, and that first."""
+    """The same group told by the motion of its first body with mass (else of its first node), and that first."""
     heavy = [k for k, (node, _, _) in enumerate(tied) if any(kind == "inertia" for kind, *_ in facts.get(node, ()))]
     first = heavy[0] if heavy else 0
     _, unit, zero = tied[first]
@@ -89,14 +89,17 @@ def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> 
             if not ties.tie(one, two, ratio, offset):
                 loop = nx.shortest_path(written, one, two) if one in written and two in written else []
                 names = [instance.path, *(written.edges[edge]["path"] for edge in itertools.pairwise(loop))]
-                what = f"the rigid loop {' - '.join(dict.fromkeys(names))} contradicts itself: {_twice(ties, instance, (one, two, ratio, offset))}."
-                way_out = f"Its ratios and lengths must agree all round, or one of {listing(dict.fromkeys(names))} must go."
+                gap = _gap(ties, instance, (one, two, ratio, offset))
+                what = f"the rigid loop {' - '.join(dict.fromkeys(names))} contradicts itself: {gap}."
+                way_out = (
+                    f"Its ratios and lengths must agree all round, or one of {listing(dict.fromkeys(names))} must go."
+                )
                 faults.append(Fault(instance.where, what, way_out))
             written.add_edge(one, two, path=instance.path)
     return faults
 
 
-def _twice(ties: Ties, instance: Instance, tie: tuple[int, int, float, float]) -> str:
+def _gap(ties: Ties, instance: Instance, tie: tuple[int, int, float, float]) -> str:
     """How far the loop is from closing: by its ratio, else by its length."""
     one, two, ratio, offset = tie
     (_, ra, oa), (_, rb, ob) = ties.root(one), ties.root(two)
@@ -134,12 +137,13 @@ def _group(nodes: list[Node], inside: list[tuple[int, float, float]], facts: Any
                 mass += ratio**2 * value
                 name = name or instance.path
             elif kind == "start":
-                starts.append((instance, ref, *_at_group(value, ratio, offset)))
+                starts.append((instance, ref, *_at_group(value, ratio, offset), ratio, offset))
             else:
                 prescribed.append((instance, Prescribed(ref, value)))
     if len(prescribed) > 1 and any(given.outputs is not None for _, given in prescribed):
         first, second, *_ = prescribed
-        what = f"{first[0].path} and {second[0].path} both prescribe the motion of one body ({first[1].by}, {second[1].by})."
+        ends = f"({first[1].by}, {second[1].by})"
+        what = f"{first[0].path} and {second[0].path} both prescribe the motion of one body {ends}."
         faults.append(Fault(second[0].where, what, "Keep one of them, or put a Spring between."))
     position, wrong = _agreed(starts, 2)
     rate, also = _agreed(starts, 3)
@@ -161,10 +165,16 @@ def _at_group(value: Any, ratio: float, offset: float) -> tuple[float | None, fl
 
 
 def _agreed(starts: list[Any], column: int) -> tuple[float, list[Fault]]:
-    """The start value that all who give one agree on; zero when nobody does."""
+    """The start value that all who give one agree on; zero when nobody does. Column 2 position, 3 rate."""
     given = [s for s in starts if s[column] is not None]
-    for other in given[1:]:
-        if not math.isclose(other[column], given[0][column], rel_tol=1e-9, abs_tol=1e-12):
-            what = f"{given[0][1]} starts at {given[0][column]:g}, {other[1]} of the same body at {other[column]:g}."
-            return given[0][column], [Fault(other[0].where, what, "Give one of them, or the same value.")]
+    for instance, ref, *other, ratio, offset in given[1:]:
+        one, value = given[0], other[column - 2]
+        if not math.isclose(value, one[column], rel_tol=1e-9, abs_tol=1e-12):
+            shift = offset if column == 2 else 0.0
+            variable, unit = instance.type.declaration.ports[ref.port].domain.across[column - 2]
+            what = (
+                f"{ref}.{variable} starts at {ratio * value + shift:g} {unit}; {one[1]}, tied to it, starts so that "
+                f"it would be {ratio * one[column] + shift:g} {unit}."
+            )
+            return one[column], [Fault(instance.where, what, "Give one of them, or values that agree.")]
     return (given[0][column] if given else 0.0), []

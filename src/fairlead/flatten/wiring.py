@@ -1,7 +1,7 @@
 """Connected components of the port graph: nodes, and the links of signals.
 
-    vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
-    edges      written connections, with the place they were written
+vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
+edges      written connections, with the place they were written
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef,
         declared = {ref: graph.nodes[ref]["declared"] for ref in ports}
         if len({_kind(d) for d in declared.values()}) > 1:
             faults.append(_mixed(graph, declared))
-            assembly.excused.update(ports)
+            assembly.excuse({ref.instance for ref, d in declared.items() if not isinstance(d, Port)})
         elif isinstance(declared[ports[0]], Input | Output):
             found, wrong = _signal(declared, _written(graph, ports))
             links |= found
@@ -51,7 +51,7 @@ def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef,
         for domain in dict.fromkeys(d.domain for d in declared.values() if isinstance(d, Port)):
             if domain != PATH:  # there are several only beside a fault, so that the other mistakes are found too
                 nodes.append(Node(tuple(r for r in ports if getattr(declared[r], "domain", None) == domain), domain))
-                if len(ports) == 1 and not declared[ports[0]].optional and ports[0] not in assembly.excused:
+                if len(ports) == 1 and not declared[ports[0]].optional:
                     alone.setdefault(ports[0].instance, []).append(ports[0])
     return nodes, links, faults + _dangling(assembly, alone)
 
@@ -68,9 +68,7 @@ def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
     return graph.nodes[ports[0]]["where"]
 
 
-def _signal(
-    declared: dict[PortRef, Input | Output], where: Location
-) -> tuple[dict[PortRef, PortRef], list[Fault]]:
+def _signal(declared: dict[PortRef, Input | Output], where: Location) -> tuple[dict[PortRef, PortRef], list[Fault]]:
     """One output feeds any number of inputs."""
     outputs = [ref for ref, d in declared.items() if isinstance(d, Output)]
     inputs = [ref for ref, d in declared.items() if isinstance(d, Input)]
@@ -96,27 +94,31 @@ def _other_unit(declared: dict[PortRef, Input | Output], output: PortRef) -> Por
 
 def _mixed(graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
     """Told where the two kinds meet."""
-    for a, b, data in graph.subgraph(declared).edges(data=True):
-        one, two = _kind(declared[a]), _kind(declared[b])
-        if one != two:
-            break
+    edges = graph.subgraph(declared).edges
+    a, b = next((a, b) for a, b in edges if _kind(declared[a]) != _kind(declared[b]))
+    one, two, where = _kind(declared[a]), _kind(declared[b]), edges[a, b]["where"]
     if "signal" in (one, two):
         a, b, one = (b, a, two) if one == "signal" else (a, b, one)
-        return Fault(data["where"], f"{a} is a {one} port, {b} a signal; they cannot be joined.",
+        return Fault(where, f"{a} is a {one} port, {b} a signal; they cannot be joined.",
                      "A signal joins one output to inputs; a sensor turns a motion into a signal.")  # fmt: skip
-    return Fault(data["where"], f"{a} is a {one} port, {b} {article(two)} one; they cannot be joined.",
+    return Fault(where, f"{a} is a {one} port, {b} {article(two)} one; they cannot be joined.",
                  f"Join {a} with another {one} port, or put a component with both kinds between them.")  # fmt: skip
 
 
 def _to_itself(join: Join) -> Fault:
     port = next(port for port in join.ports if join.ports.count(port) > 1)
-    return Fault(join.where, f"{port} is connected to itself.", "Name the port it belongs to, or remove the connection.")
+    return Fault(
+        join.where, f"{port} is connected to itself.", "Name the port it belongs to, or remove the connection."
+    )
 
 
 def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault]:
     """Ports that lead nowhere; a component none of whose ports is connected is one mistake, not many."""
     faults = []
-    for path, ports in alone.items():
+    for path, open_ports in alone.items():
+        ports = [port for port in open_ports if port not in assembly.excused]
+        if not ports:
+            continue
         instance = assembly.instances[path]
         if len(ports) == len(instance.type.declaration.ports) and path in assembly.netlist.components:
             what = f"{path} is connected to nothing."

@@ -82,7 +82,8 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
         if not groups & held:
             nodes = [flat.nodes[number] for k in sorted(groups) for number in flat.groups[k].nodes]
             what = f"{_named(nodes)} hang together without any mass, and on no fixed or driven point."
-            yield Fault(_written(flat, nodes[0]), what, "Join one of them to a Ground or a source of motion, or add a Mass.")
+            way_out = "Join one of them to a Ground or a source of motion, or add a Mass."
+            yield Fault(_written(flat, nodes[0]), what, way_out)
 
 
 def _depends_on_motion(block: Block) -> bool:
@@ -93,7 +94,7 @@ def _depends_on_motion(block: Block) -> bool:
 
 def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[int], *, always: bool) -> Fault:
     """The fault of one underdetermined part."""
-    groups = [k for k, at in {**numbering.position, **numbering.rate}.items() if at in part or numbering.balance[k] in part]
+    groups = [k for k, at in {**numbering.position, **numbering.rate}.items() if part & {at, numbering.balance[k]}]
     nodes = [flat.nodes[number] for k in groups if not flat.groups[k].mass for number in flat.groups[k].nodes]
     owners = dict.fromkeys(path for (path, _), at in numbering.own.items() if at in part)
     near = dict.fromkeys([*owners, *(port.instance for node in nodes for port in node.ports)])
@@ -103,12 +104,12 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
         return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
     names = [f"{path}.{name}" for (path, name), at in numbering.own.items() if at in part]
     what = f"{_and(names)}: no equation determines {'it' if len(names) == 1 else 'them'}{while_}."
-    return Fault(flat.assembly.instances[next(iter(owners))].where, what,
-                 "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion.")  # fmt: skip
+    way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
+    return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
 
 
 def _zones_at_start(blocks: list[Block], paths: set[str]) -> str:
-    """ " while pad is held" for those of the components that have zones."""
+    """The words that say in which zones those of the components that have some begin."""
     said = []
     for block in blocks:
         zones = block.kernel.structure.zones
@@ -128,7 +129,8 @@ def _way_out(node: Node, joined: bool) -> str:
     if not node.domain.mechanical:
         return "Connect something there whose law ties it to the rest."
     body = "a Mass" if node.domain.name == "translational" else "an Inertia"
-    return f"Add {body} there, or {'join the two contacts into one' if joined else 'a damper to something that moves freely'}."
+    other = "join the two contacts into one" if joined else "a damper to something that moves freely"
+    return f"Add {body} there, or {other}."
 
 
 def _named(nodes: list[Node]) -> str:
@@ -160,7 +162,7 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
         for zone in s.zones[:1] if start else s.zones:
             for k, target in enumerate(s.targets):
                 for key in s.flow_inputs[zone].get(target, ()):
-                    _enter(rows_of, block, k, s.inputs.index(key), n, algebraic, signals)
+                    _enter(rows_of, block, k, s.inputs.index(key), signals)
         for unknown, j in s.mass:
             if s.zones[0] in s.holds[unknown] or not start:
                 row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]
@@ -170,8 +172,9 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
     return rows_of
 
 
-def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, n: int, algebraic: np.ndarray, signals: _Signals) -> None:
+def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, signals: _Signals) -> None:
     """Target k of every instance contains input j."""
+    n, algebraic = signals.n, signals.algebraic
     for row, z in zip(block.flow_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
         if row < n:
             for column in (z,) if z < n else signals.columns(z - n):

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.instantiate import PortRef
-from fairlead.errors import Fault, did_you_mean, listing, shown
+from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.quantities import QuantityError, si
 from fairlead.system.system import glob
@@ -52,8 +52,9 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
         for name, number in numbers.items():
             at = names[name]
             start = (number - at.offset) / at.ratio
-            if at.unknown in said and not math.isclose(said[at.unknown][1], start, rel_tol=1e-9, abs_tol=1e-12):
-                what = f"initial.{pattern} = {shown(value.plain())} contradicts initial.{said[at.unknown][0]}: both move as one."
+            other, before = said.get(at.unknown, (pattern, start))
+            if not math.isclose(before, start, rel_tol=1e-9, abs_tol=1e-12):
+                what = f"initial.{pattern} = {shown(value.plain())} contradicts initial.{other}: both move as one."
                 faults.append(Fault(value.where, what, "Give one of them."))
             said[at.unknown] = pattern, start
     for unknown, (_, start) in said.items():
@@ -71,8 +72,10 @@ def _names(flat: FlatModel, numbering: Numbering) -> dict[str, Named]:
     for outer, ref in flat.assembly.aliases.items():
         if ref in flat.node_of:
             names |= _of_port(flat, numbering, ref, outer)
-    known = {name: Named(k, 1.0, 0.0, u.unit) for k, u in enumerate(numbering.unknowns) for name in [u.name] if u.kind != "ledger"}
-    return names | known
+    for k, unknown in enumerate(numbering.unknowns):
+        if unknown.kind != "ledger":
+            names[unknown.name] = Named(k, 1.0, 0.0, unknown.unit)
+    return names
 
 
 def _of_port(flat: FlatModel, numbering: Numbering, ref: PortRef, prefix: str) -> dict[str, Named]:
@@ -86,16 +89,17 @@ def _of_port(flat: FlatModel, numbering: Numbering, ref: PortRef, prefix: str) -
     return found
 
 
-def _no_such(flat: FlatModel, names: dict[str, Named], pattern: str, where: object) -> Fault:
+def _no_such(flat: FlatModel, names: dict[str, Named], pattern: str, where: Location) -> Fault:
     """A name that no unknown has; that of a prescribed motion is told apart."""
     owner, _, variable = pattern.rpartition(".")
     for group in flat.groups:
         ports = [port for number in group.nodes for port in flat.nodes[number].ports]
-        if group.prescribed is not None and any(owner in (str(port), port.instance) for port in ports):
-            what = f"initial.{pattern}: {owner} moves as {group.prescribed.by.instance} prescribes."
-            if variable in {name for name, _ in group.domain.across}:
-                return Fault(where, what, f"Set where {group.prescribed.by.instance} begins instead.")  # type: ignore[arg-type]
-    near = did_you_mean(pattern, names)
+        mine = any(owner in (str(port), port.instance) for port in ports)
+        if group.prescribed is not None and mine and variable in {name for name, _ in group.domain.across}:
+            by = group.prescribed.by.instance
+            way_out = f"Set where {by} begins instead." if group.prescribed.outputs else "Leave it out."
+            return Fault(where, f"initial.{pattern}: this motion is prescribed by {by}.", way_out)
     here = [name for name in names if name.rpartition(".")[0] == owner]
+    near = did_you_mean(pattern, here or names)
     way_out = f"{owner} has {listing(here)}." if here else f"Unknowns are {listing(names)}."
-    return Fault(where, f"initial.{pattern}: no unknown has this name. {near}".rstrip(), way_out)  # type: ignore[arg-type]
+    return Fault(where, f"initial.{pattern}: no unknown has this name. {near}".rstrip(), way_out)
