@@ -20,7 +20,7 @@ JOINTS = ["Contact", "Spring", "Damper", "SpringDamper", "Tether", "Hose", "Core
 
 
 def members():
-    """(name, class, choices) of every way to join two bodies, each contact with each of its curves."""
+    """Every way to join two bodies as (class, choices): each contact with each of its curves and options."""
     types = known_types(())
     for name in JOINTS:
         for kind, chosen in families(types[name]):
@@ -34,8 +34,12 @@ def test_what_two_ports_take_in_cancels_as_a_formula(kind, chosen) -> None:
         assert sympy.simplify(sum(zone.flows.values())) == 0, name
 
 
-@pytest.mark.parametrize(("kind", "chosen"), list(members()))
+MACHINE_CODE = [p for p in members() if p.values[1].get("curve", "stribeck") == "stribeck"]
+
+
+@pytest.mark.parametrize(("kind", "chosen"), MACHINE_CODE)
 def test_what_two_ports_take_in_cancels_in_machine_code(kind, chosen) -> None:
+    """With one curve each: what a curve says is in both flows the same number, and compiling takes seconds."""
     rng = np.random.default_rng(2)
     values = sample(kind, rng, chosen, True)
     rig = Rig([values], [{"a": 1.0, "b": 2.0}])

@@ -165,8 +165,8 @@ def test_a_broken_limit_is_named_and_exits_with_5(start, netlist, tmp_path) -> N
 
 def test_set_changes_a_parameter_and_a_setting(start, netlist, tmp_path) -> None:
     settings = ("stiction=0.8", "run.stop=2 s", "belt.velocity=0.1 m/s")
-    code, _, _ = finish(start(netlist, *(word for text in settings for word in ("--set", text))))
-    assert code == 0
+    code, _, err = finish(start(netlist, *(word for text in settings for word in ("--set", text))))
+    assert code == 0, err
     result = Result.open(tmp_path / "run")
     assert result.t[-1] == 2.0
     # The block starts with the 0.2 m/s of the netlist on a belt of half that: it slips ahead, is caught, and sticks
@@ -179,7 +179,8 @@ def test_a_number_that_is_none_names_its_culprit(start, tmp_path) -> None:
     library = tmp_path / "root_spring.py"
     library.write_text(textwrap.dedent(NOT_A_NUMBER), encoding="utf-8")
     netlist = tmp_path / "nan.yaml"
-    netlist.write_text(textwrap.dedent("""
+    netlist.write_text(
+        textwrap.dedent("""
         schema: 1
         name: nan
         components:
@@ -189,7 +190,8 @@ def test_a_number_that_is_none_names_its_culprit(start, tmp_path) -> None:
           force: {type: ForceSource, force: 1 N}
         connections: [[cart.flange, spring.flange], [other.flange, force.flange]]
         run: {stop: 10 s, accuracy: 1e-6}
-    """))
+    """)
+    )
     code, _, err = finish(start(netlist, "--library", str(library)))
     assert code == 3
     assert "cart" in err

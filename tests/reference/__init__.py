@@ -20,5 +20,6 @@ In order of reading:
 `elastic_rod`          wave speed and natural frequencies of a rod and of its chain of masses
 `hanging_line`         tension and stretch of a line with a load along its length
 `window`               the trapezoid window through which a device sees a travelling chain
+`sandwich`             two contacts in series, stepped through by Moreau's method: no zones, no events
 =====================  ==================================================================
 """

@@ -48,13 +48,13 @@ class Sandwich:
         return _march(numbers, self.amplitude, 2 * np.pi * self.frequency, step, round(stop / step), keep)
 
 
-@njit(cache=False)
+@njit
 def _limit(contact, slip):
     normal, stiction, coulomb, velocity = contact
     return normal * (coulomb + (stiction - coulomb) * np.exp(-((slip / velocity) ** 2)))
 
 
-@njit(cache=False)
+@njit
 def _march(numbers, amplitude, w, h, steps, keep):
     m_h, m_c, k_h, k_c, c_h, c_c = numbers[:6]
     outer, inner = numbers[6:10], numbers[10:14]
