@@ -4,7 +4,7 @@ from fairlead.component import Component, Law, Output, Parameter, Translational,
 
 
 class Core(Component):
-    """Tension-only element with damping:
+    """Tension-only element with damping.
 
     taut    tension = stretch EA/length + damping * rate     while both stretch and tension are positive
     slack   tension = 0

@@ -4,7 +4,7 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Hose(Component):
-    """Elastic element with damping, in tension or compression:
+    """Elastic element with damping, in tension or compression.
 
     tension = (stretch) EA/length + damping * rate,   stretch = b.x - a.x - length
     """

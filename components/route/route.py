@@ -1,5 +1,6 @@
 """A guidance route: devices in order along a path coordinate."""
 
+import itertools
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +12,7 @@ from fairlead.component.piecewise import PiecewisePolynomial, constant, linear_t
 from fairlead.component.tables import add
 from fairlead.errors import Fault
 
-SHARPEST = 0.5  # rad per element; above about 0.25 rad the capstan error of the mesh shows
+SHARPEST, ADVISED = 0.5, 0.25  # rad per element; above about 0.25 the capstan error of the mesh shows
 WORDS_OF_ADVICE = "Use shorter elements."
 
 
@@ -24,13 +25,11 @@ class Route(Composite):
     def check(p):
         """In order, without overlap."""
         placed = sorted(p.stations, key=lambda station: station.start)
-        for before, after in zip(placed, placed[1:], strict=False):
+        for before, after in itertools.pairwise(placed):
             end = before.start + before.extent()
             if after.start < end:
-                yield (
-                    "stations", f"the device at {after.start:g} m begins before the one at {before.start:g} m ends at {end:g} m",
-                    "Move one of them.",
-                )  # fmt: skip
+                what = f"the device at {after.start:g} m begins before the one at {before.start:g} m ends, at {end:g} m"
+                yield "stations", what, "Move one of them."
 
     def expand(p, scene):
         """The fixed surface all devices share; contacts come with the line."""
@@ -62,14 +61,12 @@ class RouteLine:
             found.append(Fault(route.where, f"{route.path}.stations is empty.", "Give at least one device."))
         for k, station in enumerate(self.stations):
             where = f"{route.path}.stations[{k}]"
-            turn = element / station.bend_radius()
+            radius = station.bend_radius()
+            turn = element / radius
             if turn > SHARPEST:
-                what = f"{where}: an element of {element:g} m turns through {turn:.2g} rad in a radius of {station.bend_radius():g} m."
-                found.append(
-                    Fault(
-                        route.where, what, f"Use elements of at most {0.25 * station.bend_radius():.3g} m (0.25 rad)."
-                    )
-                )
+                what = f"{where}: an element of {element:g} m turns through {turn:.2g} rad in a radius of {radius:g} m."
+                way_out = f"Use elements of at most {ADVISED * radius:.3g} m ({ADVISED:g} rad)."
+                found.append(Fault(route.where, what, way_out))
             if station.extent() < (station.edge or element):
                 found.append(
                     Fault(

@@ -159,13 +159,13 @@ def _write(path: pathlib.Path, meta: dict[str, Any], objects: dict[str, _ObjectC
     temporary = None
     try:
         with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as file:
-            temporary = file.name
+            temporary = pathlib.Path(file.name)
             file.write(MAGIC + hashlib.sha256(body).digest() + body)
-        os.replace(temporary, path)
+        temporary.replace(path)
     except OSError as error:
         _warn_once(f"kernel cache cannot be written: {error}; compiled code is kept in memory")
         if temporary is not None:
-            pathlib.Path(temporary).unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
 
 
 @functools.cache

@@ -32,8 +32,8 @@ from fairlead.component.declare import (
 from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tanh
 
 __all__ = [
-    "Block", "Choice", "Component", "Composite", "Count", "Declared", "Discrete", "Electrical", "Expansion", "Family", "Hydraulic",
-    "Input", "Law", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Table", "Translational",
-    "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "derived_wave", "exp", "guard", "hold", "log", "pi", "sampled", "sin", "sqrt", "tanh",
-    "zone",
+    "Block", "Choice", "Component", "Composite", "Count", "Declared", "Discrete", "Electrical", "Expansion", "Family",
+    "Hydraulic", "Input", "Law", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Table",
+    "Translational", "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "derived_wave", "exp", "guard", "hold",
+    "log", "pi", "sampled", "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

@@ -161,7 +161,8 @@ def _collect(cls: type) -> Declaration:
         laws["always"] = members["law"]
     return Declaration(
         ports=of(Port), parameters=of(PARAMETER_KINDS), inputs=of(Input), outputs=of(Output), states=of(State),
-        unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived), zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
+        unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived),
+        zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
     )  # fmt: skip
 
 

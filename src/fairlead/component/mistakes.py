@@ -116,6 +116,10 @@ def _fault(detail: Any, spot: Spot) -> Fault:
     if isinstance(spot.declared, Choice):
         near = did_you_mean(str(node.plain()), spot.declared.options)
         return Fault(node.where, f"{said} is not known. {near}".rstrip(), f"Allowed: {listing(spot.declared.options)}.")
+    if detail["type"] == "literal_error" and spot.declared is None:  # the word of a family with one member
+        expected = [word.strip("' ") for word in context["expected"].split(",")]
+        what = f"{spot.path}: there is no {name} {shown(node.plain())}. {did_you_mean(str(node.plain()), expected)}"
+        return Fault(node.where, what.rstrip(), f"There is {listing(expected)}.")
     if detail["type"].startswith("union_tag"):
         return _wrong_word(node, spot, context)
     if detail["type"] == "model_type" or detail["type"] == "model_attributes_type":

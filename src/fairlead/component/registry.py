@@ -76,7 +76,8 @@ def load_library(path: str) -> ModuleType:
     if loaded is not None and getattr(loaded, "__file__", None) == str(target):
         return loaded
     spec = importlib.util.spec_from_file_location(name, target)
-    assert spec is not None and spec.loader is not None
+    if spec is None or spec.loader is None:
+        raise ModelError((Fault(None, f"--library {path}: this is no Python file", "Give a .py file."),))
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     try:

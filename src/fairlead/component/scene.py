@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeGuard
 
 from fairlead.component.base import Declared, Family
 from fairlead.component.declare import Choice
@@ -36,17 +36,17 @@ class Scene:
             return kind
         chosen = given.get(_key(kind), self.friction.get(_key(kind)))
         word = chosen.plain() if isinstance(chosen, Value) else chosen
-        return kind.members.get(word or kind.default_word, kind)  # type: ignore[attr-defined, no-any-return]
+        return kind.members.get(word or kind.default_word, kind)
 
     def defaults(self, kind: type[Declared], given: Mapping[str, Any]) -> dict[str, Value]:
         """Scene-wide settings that an instance of `kind` takes because it does not give them itself."""
         declared = self.member(kind, given).declaration.parameters
         wanted = {name: value for name, value in self.friction.items() if _is_family(kind) and name in declared}
-        wanted |= {n: v for n, v in self.effects.items() if _is_switch(declared.get(n))}
+        wanted |= {n: v for n, v in self.effects.items() if is_switch(declared.get(n))}
         return {name: value for name, value in wanted.items() if name not in given}
 
 
-def is_head(kind: type[Declared]) -> bool:
+def is_head(kind: type[Declared]) -> TypeGuard[type[Family]]:
     """True for the abstract head of a family, such as `Contact`."""
     return issubclass(kind, Family) and "members" in kind.__dict__
 
@@ -59,5 +59,6 @@ def _key(kind: type[Declared]) -> str:
     return kind.key if issubclass(kind, Family) else ""
 
 
-def _is_switch(declared: Any) -> bool:
+def is_switch(declared: Any) -> bool:
+    """True for a parameter that turns an effect on or off."""
     return isinstance(declared, Choice) and declared.options == SWITCH
