@@ -34,7 +34,7 @@ class Binding(Contact):
 
     word = "binding"
     exempt = {
-        "dissipates break_forward": "The latch keeps the force of sliding while the slip is still that of creeping back.",
+        "dissipates break_forward": "The latch keeps the force of sliding while the slip is still creeping back.",
         "dissipates break_backward": "The same the other way; what it gives is less than F_s times the creep.",
         "settles naive": "It counts one of two bodies, so the load depends on the zone (hazard of the printed law).",
     }
@@ -98,7 +98,8 @@ class Binding(Contact):
         """The force of the zone; what counts as creep is the slip on the plateau, where the contact sticks."""
         slip, bound = b.v - a.v, 1 if zone in BOUND else 0
         friction = friction_in(p, zone, slip, normal)
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, bound=bound, creep_rate=slip if zone == "plateau" else 0,
+        creep = slip if zone == "plateau" else 0
+        return Law(a=-friction, b=+friction, slip=slip, friction=friction, bound=bound, creep_rate=creep,
                    dissipated=friction * slip)  # fmt: skip
 
     @zone("off")
@@ -123,8 +124,10 @@ class Binding(Contact):
 
     @guard(*BOUND, to="transit", unit="N")
     def lets_go(p, a, b, normal, bound_a, bound_b, zone):
-        """Without the latch the contact goes through zero slip instead. With it a ramp needs no way out: capped, it
-        only leads back to the plateau, which breaks away in the direction of the load.
+        """Without the latch the contact goes through zero slip instead.
+
+        With it a ramp needs no way out: capped, it only leads back to the plateau, which breaks away in the
+        direction of the load.
         """
         return abs(applied_force(p, zone, a, b, normal, bound_a, bound_b)) - normal * p.mu_s if p.latch == "off" else -1
 

@@ -49,6 +49,6 @@ def effective_mass(p: Any, zone: str, a: Any, b: Any, bound_a: Any, bound_b: Any
 
 
 def applied_force(p: Any, zone: str, a: Any, b: Any, normal: Any, bound_a: Any, bound_b: Any) -> Any:
-    """af = T + M a_rel [N]: what the contact would have to carry to hold."""
+    """The force that the contact would have to carry to hold [N], af = T + M a_rel."""
     mass = effective_mass(p, zone, a, b, bound_a, bound_b)
     return friction_in(p, zone, b.v - a.v, normal) + mass * (b.a - a.a)

@@ -26,8 +26,8 @@ class Hold(Contact):
     def held(p, a, b, force):
         """The force is what keeps the slip at zero."""
         slip = b.v - a.v
-        return Law(a=-force, b=+force, force=hold(slip, within=p.stick_speed), slip=slip, friction=force, creep_rate=slip,
-                   bound=1, dissipated=force * slip)  # fmt: skip
+        return Law(a=-force, b=+force, force=hold(slip, within=p.stick_speed), slip=slip, friction=force,
+                   creep_rate=slip, bound=1, dissipated=force * slip)  # fmt: skip
 
     @zone("forward", "backward")
     def sliding(p, a, b, force, normal, zone):

@@ -1,0 +1,80 @@
+"""What the laws with a bristle have in common: one average deflection z, and the numbers that go with it."""
+
+from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Law, Output, Parameter, State, derived, guard, tanh, zone
+
+STILL = 1e-9  # m/s; a slip must reverse by this before the law takes notice, or rounding would switch it at rest
+STRAIGHTEN = 1e-3  # s; time in which the bristles of an open contact straighten
+SLIDING = 0.998  # square of the share of their sliding deflection at which bent bristles count as sliding
+SHARPNESS = 1e4  # of that border
+
+
+class Bristles(Contact, abstract=True):
+    """A contact whose friction is the force of bent bristles, of stiffness s0 and mean deflection z.
+
+    `presliding` is the deflection at break-away, so s0 = N mu_s/presliding grows with the normal force, and the
+    displacement before sliding does not depend on it. A change of the normal force changes the energy in bent
+    bristles without work; the ledger of the run then has a gap. Creep is slip that the bristles will not give back.
+    """
+
+    presliding = Parameter("m", "Deflection at which the contact breaks away.", default=2e-5, above=0)
+    z = State("m", "Deflection of the bristles.", nominal=1e-5)
+    deflection = Output("m", "Deflection of the bristles.")
+
+    @derived
+    def ratio(p):
+        """Stiffness of the bristles over normal force, s0/N [1/m]."""
+        return p.curve.breakaway() / p.presliding
+
+    @zone("off")
+    def off(p, a, b, z):
+        """No force passes; the bristles straighten."""
+        return Law(a=0, b=0, z=-z / STRAIGHTEN, slip=b.v - a.v, deflection=z)
+
+    def check(p):
+        """Bristles without friction have no stiffness."""
+        if p.curve.breakaway() <= 0:
+            yield "curve", "the coefficient at rest is zero", "Leave the contact out, or give it some friction."
+
+
+class OneWay(Bristles, abstract=True):
+    """Bristles with a zone for each direction of slip, in which |v| is smooth."""
+
+    @guard("forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
+    @guard("off", to="forward", unit="N")
+    def lands(p, normal):
+        """Pressed again; the direction is found at once."""
+        return normal - 2 * p.lift
+
+    @guard("forward", to="backward", unit="m/s")
+    def reverses_backward(p, a, b):
+        """The slip has changed its direction."""
+        return a.v - b.v - STILL
+
+    @guard("backward", to="forward", unit="m/s")
+    def reverses_forward(p, a, b):
+        """The same the other way."""
+        return b.v - a.v - STILL
+
+
+def sliding_deflection(p, speed):
+    """Deflection [m] of the bristles in steady sliding at a slip speed: N mu(v)/s0."""
+    return p.curve.coefficient(speed) / p.ratio
+
+
+def bent(p, a, b, z, normal, rate, share, damping):
+    """The law of bristles bent by z, growing at `rate` = z'; `share` is z over what sliding would bend them.
+
+    T = s0 (z + damping z') + viscous v;  stored s0 z^2/2.  Of the power T v, what bends the bristles is stored.
+    """
+    slip, stiffness = b.v - a.v, normal * p.ratio
+    friction = stiffness * (z + damping * rate) + p.viscous * slip
+    creeping = (slip - rate) * (1 - tanh(SHARPNESS * (share**2 - SLIDING))) / 2
+    lost = stiffness * z * (slip - rate) + stiffness * damping * rate * slip + p.viscous * slip**2
+    return Law(a=-friction, b=+friction, z=rate, slip=slip, friction=friction, deflection=z, creep_rate=creeping,
+               stored=stiffness * z**2 / 2, dissipated=lost)  # fmt: skip

@@ -1,0 +1,115 @@
+"""The elastoplastic law: LuGre bristles that are purely elastic up to a part of their break-away deflection."""
+
+from fairlead.components.friction.bristles import STILL, Bristles, bent, sliding_deflection
+
+from fairlead.component import Parameter, Zones, guard, pi, sin, zone
+
+MARGIN = 0.01  # relative, to either side of full plasticity; there the blend differs from 1 by less than 1 %
+
+
+class Elastoplastic(Bristles):
+    """z' = v (1 - alpha sgn(v) z/z_s),  T = s0 z + s1 z' + viscous v,  z_s(v) = N mu(v)/s0 the sliding deflection.
+
+    elastic   |z| < elastic_share z_s, or unloading    alpha = 0: all slip is given back
+    blend     loading, up to about z_s                 alpha = (1 + sin(pi (z/z_s - m)/w))/2,  m = (1 + elastic_share)/2,
+                                                       w = 1 - elastic_share
+    forward, backward   loading, at z_s and above      alpha = 1: LuGre
+    off       N = 0                                    no force, the bristles straighten
+
+    It holds loads below elastic_share F_s without any drift, shaken or not, which LuGre and Dahl do not.
+    Departure from the source: the elastic limit follows z_s(v), so that it stays below it on any curve; and full
+    plasticity begins 1 % above z_s and ends 1 % below it, because steady sliding sits on that border.
+    Limits: more zones than LuGre, a switch at every reversal under load; no passivity for any s1 (see LuGre).
+    Source: Dupont, Hayward, Armstrong, Altpeter (2002), Single state elastoplastic friction models, IEEE Trans.
+    Automatic Control 47, 787, DOI 10.1109/TAC.2002.1000274.
+    """
+
+    exempt = {
+        "dissipates": "Its damping is that of LuGre, which is passive only under a condition on s1: Barabanov and "
+        "Ortega (2000), IEEE Trans. Automatic Control 45, 830."
+    }
+    relaxation = Parameter("s", "Damping over stiffness of the bristles, s1/s0.", default=2e-3, least=0)
+    elastic_share = Parameter("1", "Part of the sliding deflection that is purely elastic.", default=0.7, above=0, below=1)
+    zones = Zones("elastic", "blend_forward", "blend_backward", "forward", "backward", "off")
+
+    @zone("elastic")
+    def elastic(p, a, b, z, normal):
+        """A spring with a damper; share 0, for nothing of the slip is lost."""
+        return bent(p, a, b, z, normal, b.v - a.v, 0, damping=p.relaxation)
+
+    @zone("blend_forward", "blend_backward")
+    def blends(p, a, b, z, normal, zone):
+        """Plastic in part."""
+        d, slip = _direction(zone), b.v - a.v
+        share = z / sliding_deflection(p, d * slip)
+        middle, width = (1 + p.elastic_share) / 2, 1 - p.elastic_share
+        alpha = (1 + sin(pi * (d * share - middle) / width)) / 2
+        return bent(p, a, b, z, normal, slip * (1 - alpha * d * share), share, damping=p.relaxation)
+
+    @zone("forward", "backward")
+    def slides(p, a, b, z, normal, zone):
+        """Fully plastic."""
+        d, slip = _direction(zone), b.v - a.v
+        share = z / sliding_deflection(p, d * slip)
+        return bent(p, a, b, z, normal, slip * (1 - d * share), share, damping=p.relaxation)
+
+    @guard("elastic", "blend_forward", "blend_backward", "forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
+    @guard("off", to="elastic", unit="N")
+    def lands(p, normal):
+        """Pressed again."""
+        return normal - 2 * p.lift
+
+    @guard("elastic", to="blend_forward", unit="m/s")
+    def yields_forward(p, a, b, z, zone):
+        """Loaded forward beyond the elastic part."""
+        return b.v - a.v - STILL, (z - p.elastic_share * _sliding(p, a, b, zone)) / p.presliding
+
+    @guard("elastic", to="blend_backward", unit="m/s")
+    def yields_backward(p, a, b, z, zone):
+        """The same the other way."""
+        return a.v - b.v - STILL, (-z - p.elastic_share * _sliding(p, a, b, zone)) / p.presliding
+
+    @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="m/s")
+    def unloads(p, a, b, zone):
+        """The slip has changed its direction."""
+        return -_direction(zone) * (b.v - a.v) - STILL
+
+    @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="1")
+    def recovers(p, a, b, z, zone):
+        """The sliding deflection has grown away from the bristles, or they have straightened."""
+        return (0.99 * p.elastic_share * _sliding(p, a, b, zone) - _direction(zone) * z) / p.presliding
+
+    @guard("blend_forward", to="forward", unit="1")
+    def slides_forward(p, a, b, z, zone):
+        """Bent beyond the sliding deflection."""
+        return (z - (1 + MARGIN) * _sliding(p, a, b, zone)) / p.presliding
+
+    @guard("blend_backward", to="backward", unit="1")
+    def slides_backward(p, a, b, z, zone):
+        """The same the other way."""
+        return (-z - (1 + MARGIN) * _sliding(p, a, b, zone)) / p.presliding
+
+    @guard("forward", to="blend_forward", unit="1")
+    def lags_forward(p, a, b, z, zone):
+        """Bent less than the sliding deflection."""
+        return ((1 - MARGIN) * _sliding(p, a, b, zone) - z) / p.presliding
+
+    @guard("backward", to="blend_backward", unit="1")
+    def lags_backward(p, a, b, z, zone):
+        """The same the other way."""
+        return ((1 - MARGIN) * _sliding(p, a, b, zone) + z) / p.presliding
+
+
+def _direction(zone):
+    """+1 in a forward zone, -1 in a backward one."""
+    return -1 if zone.endswith("backward") else 1
+
+
+def _sliding(p, a, b, zone):
+    """Sliding deflection at the present slip speed, for guards [m]; only `elastic` has slip of either sign."""
+    slip = b.v - a.v
+    return sliding_deflection(p, abs(slip) if zone == "elastic" else _direction(zone) * slip)

@@ -1,0 +1,106 @@
+"""Karnopp's law: below a small slip speed a contact counts as stuck, and its slip is taken to be zero."""
+
+from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Law, Output, Parameter, Unknown, Zones, guard, hold, zone
+
+
+class Karnopp(Contact):
+    """Inside the band |v| < band the contact carries what is applied, up to F_s = N mu_s; outside it slides.
+
+    stuck      |v| < band, |af| <= F_s      slip = 0, T = af
+    breaking   |v| < band, |af| >  F_s      T = +-F_s
+    forward    v >= band                    T = +N mu(v) + viscous v       backward the same the other way
+    off        N = 0                        T = 0
+
+    Karnopp computes the applied force af from the neighbours, by hand for every topology; here the force that keeps
+    the slip at zero is an unknown and the engine solves for it, whatever else is stuck. On entering the band the slip
+    is set to zero by an impulse that conserves momentum, as his velocity is; m band^2/2 of energy goes unaccounted.
+    It holds without creep up to F_s. Against exact hold it stops early by about m band/T seconds, and leaves with F_s
+    (not the curve) until the slip is out of the band.
+    Limits: the band must stay well below the slowest speed that matters; below it everything is stuck.
+    Source: Karnopp (1985), Computer simulation of stick-slip friction in mechanical dynamic systems, ASME J. Dyn.
+    Sys. Meas. Control 107, 100, DOI 10.1115/1.3140698.
+    """
+
+    force = Unknown("N", "Friction T.")
+    band = Parameter("m/s", "Slip speed below which the contact counts as stuck.", default=1e-4, above=0)
+    bound = Output("1", "1 while the contact is stuck.")
+    zones = Zones("stuck", "breaking_forward", "breaking_backward", "forward", "backward", "off")
+
+    @zone("stuck")
+    def stuck(p, a, b, force):
+        """The force is what keeps the slip at zero."""
+        slip = b.v - a.v
+        return Law(a=-force, b=+force, force=hold(slip, within=p.band), slip=slip, friction=force, creep_rate=slip,
+                   bound=1, dissipated=force * slip)  # fmt: skip
+
+    @zone("breaking_forward", "breaking_backward")
+    def breaking(p, a, b, force, normal, zone):
+        """More is applied than stiction: friction stays at its limit until the slip leaves the band."""
+        friction = normal * p.curve.breakaway() * (1 if zone == "breaking_forward" else -1)
+        slip = b.v - a.v
+        return Law(a=-force, b=+force, force=force - friction, slip=slip, friction=force, dissipated=force * slip)
+
+    @zone("forward", "backward")
+    def sliding(p, a, b, force, normal, zone):
+        """The curve gives the force, against the slip."""
+        d = 1 if zone == "forward" else -1
+        slip = b.v - a.v
+        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
+        return Law(a=-force, b=+force, force=force - friction, slip=slip, friction=force, dissipated=force * slip)
+
+    @zone("off")
+    def off(p, a, b, force):
+        """No force passes."""
+        return Law(a=0, b=0, force=force, slip=b.v - a.v)
+
+    @guard("stuck", "breaking_forward", "breaking_backward", "forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
+    @guard("stuck", "breaking_forward", "breaking_backward", to="forward", unit="m/s")
+    def leaves_forward(p, a, b):
+        """The slip is out of the band."""
+        return b.v - a.v - p.band
+
+    @guard("stuck", "breaking_forward", "breaking_backward", to="backward", unit="m/s")
+    def leaves_backward(p, a, b):
+        """The same the other way."""
+        return a.v - b.v - p.band
+
+    @guard("stuck", to="breaking_forward", unit="N")
+    def breaks_forward(p, force, normal):
+        """The force needed is more than stiction."""
+        return force - normal * p.curve.breakaway()
+
+    @guard("stuck", to="breaking_backward", unit="N")
+    def breaks_backward(p, force, normal):
+        """The same the other way."""
+        return -force - normal * p.curve.breakaway()
+
+    @guard("breaking_forward", to="stuck", unit="m/s")
+    def gives_up_forward(p, a, b):
+        """The slip has come back to zero."""
+        return a.v - b.v
+
+    @guard("breaking_backward", to="stuck", unit="m/s")
+    def gives_up_backward(p, a, b):
+        """The same the other way."""
+        return b.v - a.v
+
+    @guard("forward", to="stuck", unit="m/s")
+    def enters_forward(p, a, b):
+        """The slip enters the band; if the load is too much, it leaves `stuck` at once."""
+        return 0.99 * p.band - (b.v - a.v)
+
+    @guard("backward", to="stuck", unit="m/s")
+    def enters_backward(p, a, b):
+        """The same the other way."""
+        return 0.99 * p.band - (a.v - b.v)
+
+    @guard("off", to="stuck", unit="N")
+    def lands(p, normal):
+        """Pressed again; if it slips, it leaves `stuck` at once."""
+        return normal - 2 * p.lift

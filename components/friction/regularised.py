@@ -1,0 +1,109 @@
+"""The regularised laws: the sign of the slip is replaced by a smooth function of it. Foils for the others."""
+
+import math
+
+from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Law, Parameter, Zones, atan, guard, pi, sqrt, tanh, zone
+
+MOST_COUNTED = 0.999  # share of the sliding level up to which slip counts as creep
+SHARPNESS = 20.0  # of the end of that count, beside 1; at 99 % of the level it is complete for every shape here
+
+
+class Regularised(Contact, abstract=True):
+    """T = N mu(|v|) s(v/creep) + viscous v  with a shape s that goes through zero with slope about 1.
+
+    |v| is rounded off at the creep speed, sqrt(v^2 + creep^2). There is no stiction: the largest force is
+    about N mu at a few times the creep speed, and a break-away coefficient above the curve is not seen. Under a
+    load af below it the contact slips for ever, at creep * s^-1(af/(N mu)); that is its creep.
+    The slope N mu/creep at zero slip makes the equations stiff; an explicit method needs h < 2 m creep/(N mu).
+    """
+
+    creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
+    zones = Zones("on", "off")
+
+    @zone("on")
+    def on(p, a, b, normal):
+        """One formula for all speeds; slip counts as creep while friction is below 99.9 % of its level."""
+        slip = b.v - a.v
+        speed = sqrt(slip**2 + p.creep**2)
+        friction = normal * p.curve.coefficient(speed) * p.shape(slip / p.creep) + p.viscous * slip
+        beyond = (slip / (p.creep * p.reach())) ** 2 - 1
+        creeping = slip * (1 - tanh(SHARPNESS * beyond)) / 2
+        return Law(
+            a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=creeping, dissipated=friction * slip
+        )
+
+    @zone("off")
+    def off(p, a, b):
+        """No force passes."""
+        return Law(a=0, b=0, slip=b.v - a.v)
+
+    @guard("on", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more."""
+        return p.lift - normal
+
+    @guard("off", to="on", unit="N")
+    def lands(p, normal):
+        """Pressed again."""
+        return normal - 2 * p.lift
+
+    def reach(p):
+        """Slip over creep at which the shape is 99.9 % of its level."""
+        return p.inverse(MOST_COUNTED)
+
+
+class Smooth(Regularised):
+    """T = N mu(|v|) tanh(v/creep) + viscous v; it never sticks: under load af it slips at creep*atanh(af/(N mu)).
+
+    Limits: creep grows without bound near stiction (2.6 creep at 99 % of it); nothing tells sticking from sliding.
+    Source: Andersson, Söderberg, Björklund (2007), Friction models for sliding dry, boundary and mixed lubricated
+    contacts, Tribology International 40, 580.
+    """
+
+    word = "tanh"
+
+    def shape(p, u):
+        """Hyperbolic tangent; 76 % at the creep speed."""
+        return tanh(u)
+
+    def inverse(p, share):
+        """The u with shape(u) = share."""
+        return math.atanh(share)
+
+
+class Arctan(Regularised):
+    """T = N mu(|v|) (2/pi) atan(v/creep) + viscous v; creep is creep*tan(pi/2 af/(N mu)).
+
+    Limits: the slowest to reach its level: 94 % at ten times the creep speed, 99 % at 64 times. Of the regularised
+    laws it needs the smallest creep for the same error, and pays for it in stiffness.
+    Source: Mostaghel and Davis (1997), Representations of Coulomb friction for dynamic analysis, Earthquake
+    Engineering and Structural Dynamics 26, 541.
+    """
+
+    def shape(p, u):
+        """Inverse tangent."""
+        return 2 / pi * atan(u)
+
+    def inverse(p, share):
+        """The u with shape(u) = share."""
+        return math.tan(pi / 2 * share)
+
+
+class Root(Regularised):
+    """T = N mu(|v|) v/sqrt(v^2 + creep^2) + viscous v; creep is creep*q/sqrt(1 - q^2) with q = af/(N mu).
+
+    Limits: as tanh, but its level is approached like 1 - (creep/v)^2/2, not exponentially: 99 % at seven times the
+    creep speed. No transcendental function, so it is the cheapest of the smooth ones.
+    Source: Mostaghel and Davis (1997), Earthquake Engineering and Structural Dynamics 26, 541.
+    """
+
+    def shape(p, u):
+        """Algebraic sigmoid."""
+        return u / sqrt(1 + u**2)
+
+    def inverse(p, share):
+        """The u with shape(u) = share."""
+        return share / (1 - share**2) ** 0.5
+

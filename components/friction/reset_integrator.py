@@ -1,0 +1,71 @@
+"""The reset integrator: slip is integrated into a deflection, and the integration stops at the break-away one."""
+
+from fairlead.components.friction.bristles import STILL, Bristles
+
+from fairlead.component import Law, Parameter, Zones, guard, zone
+
+
+class ResetIntegrator(Bristles):
+    """T = s0 z + s1 v while |z| < presliding, then T = +-N mu(|v|); plus viscous v while sliding.
+
+    spring    |z| < presliding, or slipping back    z' = v,  T = s0 z + s1 v
+    forward   z >= presliding, v > 0                z' = 0,  T = +N mu(v) + viscous v
+    backward  z <= -presliding, v < 0               the same the other way
+    off       N = 0                                 no force, the spring straightens
+
+    The force jumps from F_s = N mu_s to the curve when the contact breaks away, and back when it sticks; the source
+    writes s0 = (1 + a) F_c/p0 for the spring and F_c while sliding. It holds any load up to F_s on a spring, with
+    no creep and no drift.
+    Limits: while stuck a block rings at sqrt(s0/m) unless s1 damps it; every sticking is a bounce on that spring.
+    Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas.
+    Control 113, 354, DOI 10.1115/1.2896418.
+    """
+
+    relaxation = Parameter("s", "Damping over stiffness of the spring, s1/s0.", default=2e-3, least=0)
+    zones = Zones("spring", "forward", "backward", "off")
+
+    @zone("spring")
+    def spring(p, a, b, z, normal):
+        """A spring with a damper."""
+        slip, stiffness = b.v - a.v, normal * p.ratio
+        friction = stiffness * (z + p.relaxation * slip)
+        return Law(a=-friction, b=+friction, z=slip, slip=slip, friction=friction, deflection=z, creep_rate=0,
+                   stored=stiffness * z**2 / 2, dissipated=stiffness * p.relaxation * slip**2)  # fmt: skip
+
+    @zone("forward", "backward")
+    def slides(p, a, b, z, normal, zone):
+        """The curve gives the force; the spring stays as it is."""
+        d, slip = (1 if zone == "forward" else -1), b.v - a.v
+        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
+        return Law(a=-friction, b=+friction, z=0, slip=slip, friction=friction, deflection=z,
+                   stored=normal * p.ratio * z**2 / 2, dissipated=friction * slip)  # fmt: skip
+
+    @guard("spring", "forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
+    @guard("off", to="spring", unit="N")
+    def lands(p, normal):
+        """Pressed again."""
+        return normal - 2 * p.lift
+
+    @guard("spring", to="forward", unit="1")
+    def breaks_forward(p, a, b, z):
+        """The spring is at its end, and slips on."""
+        return z / p.presliding - 1, (b.v - a.v) / STILL - 1
+
+    @guard("spring", to="backward", unit="1")
+    def breaks_backward(p, a, b, z):
+        """The same the other way."""
+        return -z / p.presliding - 1, (a.v - b.v) / STILL - 1
+
+    @guard("forward", to="spring", unit="m/s")
+    def catches_forward(p, a, b):
+        """The slip has changed its direction."""
+        return a.v - b.v - STILL
+
+    @guard("backward", to="spring", unit="m/s")
+    def catches_backward(p, a, b):
+        """The same the other way."""
+        return b.v - a.v - STILL

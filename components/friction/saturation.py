@@ -1,0 +1,73 @@
+"""The saturated line: the sign of the slip is replaced by a straight line between two levels."""
+
+from fairlead.components.friction.contact import Contact
+
+from fairlead.component import Law, Parameter, Zones, guard, zone
+
+
+class Saturation(Contact):
+    """T = N mu(creep) v/creep + viscous v on the line, +-N mu(|v|) + viscous v outside it.
+
+    line      |v| < creep
+    forward   v >= creep          backward   v <= -creep
+    off       N = 0
+
+    The simplest regularisation, with its two corners in zones of their own, so that no step crosses one. A block
+    under load af < N mu(creep) creeps at creep*af/(N mu(creep)): less than with tanh, and exactly linear, so that a
+    loaded spring k leaks as exp(-k creep/(N mu) t).
+    Limits: no stiction, no memory. It is binding friction without plateau: use that where creep matters.
+    Source: Karnopp (1985), ASME J. Dyn. Sys. Meas. Control 107, 100, names it as the common way around.
+    """
+
+    creep = Parameter("m/s", "Slip speed where the line ends.", default=1e-4, above=0)
+    zones = Zones("line", "forward", "backward", "off")
+
+    @zone("line")
+    def line(p, a, b, normal):
+        """Proportional to slip; all of it is creep."""
+        slip = b.v - a.v
+        friction = (normal * p.curve.coefficient(p.creep) / p.creep + p.viscous) * slip
+        return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=slip, dissipated=friction * slip)
+
+    @zone("forward", "backward")
+    def sliding(p, a, b, normal, zone):
+        """The curve gives the force, against the slip."""
+        d = 1 if zone == "forward" else -1
+        slip = b.v - a.v
+        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
+        return Law(a=-friction, b=+friction, slip=slip, friction=friction, dissipated=friction * slip)
+
+    @zone("off")
+    def off(p, a, b):
+        """No force passes."""
+        return Law(a=0, b=0, slip=b.v - a.v)
+
+    @guard("line", "forward", "backward", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more."""
+        return p.lift - normal
+
+    @guard("off", to="line", unit="N")
+    def lands(p, normal):
+        """Pressed again."""
+        return normal - 2 * p.lift
+
+    @guard("line", to="forward", unit="m/s")
+    def leaves_forward(p, a, b):
+        """The line ends."""
+        return b.v - a.v - p.creep
+
+    @guard("line", to="backward", unit="m/s")
+    def leaves_backward(p, a, b):
+        """The same the other way."""
+        return a.v - b.v - p.creep
+
+    @guard("forward", to="line", unit="m/s")
+    def slows_forward(p, a, b):
+        """Slow again."""
+        return p.creep - (b.v - a.v)
+
+    @guard("backward", to="line", unit="m/s")
+    def slows_backward(p, a, b):
+        """The same the other way."""
+        return p.creep - (a.v - b.v)
