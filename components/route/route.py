@@ -13,7 +13,6 @@ from fairlead.component.tables import add
 from fairlead.errors import Fault
 
 SHARPEST, ADVISED = 0.5, 0.25  # rad per element; above about 0.25 the capstan error of the mesh shows
-WORDS_OF_ADVICE = "Use shorter elements."
 
 
 class Route(Composite):
@@ -68,13 +67,8 @@ class RouteLine:
                 way_out = f"Use elements of at most {ADVISED * radius:.3g} m ({ADVISED:g} rad)."
                 found.append(Fault(route.where, what, way_out))
             if station.extent() < (station.edge or element):
-                found.append(
-                    Fault(
-                        route.where,
-                        f"{where} is {station.extent():.3g} m long, shorter than its edge.",
-                        WORDS_OF_ADVICE,
-                    )
-                )
+                what = f"{where} is {station.extent():.3g} m long, shorter than its edge."
+                found.append(Fault(route.where, what, "Use shorter elements."))
             if repr(station.friction) != repr(self.stations[0].friction):
                 what = f"{where}: devices of one route with different friction are not supported yet."
                 found.append(Fault(route.where, what, "Give all stations of this route the same friction."))
