@@ -120,9 +120,7 @@ def table(scene: BendScene, record: Record) -> dict[str, object]:
         "inboard_ripple_half_range_N": _rounded(0.5 * np.ptp(steady) if steady.size else None),
         "capstan_N": round(scene.capstan, 3),
         "lowest_hose_tension_N": {f"{record.time[i]:g}": round(float(lowest[i]), 3) for i in at},
-        "lowest_hose_tension_so_far_N": {
-            f"{record.time[i]:g}": round(float(lowest[: i + 1].min()), 3) for i in at
-        },
+        "lowest_hose_tension_so_far_N": {f"{record.time[i]:g}": round(float(lowest[: i + 1].min()), 3) for i in at},
         "ruck_first_crossing_s": crossing,
         "ruck_first_dwell_s": dwell,
         "device_work_J": round(record.device_work, 3),
@@ -149,7 +147,7 @@ def ruck_times(time: np.ndarray, hose_tension: np.ndarray) -> tuple[float | None
 def _hose_on_bend(scene: BendScene, record: Record) -> dict[str, object]:
     """Speeds on the bend: mean over the nodes inside, start of the hose, greatest slip against the core."""
     weight = scene.window(record.hose)
-    inside = weight.sum(axis=1)
+    inside = np.maximum(weight.sum(axis=1), 1e-12)  # none inside: speeds of zero
     hose = (weight * record.hose_speed).sum(axis=1) / inside
     core = (weight * record.core_speed).sum(axis=1) / inside
     moving = np.flatnonzero(hose < -0.01)

@@ -73,9 +73,7 @@ def fill() -> None:
 def show(mu: float) -> str:
     """Markdown table of all stored runs for one friction value: convex first, then by mesh and accuracy."""
     runs = [run for run in stored().values() if run["scene"]["mu"] == mu]
-    runs.sort(
-        key=lambda run: ("rtol" in run, run["scene"]["elements"], -_accuracy(run), -run["scene"]["creep"])
-    )
+    runs.sort(key=lambda run: ("rtol" in run, run["scene"]["elements"], -_accuracy(run), -run["scene"]["creep"]))
     lines = [HEADER, ["---"] * len(HEADER), *(_cells(run) for run in runs)]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
@@ -87,9 +85,7 @@ def _accuracy(run: dict) -> float:
 def _cells(run: dict) -> list[str]:
     """One line of the table, as text."""
     t, scene = run["table"], run["scene"]
-    engine = (
-        f"scipy Radau, rtol {run['rtol']:g}" if "rtol" in run else f"convex, h = {1e3 * run['step']:g} ms"
-    )
+    engine = f"scipy Radau, rtol {run['rtol']:g}" if "rtol" in run else f"convex, h = {1e3 * run['step']:g} ms"
     low = t["lowest_hose_tension_so_far_N"]
     numbers = [*t["registration_mm"].values(), t["registration_max_mm"], t["inboard_mean_N"]]
     ripple = [f"{t[f'inboard_ripple_{kind}_N']:.0f}" for kind in ("std", "half_range")]

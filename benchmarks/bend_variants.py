@@ -22,7 +22,8 @@ VARIANTS: dict[str, tuple[dict[str, float], float]] = {
     "EA_h 25 kN": ({"hose_stiffness": 25e3}, 56.0),
     "bulkhead friction constant 0.5": ({"bulkhead_coulomb": 0.5}, 92.0),
     "T_out 200 N": ({"outboard": 200.0}, 46.0),
-    "deployment": ({"speed": 0.3}, 76.0),
+    # The line must lie inboard of the bend to be paid out through it; the design does not say where it starts.
+    "deployment from -4.5 m": ({"speed": 0.3, "first": -4.5}, 76.0),
     "mu 0.25": ({"mu": 0.25}, 5.0),
     "mu 0.40": ({"mu": 0.40}, 6.0),
     "mu 0.45": ({"mu": 0.45}, 23.0),
