@@ -179,9 +179,7 @@ class Bend:
         mass[:, -1] = self.end_m
         rows = np.concatenate([rows.ravel(), column[:2, node].ravel()])
         cols = np.concatenate([np.broadcast_to(cols, (2, 4, 3, n + 1)).ravel(), column[2:, node].ravel()])
-        weight = np.concatenate(
-            [np.broadcast_to(mass[:, None, None], (2, 4, 3, n + 1)).ravel(), np.ones(2 * n + 2)]
-        )
+        weight = np.concatenate([np.broadcast_to(mass[:, None, None], (2, 4, 3, n + 1)).ravel(), np.ones(2 * n + 2)])
         weight[-1] = 2.0  # the merged node says x' = v twice
         weight[-n - 2] = 2.0
         self.kept = (rows >= 0) & (cols >= 0)

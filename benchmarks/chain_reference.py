@@ -53,9 +53,7 @@ def set_valued(case: Chain, step: float, theta: float = 0.5) -> Peer:
     return Peer(times, states, 0.0, {"steps": i + 1, "solves": passes})
 
 
-def contacts(
-    matrix: np.ndarray, load: np.ndarray, limit: np.ndarray, impulse: np.ndarray, v: np.ndarray
-) -> tuple:
+def contacts(matrix: np.ndarray, load: np.ndarray, limit: np.ndarray, impulse: np.ndarray, v: np.ndarray) -> tuple:
     """Speeds, friction impulses and solves of one step: matrix v + impulse = load, impulse in limit Sgn(v).
 
     The active set may cycle; a minimisation of the rounded-off energy then gives it a better start.

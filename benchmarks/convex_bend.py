@@ -153,9 +153,7 @@ class ConvexBend:
             raise RuntimeError(f"Newton did not converge in the step to t = {t_end:.4f} s")
         self._accept(step, speed, parts)
 
-    def _search(
-        self, step: Step, speed: np.ndarray, direction: np.ndarray, slope: np.ndarray, value: float
-    ) -> tuple:
+    def _search(self, step: Step, speed: np.ndarray, direction: np.ndarray, slope: np.ndarray, value: float) -> tuple:
         """Halve the Newton step until the energy falls enough (Armijo), up to rounding."""
         share, promise, rounding = 1.0, float(slope @ direction), 1e-13 * (1.0 + abs(value))
         while True:

@@ -23,9 +23,7 @@ POSITION_SCALE = 1e-2  # [m]; rtol times this moves the core tension by 0.2 N at
 SPEED_SCALE = 0.3  # [m/s]
 
 
-def integrate(
-    bend: Bend, method: str, rtol: float, sample: float, wall: float
-) -> tuple[Record, dict[str, object]]:
+def integrate(bend: Bend, method: str, rtol: float, sample: float, wall: float) -> tuple[Record, dict[str, object]]:
     """Run to the end, with a restart at the corner of the speed ramp; sample on the dense output."""
     scene = bend.scene
     weights = np.tile([POSITION_SCALE] * 2 + [SPEED_SCALE] * 2, bend.n - 1)

@@ -43,9 +43,7 @@ class Belt:
         """Time of `cycles` full cycles [s]."""
         drop = self.stiction - self.coulomb
         frequency = np.sqrt(self.stiffness / self.mass)
-        slip = (
-            2.0 * (np.pi - np.arctan(drop / (self.speed * np.sqrt(self.stiffness * self.mass)))) / frequency
-        )
+        slip = 2.0 * (np.pi - np.arctan(drop / (self.speed * np.sqrt(self.stiffness * self.mass)))) / frequency
         return float(self.cycles * (slip + 2.0 * drop / (self.stiffness * self.speed)))
 
     @cached_property
@@ -96,9 +94,7 @@ class Belt:
             return np.array([self.stiffness * abs(y[0]) - self.stiction])
         return -zones * (y[1] - self.speed)
 
-    def switch(
-        self, _t: float, y: np.ndarray, zones: np.ndarray, _fired: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def switch(self, _t: float, y: np.ndarray, zones: np.ndarray, _fired: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """State and zones after a guard fired: the belt's own two phases."""
         if zones[0] == 0:
             return y, np.array([-int(np.sign(y[0]))])
@@ -182,9 +178,7 @@ class Chain:
         """dy/dt with the zones fixed; a stuck block does not move at all."""
         dy = np.empty_like(y)
         dy[0::2] = y[1::2]
-        dy[1::2] = np.where(
-            zones == 0, 0.0, (self.elastic(t, y) - zones * self._arrays()["limit"]) / self.mass
-        )
+        dy[1::2] = np.where(zones == 0, 0.0, (self.elastic(t, y) - zones * self._arrays()["limit"]) / self.mass)
         return dy
 
     def zone_jacobian(self, _t: float, y: np.ndarray, zones: np.ndarray) -> csc_matrix:
@@ -192,18 +186,14 @@ class Chain:
         plan = self._arrays()
         moves = np.ones(y.size)
         moves[1::2] = zones != 0
-        return csc_matrix(
-            (plan["data"] * moves[plan["indices"]], plan["indices"], plan["indptr"]), shape=(y.size,) * 2
-        )
+        return csc_matrix((plan["data"] * moves[plan["indices"]], plan["indices"], plan["indptr"]), shape=(y.size,) * 2)
 
     def guards(self, t: float, y: np.ndarray, zones: np.ndarray) -> np.ndarray:
         """Negative while the zone lasts: holding force below its limit (relative), or still sliding (m/s)."""
         limit = self._arrays()["limit"]
         return np.where(zones == 0, np.abs(self.elastic(t, y)) / limit - 1.0, -zones * y[1::2])
 
-    def switch(
-        self, t: float, y: np.ndarray, zones: np.ndarray, fired: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def switch(self, t: float, y: np.ndarray, zones: np.ndarray, fired: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """A block at rest sticks if held, else turns; one that breaks away follows the force on it."""
         y, zones = y.copy(), zones.copy()
         y[1::2][fired] = 0.0

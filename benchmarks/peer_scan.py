@@ -37,9 +37,7 @@ def scan(case: Case, quick: bool = False) -> list[dict]:
     return rows
 
 
-def _measured(
-    case: Case, reference: np.ndarray, law: str, method: str, rtol: float, width: float | None
-) -> dict:
+def _measured(case: Case, reference: np.ndarray, law: str, method: str, rtol: float, width: float | None) -> dict:
     row = {"law": law, "method": method, "rtol": rtol, "width": width}
     try:
         peer = _once(case, law, method, rtol, width)

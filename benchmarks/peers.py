@@ -126,9 +126,7 @@ def first_switch(case: Case, solver: object, zones: np.ndarray, careful: bool) -
     return None
 
 
-def _locate(
-    case: Case, dense: object, zones: np.ndarray, rising: np.ndarray, low: float, high: float
-) -> float:
+def _locate(case: Case, dense: object, zones: np.ndarray, rising: np.ndarray, low: float, high: float) -> float:
     """Right-hand end of the bracket around the first root of the largest of the `rising` guards."""
 
     def largest(t: float) -> float:
@@ -229,9 +227,7 @@ def _step(solver: object, began: float, wall: float) -> None:
         raise TimeoutError(f"wall limit of {wall:g} s at t = {solver.t:.4g} s")
 
 
-def _sample(
-    solver: object, times: np.ndarray, states: np.ndarray, done: int, until: float | None = None
-) -> int:
+def _sample(solver: object, times: np.ndarray, states: np.ndarray, done: int, until: float | None = None) -> int:
     """Fill the samples that the last step has passed (up to a switch); returns how many are filled by now."""
     reach = int(np.searchsorted(times, solver.t if until is None else until, side="right"))
     if solver.status == "finished" and until is None:
