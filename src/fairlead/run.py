@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import pathlib
+import signal
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -41,9 +44,18 @@ class Watch:
     limits: Limits
     progress: Callable[[float, float, Any], None] | None
     on_grid: bool
+    writing: bool = False  # the first block has come
+    stop_asked: bool = False  # Ctrl-C has been pressed since
 
     def __call__(self, block: Block) -> None:
-        """Take one block."""
+        """Take one block. Raises KeyboardInterrupt when it is written, if that was asked for meanwhile."""
+        self.writing = True
+        self._take(block)
+        if self.stop_asked:
+            self.stop_asked = False
+            raise KeyboardInterrupt
+
+    def _take(self, block: Block) -> None:
         columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
         rows = worth_keeping(block.values[:, : self.chosen], block.side) if self.on_grid else slice(None)
         self.directory.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
@@ -54,6 +66,31 @@ class Watch:
             self.ledger.watch(block.values[:, [columns["energy.dissipated"], columns["energy.supplied"], -1]])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
+
+
+@contextlib.contextmanager
+def interrupted_between_blocks(watch: Watch) -> Iterator[None]:
+    """Let Ctrl-C wait until the block at hand is written, which takes a twentieth of a second at most.
+
+    In the middle of a block it would lose the rows that the engine has handed over and the disk has not
+    seen. Before the first block, when the engine may be compiling, and when it is pressed again, it works at
+    once.
+    """
+
+    def ask(number: int, frame: Any) -> None:
+        if not watch.writing or watch.stop_asked:
+            raise KeyboardInterrupt
+        watch.stop_asked = True
+
+    ours = threading.current_thread() is threading.main_thread()
+    if not ours or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield  # only the main thread may set handlers, and one that somebody else has set stays
+        return
+    signal.signal(signal.SIGINT, ask)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def worth_keeping(values: NDArray[np.float64], side: NDArray[np.int8]) -> NDArray[np.bool_]:
@@ -78,7 +115,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     compiled = time.perf_counter() - begun
     with RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force) as directory:
         watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, netlist.record.every is not None)
-        outcome = integrate(system, _engine_settings(netlist, settings), watch)
+        with interrupted_between_blocks(watch):
+            outcome = integrate(system, _engine_settings(netlist, settings), watch)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
             summary["profile"] = _profile(system, outcome, compiled, time.perf_counter() - begun)
