@@ -97,7 +97,7 @@ def test_every_refused_class_of_a_netlist_is_told_at_once(tmp_path):
 
 def test_an_output_with_a_corner_can_be_recorded_and_not_fed_to_a_law(tmp_path):
     body = """
-    speed = Output("m/s", "Without its sign.")
+    speed = Output("1", "Without its sign.")
     most = Output("m/s", "The larger speed.")
     way = Output("1", "Its sign.")
     pull = Input("N", default=0.0)
@@ -115,7 +115,7 @@ def test_an_output_with_a_corner_can_be_recorded_and_not_fed_to_a_law(tmp_path):
 
 
 def test_an_acceleration_can_be_recorded_and_not_fed_to_a_law(tmp_path):
-    body = 'pull = Input("N", default=0.0)\ndef law(p, a, b, pull):\n    return Law(a=-pull, b=pull, supplied=pull * (a.v - b.v))\n'
+    body = 'pull = Input("1", default=0.0)\ndef law(p, a, b, pull):\n    return Law(a=-pull, b=pull, supplied=pull * (a.v - b.v))\n'
     path, libraries = scene(tmp_path, body)
     sensed = NETLIST.replace("connections:", "  eye: {type: MotionSensor}\nconnections:\n  - [eye.flange, block.flange]\n  - [eye.a, part.pull]")
     path.write_text(sensed)

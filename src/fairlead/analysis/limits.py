@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.analysis.suggestion import suggest
 from fairlead.errors import Fault, ModelError, did_you_mean, listing
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import QuantityError, si
@@ -69,8 +70,8 @@ def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) ->
         wanted = re.compile(glob(pattern))
         columns = [k for k, signal in enumerate(recorded) if wanted.fullmatch(signal.name)]
         if not columns:
-            near = did_you_mean(pattern, [signal.name for signal in recorded])
-            faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip()))
+            near, way_out = suggest(pattern, [signal.name for signal in recorded])
+            faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip(), way_out))
             continue
         for word, bound in value.entries.items():
             unit = recorded[columns[0]].unit

@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 
 from fairlead.analysis.limits import read_limits
+from fairlead.analysis.suggestion import suggest
 from fairlead.component.instantiate import Assembly
-from fairlead.errors import Fault, ModelError, did_you_mean, listing
+from fairlead.errors import Fault, ModelError
 from fairlead.netlist.netlist import Value
 from fairlead.system.system import OutputSignal, glob
 from fairlead.system.unknowns import LEDGER
@@ -51,8 +52,11 @@ def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
 
 
 def _excused(assembly: Assembly, pattern: str) -> bool:
-    """True when the name may be one of a component that could not be made."""
+    """True when the name may be one of a component that could not be made, or of its contacts with one."""
     first = re.split(r"[.\[]", pattern)[0]
+    routed = {path for one, two, _ in assembly.routings for path in (one, two)}
+    if first in {path.split(".")[0] for path in assembly.lines if path not in routed}:
+        return True
     return bool(assembly.broken) and (first in assembly.broken or any(c in first for c in "*?"))
 
 
@@ -62,12 +66,5 @@ def _any(pattern: str, names: list[str]) -> bool:
 
 
 def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:
-    owner = pattern.rpartition(".")[0]
-    here = [name for name in names if name.rpartition(".")[0] == owner]
-    near = did_you_mean(pattern, here or names)
-    if not near and owner:
-        near = did_you_mean(owner, {name.rpartition(".")[0] for name in names}).replace(
-            "?", pattern[len(owner) :] + "?"
-        )
-    way_out = f"{owner} gives {listing(here)}." if here else ""
+    near, way_out = suggest(pattern, names)
     return Fault(value.where, f"record: no signal has the name {pattern}. {near}".rstrip(), way_out)

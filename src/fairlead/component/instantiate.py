@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.declare import PATH, Input, Output, Port
+from fairlead.component.friction_block import sound
 from fairlead.component.parameters import read
 from fairlead.component.scene import FRAMEWORK_EFFECTS, SWITCH, Scene, is_head, is_switch
 from fairlead.component.values import Values, Variant, variant_of
@@ -108,8 +109,8 @@ def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assemb
 
 def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assembly, list[Fault]]:
     """What can be made of a netlist in spite of its mistakes, and the mistakes, for `check`."""
-    assembly = Assembly(netlist, Scene(netlist.friction, netlist.effects, netlist.path.parent))
-    faults: list[Fault] = []
+    scene, faults = sound(netlist, types)
+    assembly = Assembly(netlist, scene)
     for entry in netlist.components.values():
         kind = types.get(entry.type)
         if kind is None:
@@ -120,10 +121,11 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
         if found is None:
             assembly.broken.add(entry.name)
         else:
-            _place(assembly, entry.name, found, entry.where)
-    faults += _unknown_effects(assembly) + _unknown_friction(netlist, types)
+            faults += _expanded(assembly, entry.name, found, entry.where)
+    faults += _unknown_effects(assembly)
     for ends in netlist.connections:
         faults += _connect(assembly, ends)
+    faults += _open_paths(assembly)
     return assembly, sorted(faults, key=lambda f: (f.where is None, f.where))
 
 
@@ -140,6 +142,16 @@ def _read(
     values, found = read(member, {**scene.defaults(kind, given), **given}, name, where, scene.folder)
     faults += found
     return None if found else values
+
+
+def _expanded(assembly: Assembly, path: str, values: Values, where: Location) -> list[Fault]:
+    """Place an entry; what its children cannot be made with is told, and the entry left out."""
+    try:
+        _place(assembly, path, values, where)
+    except ModelError as error:
+        assembly.broken.add(path)
+        return [Fault(fault.where or where, fault.what, fault.way_out) for fault in error.faults]
+    return []
 
 
 def _place(assembly: Assembly, path: str, values: Values, where: Location) -> None:
@@ -186,6 +198,22 @@ def _connect(assembly: Assembly, ends: tuple[EndPoint, ...]) -> list[Fault]:
         assembly.routings.append((paths[0], paths[1], where))
     if len(refs) > 1:
         assembly.joins.append(Join(tuple(refs), where))
+    return faults
+
+
+def _open_paths(assembly: Assembly) -> list[Fault]:
+    """Lines and routes that lead nowhere; what they are made of is not blamed for it as well."""
+    named = {end.text for ends in assembly.netlist.connections for end in ends}
+    joined = {path for one, two, _ in assembly.routings for path in (one, two)}
+    faults = []
+    for path, line in assembly.lines.items():
+        if path in joined:
+            continue
+        assembly.excuse(inner for inner in assembly.instances if inner.startswith(f"{path}."))
+        ports = [f"{path}.{name}" for name, port in line.values.type.declaration.ports.items() if port.domain == PATH]
+        if not assembly.broken and not named & set(ports):
+            what, way_out = f"{ports[0]} is connected to nothing.", "Join it with the path of a line or of a route."
+            faults.append(Fault(line.where, what, way_out))
     return faults
 
 
@@ -240,6 +268,8 @@ def _no_such(assembly: Assembly, end: EndPoint, owner: str, port: str) -> Fault:
     if owner in assembly.netlist.components:
         kind = assembly.netlist.components[owner].type
         known = [name.rpartition(".")[2] for name in outer]
+        known += list(assembly.lines[owner].values.type.declaration.ports) if owner in assembly.lines else []
+        known = list(dict.fromkeys(known))
         near = did_you_mean(port, known).replace("mean ", f"mean {owner}.")
         return Fault(end.where, f"{end.text}: {kind} has ports {listing(known)}. {near}".rstrip())
     names = [*assembly.netlist.components, *assembly.instances]
@@ -260,20 +290,6 @@ def _unknown_effects(assembly: Assembly) -> list[Fault]:
             what = f"effects.{name}: nothing in this scene has such an effect. {did_you_mean(name, known)}"
             faults.append(Fault(value.named_at, what.rstrip(), f"It has {listing(known)}."))
         elif value.plain() not in (*SWITCH, True, False):
-            faults.append(Fault(value.where, f"effects.{name} = {shown(value.plain())} is not a switch.", "Write on or off."))
+            what = f"effects.{name} = {shown(value.plain())} is not a switch."
+            faults.append(Fault(value.where, what, "Write on or off."))
     return faults
-
-
-def _unknown_friction(netlist: Netlist, types: Mapping[str, type[Declared]]) -> list[Fault]:
-    """Scene-wide friction settings that no treatment knows."""
-    members = [m for kind in types.values() if is_head(kind) for m in kind.members.values()]
-    known = {n for member in members for n in (*member.declaration.parameters, member.key)}
-    return [
-        Fault(
-            value.named_at,
-            f"friction.{name}: no friction method has such a setting. {did_you_mean(name, known)}".rstrip(),
-            f"They have {listing(sorted(known))}.",
-        )
-        for name, value in netlist.friction.items()
-        if members and name not in known
-    ]

@@ -11,6 +11,7 @@ from fairlead.component.base import Declared, Family
 from fairlead.component.declare import Choice
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
+from fairlead.errors import Fault, ModelError
 from fairlead.netlist.netlist import Value
 
 FRAMEWORK_EFFECTS = ("energy",)
@@ -26,9 +27,19 @@ class Scene:
     folder: pathlib.Path = field(default_factory=pathlib.Path)
 
     def make(self, kind: type[Declared], **given: Any) -> Values:
-        """Values of a child, numbers in SI. A family head stands for the member the scene chose."""
+        """Values of a child, numbers in SI. A family head stands for the member the scene chose.
+
+        Raises ModelError when settings of the scene contradict each other.
+        """
         plain = {name: value.plain() for name, value in self.defaults(kind, given).items()}
-        return make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
+        made = make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
+        faults = []
+        for name, what, way_out in getattr(made.type, "check", lambda _: ())(made):
+            where = next((given.where for key, given in self.friction.items() if key == name or key in what), None)
+            faults.append(Fault(where, f"friction.{name}: {what.removesuffix('.')}.", way_out))
+        if faults:  # settings of the scene that contradict each other in the member chosen
+            raise ModelError(faults)
+        return made
 
     def member(self, kind: type[Declared], given: Mapping[str, Any]) -> type[Declared]:
         """The class itself, or for the head of a family the member named by the word in `given` or the scene."""

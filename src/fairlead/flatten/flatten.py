@@ -24,7 +24,13 @@ def flatten(assembly: Assembly) -> FlatModel:
 
 def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
     """The flat model as far as it can be made, and everything wrong with the graph."""
-    faults = lay(assembly)
+    try:
+        faults = lay(assembly)
+    except ModelError as error:  # settings of the scene that no contact can be made with
+        faults = list(error.faults)
+    if faults:  # their contacts are missing, which is not to be told as well
+        assembly.broken.update(path.split(".")[0] for path in assembly.lines)
+        assembly.excuse(path for path in assembly.instances if path.split(".")[0] in assembly.broken)
     nodes, links, wrong = wire(assembly, port_graph(assembly))
     faults += wrong
     node_of = {port: number for number, node in enumerate(nodes) for port in node.ports}

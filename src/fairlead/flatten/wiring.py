@@ -12,7 +12,7 @@ from fairlead.component.declare import PATH, Input, Output, Port
 from fairlead.component.instantiate import Assembly, Join, PortRef
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import Node
-from fairlead.quantities import article, parse_unit
+from fairlead.quantities import NONE, article, parse_unit
 
 
 def port_graph(assembly: Assembly) -> nx.Graph:
@@ -86,10 +86,12 @@ def _signal(declared: dict[PortRef, Input | Output], where: Location) -> tuple[d
 
 
 def _other_unit(declared: dict[PortRef, Input | Output], output: PortRef) -> PortRef | None:
-    """An input that wants another kind of quantity than the output gives."""
+    """An input that wants another kind of quantity than the output gives; a plain number fits anything."""
     given = parse_unit(declared[output].unit).dimension
-    odd = (ref for ref, d in declared.items() if isinstance(d, Input) and parse_unit(d.unit).dimension != given)
-    return next(odd, None)
+    for ref, read in declared.items():
+        if isinstance(read, Input) and parse_unit(read.unit).dimension not in (given, NONE) and given != NONE:
+            return ref
+    return None
 
 
 def _mixed(graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:

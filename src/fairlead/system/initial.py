@@ -100,6 +100,7 @@ def _no_such(flat: FlatModel, names: dict[str, Named], pattern: str, where: Loca
             way_out = f"Set where {by} begins instead." if group.prescribed.outputs else "Leave it out."
             return Fault(where, f"initial.{pattern}: this motion is prescribed by {by}.", way_out)
     here = [name for name in names if name.rpartition(".")[0] == owner]
-    near = did_you_mean(pattern, here or names)
+    near = did_you_mean(variable, [name.rpartition(".")[2] for name in here]).replace("mean ", f"mean {owner}.")
+    near = near if here else did_you_mean(pattern, names)
     way_out = f"{owner} has {listing(here)}." if here else f"Unknowns are {listing(names)}."
     return Fault(where, f"initial.{pattern}: no unknown has this name. {near}".rstrip(), way_out)

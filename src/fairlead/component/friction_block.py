@@ -1,0 +1,51 @@
+"""The scene-wide friction block: what is wrong with it is told once, at its place, not once a contact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from fairlead.component.base import Declared, Family
+from fairlead.component.parameters import read
+from fairlead.component.scene import Scene, is_head
+from fairlead.errors import Fault, did_you_mean, listing, shown
+from fairlead.netlist.netlist import Netlist, Value
+
+
+def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene, list[Fault]]:
+    """The scene with those of its friction settings that can be used, and what is wrong with the others."""
+    heads = [kind for kind in types.values() if is_head(kind)]
+    known = {name for head in heads for m in head.members.values() for name in (*m.declaration.parameters, m.key)}
+    kept, faults = {}, []
+    for name, value in netlist.friction.items():
+        wrong = _unknown(name, value, known) if heads else []
+        for head in heads:
+            wrong += _wrong_word(head, value) if name == head.key else _wrong_value(netlist, head, name, value)
+        faults += wrong
+        if not wrong:
+            kept[name] = value
+    return Scene(kept, netlist.effects, netlist.path.parent), list(dict.fromkeys(faults))
+
+
+def _unknown(name: str, value: Value, known: set[str]) -> list[Fault]:
+    if name in known:
+        return []
+    what = f"friction.{name}: no friction method has such a setting. {did_you_mean(name, known)}"
+    return [Fault(value.named_at, what.rstrip(), f"They have {listing(sorted(known))}.")]
+
+
+def _wrong_word(head: type[Family], value: Value) -> list[Fault]:
+    word = value.plain()
+    if isinstance(word, str) and word in head.members:
+        return []
+    what = f"friction.{head.key}: there is no {head.key} {shown(word)}. {did_you_mean(str(word), head.members)}"
+    return [Fault(value.where, what.rstrip(), f"There are {listing(head.members)}.")]
+
+
+def _wrong_value(netlist: Netlist, head: type[Family], name: str, value: Value) -> list[Fault]:
+    """What the treatment in use, or else one that has the setting, says of the value by itself."""
+    chosen = Scene({n: v for n, v in netlist.friction.items() if n == head.key}).member(head, {})
+    members = [m for m in (chosen, *head.members.values()) if name in m.declaration.parameters]
+    if not members:
+        return []
+    _, found = read(members[0], {name: value}, "friction", value.where, netlist.path.parent)
+    return [fault for fault in found if fault.what.startswith(f"friction.{name}")]
