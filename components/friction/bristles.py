@@ -6,8 +6,7 @@ from fairlead.component import Law, Output, Parameter, State, derived, guard, ta
 
 STILL = 1e-9  # m/s; a slip must reverse by this before the law takes notice, or rounding would switch it at rest
 STRAIGHTEN = 1e-3  # s; time in which the bristles of an open contact straighten
-SLIDING = 0.998  # square of the share of their sliding deflection at which bent bristles count as sliding
-SHARPNESS = 1e4  # of that border
+SHARPNESS = 20.0  # of the speed at which the count of creep ends, beside 1
 
 
 class Bristles(Contact, abstract=True):
@@ -15,10 +14,12 @@ class Bristles(Contact, abstract=True):
 
     `presliding` is the deflection at break-away, so s0 = N mu_s/presliding grows with the normal force, and the
     displacement before sliding does not depend on it. A change of the normal force changes the energy in bent
-    bristles without work; the ledger of the run then has a gap. Creep is slip that the bristles will not give back.
+    bristles without work; the ledger of the run then has a gap. No zone tells sticking from sliding here: what is
+    reported as creep is slip slower than `stick_speed`, less what the bristles will give back.
     """
 
     presliding = Parameter("m", "Deflection at which the contact breaks away.", default=2e-5, above=0)
+    stick_speed = Parameter("m/s", "Slip below it counts as sticking, in the report of creep.", default=1e-4, above=0)
     z = State("m", "Deflection of the bristles.", nominal=1e-5)
     deflection = Output("m", "Deflection of the bristles.")
 
@@ -67,14 +68,14 @@ def sliding_deflection(p, speed):
     return p.curve.coefficient(speed) / p.ratio
 
 
-def bent(p, a, b, z, normal, rate, share, damping):
-    """The law of bristles bent by z, growing at `rate` = z'; `share` is z over what sliding would bend them.
+def bent(p, a, b, z, normal, rate, damping):
+    """The law of bristles bent by z, growing at `rate` = z'.
 
     T = s0 (z + damping z') + viscous v;  stored s0 z^2/2.  Of the power T v, what bends the bristles is stored.
     """
     slip, stiffness = b.v - a.v, normal * p.ratio
     friction = stiffness * (z + damping * rate) + p.viscous * slip
-    creeping = (slip - rate) * (1 - tanh(SHARPNESS * (share**2 - SLIDING))) / 2
+    creeping = (slip - rate) * (1 - tanh(SHARPNESS * ((slip / p.stick_speed) ** 2 - 1))) / 2
     lost = stiffness * z * (slip - rate) + stiffness * damping * rate * slip + p.viscous * slip**2
     return Law(a=-friction, b=+friction, z=rate, slip=slip, friction=friction, deflection=z, creep_rate=creeping,
                stored=stiffness * z**2 / 2, dissipated=lost)  # fmt: skip

@@ -27,4 +27,4 @@ class Dahl(OneWay):
         """The bristles bend with the slip, less and less as they near their sliding deflection."""
         d, slip = (1 if zone == "forward" else -1), b.v - a.v
         share = z / sliding_deflection(p, d * slip)
-        return bent(p, a, b, z, normal, slip * (1 - d * share), share, damping=0)
+        return bent(p, a, b, z, normal, slip * (1 - d * share), damping=0)

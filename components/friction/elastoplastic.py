@@ -11,8 +11,8 @@ class Elastoplastic(Bristles):
     """z' = v (1 - alpha sgn(v) z/z_s),  T = s0 z + s1 z' + viscous v,  z_s(v) = N mu(v)/s0 the sliding deflection.
 
     elastic   |z| < elastic_share z_s, or unloading    alpha = 0: all slip is given back
-    blend     loading, up to about z_s                 alpha = (1 + sin(pi (z/z_s - m)/w))/2,  m = (1 + elastic_share)/2,
-                                                       w = 1 - elastic_share
+    blend     loading, up to about z_s                 alpha = (1 + sin(pi (z/z_s - m)/w))/2,
+                                                       m = (1 + elastic_share)/2,  w = 1 - elastic_share
     forward, backward   loading, at z_s and above      alpha = 1: LuGre
     off       N = 0                                    no force, the bristles straighten
 
@@ -29,13 +29,15 @@ class Elastoplastic(Bristles):
         "Ortega (2000), IEEE Trans. Automatic Control 45, 830."
     }
     relaxation = Parameter("s", "Damping over stiffness of the bristles, s1/s0.", default=2e-3, least=0)
-    elastic_share = Parameter("1", "Part of the sliding deflection that is purely elastic.", default=0.7, above=0, below=1)
+    elastic_share = Parameter(
+        "1", "Part of the sliding deflection that is purely elastic.", default=0.7, above=0, below=1
+    )
     zones = Zones("elastic", "blend_forward", "blend_backward", "forward", "backward", "off")
 
     @zone("elastic")
     def elastic(p, a, b, z, normal):
-        """A spring with a damper; share 0, for nothing of the slip is lost."""
-        return bent(p, a, b, z, normal, b.v - a.v, 0, damping=p.relaxation)
+        """A spring with a damper; nothing of the slip is lost."""
+        return bent(p, a, b, z, normal, b.v - a.v, damping=p.relaxation)
 
     @zone("blend_forward", "blend_backward")
     def blends(p, a, b, z, normal, zone):
@@ -44,14 +46,14 @@ class Elastoplastic(Bristles):
         share = z / sliding_deflection(p, d * slip)
         middle, width = (1 + p.elastic_share) / 2, 1 - p.elastic_share
         alpha = (1 + sin(pi * (d * share - middle) / width)) / 2
-        return bent(p, a, b, z, normal, slip * (1 - alpha * d * share), share, damping=p.relaxation)
+        return bent(p, a, b, z, normal, slip * (1 - alpha * d * share), damping=p.relaxation)
 
     @zone("forward", "backward")
     def slides(p, a, b, z, normal, zone):
         """Fully plastic."""
         d, slip = _direction(zone), b.v - a.v
         share = z / sliding_deflection(p, d * slip)
-        return bent(p, a, b, z, normal, slip * (1 - d * share), share, damping=p.relaxation)
+        return bent(p, a, b, z, normal, slip * (1 - d * share), damping=p.relaxation)
 
     @guard("elastic", "blend_forward", "blend_backward", "forward", "backward", to="off", unit="N")
     def lifts(p, normal):

@@ -24,8 +24,8 @@ class LuGre(OneWay):
 
     word = "lugre"
     exempt = {
-        "dissipates": "With constant s1 it is passive only under a condition on s1 and the ratio of stiction to Coulomb "
-        "friction: Barabanov and Ortega (2000), IEEE Trans. Automatic Control 45, 830."
+        "dissipates": "With constant s1 it is passive only under a condition on s1 and on the ratio of stiction to "
+        "Coulomb friction: Barabanov and Ortega (2000), IEEE Trans. Automatic Control 45, 830."
     }
     relaxation = Parameter("s", "Damping over stiffness of the bristles, s1/s0.", default=2e-3, least=0)
     zones = Zones("forward", "backward", "off")
@@ -35,4 +35,4 @@ class LuGre(OneWay):
         """The bristles bend with the slip and slip off as they near their sliding deflection."""
         d, slip = (1 if zone == "forward" else -1), b.v - a.v
         share = z / sliding_deflection(p, d * slip)
-        return bent(p, a, b, z, normal, slip * (1 - d * share), share, damping=p.relaxation)
+        return bent(p, a, b, z, normal, slip * (1 - d * share), damping=p.relaxation)

@@ -14,12 +14,13 @@ class NaiveSign(Contact):
     When the slip comes to zero the force jumps inside a step. An implicit method then looks for a slip at which
     the block is in balance; there is none but zero itself, where the law says no force at all. So every step that
     reaches zero is rejected, and the step size falls until the floor or a budget ends the run with this contact's
-    name. A law here must be smooth; the sign is written as tanh(v/width) with a width at rounding level.
+    name. A law here must be smooth; the sign is written as tanh(v/width)^3 with a width at rounding level, flat at
+    zero like sgn. (Written with tanh alone the slope at rest is enormous, and a block at rest never comes loose.)
     Use `hold` to stick exactly, `binding` for many contacts, `tanh` with a width that can be resolved.
     Source: the difficulty is that of Karnopp (1985), DOI 10.1115/1.3140698, who begins with this law.
     """
 
-    width = Parameter("m/s", "Slip speed over which the sign changes; far below what can be resolved.", default=1e-15, above=0)
+    width = Parameter("m/s", "Slip speed over which the sign changes; not to be resolved.", default=1e-15, above=0)
     zones = Zones("on", "off")
 
     @zone("on")
@@ -27,7 +28,7 @@ class NaiveSign(Contact):
         """The sign of the slip, as written in every textbook."""
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.width**2)
-        friction = normal * p.curve.coefficient(speed) * tanh(slip / p.width) + p.viscous * slip
+        friction = normal * p.curve.coefficient(speed) * tanh(slip / p.width) ** 3 + p.viscous * slip
         return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=0, dissipated=friction * slip)
 
     @zone("off")

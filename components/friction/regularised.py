@@ -106,4 +106,3 @@ class Root(Regularised):
     def inverse(p, share):
         """The u with shape(u) = share."""
         return share / (1 - share**2) ** 0.5
-
