@@ -84,16 +84,24 @@ def constant(value: float) -> PiecewisePolynomial:
     return pieces([], [[value]])
 
 
-def linear_table(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
-    """Straight lines between points, constant beyond the ends."""
+def linear_table(x: Sequence[float], y: Sequence[float], *, beyond: str = "constant") -> PiecewisePolynomial:
+    """Straight lines between points; beyond the ends constant, or the last slope (`beyond="line"`)."""
     slopes = np.diff(y) / np.diff(x)
-    inner = [[a, b] for a, b in zip(y, slopes, strict=False)]
-    return pieces(list(x), [[y[0]], *inner, [y[-1]]])
+    return _with_ends(x, y, [[a, b] for a, b in zip(y, slopes, strict=False)], (slopes[0], slopes[-1]), beyond)
 
 
-def monotone_cubic_table(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
-    """Shape-preserving cubic (Fritsch and Butland 1984, as in PCHIP), constant beyond the ends."""
+def monotone_cubic_table(x: Sequence[float], y: Sequence[float], *, beyond: str = "constant") -> PiecewisePolynomial:
+    """Shape-preserving cubic (Fritsch and Butland 1984, as in PCHIP); beyond the ends as `linear_table`."""
     from scipy.interpolate import PchipInterpolator
 
-    powers = PchipInterpolator(x, y).c[::-1].T  # (k-1, 4), ascending about the left border
-    return pieces(list(x), [[y[0]], *powers.tolist(), [y[-1]]])
+    cubic = PchipInterpolator(x, y)
+    ends = cubic.derivative()([x[0], x[-1]])
+    return _with_ends(x, y, cubic.c[::-1].T.tolist(), (ends[0], ends[1]), beyond)
+
+
+def _with_ends(
+    x: Sequence[float], y: Sequence[float], inner: list[list[float]], slopes: tuple[float, float], beyond: str
+) -> PiecewisePolynomial:
+    """Pieces between the points and the two beyond them; the left one is written about its right border."""
+    left, right = slopes if beyond == "line" else (0.0, 0.0)
+    return pieces(list(x), [[y[0], left], *inner, [y[-1], right]])

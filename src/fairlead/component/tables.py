@@ -1,6 +1,7 @@
 """Tables and quantities in time as a user writes them, turned into piecewise polynomials.
 
-A table is a list of [x, y] pairs, a map {x: [...], y: [...], kind: linear|cubic}, or {file: data.csv}.
+A table is a list of [x, y] pairs, a map {x: [...], y: [...], kind: linear|cubic, beyond: constant|line}, or
+{file: data.csv} with the same two words. Beyond its ends a table stays constant unless it says `line`.
 
 A quantity in time is a number, or a map of terms that add up:
 
@@ -40,6 +41,7 @@ from fairlead.component.values import Wave
 from fairlead.errors import did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si, wanted
 
+WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 MOST_POINTS = 100_000
 MOST_BYTES = 10_000_000
 
@@ -75,8 +77,7 @@ def read_table(value: Any, declared: Table, folder: pathlib.Path) -> PiecewisePo
     """A table in SI. Raises TableError with what is wrong and what is allowed."""
     if isinstance(value, PiecewisePolynomial):
         return value
-    x, y, kind = _points(value, declared.x, declared.y, "x", folder)
-    return {"linear": linear_table, "cubic": monotone_cubic_table}[kind](x, y)
+    return _points(value, declared.x, declared.y, "x", folder)
 
 
 def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave | None:
@@ -107,13 +108,14 @@ def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave 
     return Wave(polynomial, sine)
 
 
-def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> tuple[Any, Any, str]:
-    kind, at = "linear", _row
+def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> PiecewisePolynomial:
+    words, at = {"kind": "linear", "beyond": "constant"}, _row
     if isinstance(value, Mapping):
-        _only(value, {x_name, "y", "kind", "file"})
-        kind = str(value.get("kind", "linear"))
-        if kind not in ("linear", "cubic"):
-            raise TableError(f" = {shown(kind)} is not known", "Allowed: linear, cubic.", ("kind",))
+        _only(value, {x_name, "y", "file", *WORDS})
+        for word, allowed in WORDS.items():
+            words[word] = str(value.get(word, words[word]))
+            if words[word] not in allowed:
+                raise TableError(f" = {shown(words[word])} is not known", f"Allowed: {listing(allowed)}.", (word,))
         rows = _from_file(value["file"], folder) if "file" in value else _columns(value, x_name)
         at = _in_file if "file" in value else functools.partial(_column, (x_name, "y"))
     else:
@@ -130,7 +132,8 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
     for k, (before, after) in enumerate(itertools.pairwise(x)):
         if not after > before:
             raise TableError(f"{x_name} must rise from point to point; {after:g} follows {before:g}", "", at(k + 1, 0))
-    return np.array(x), np.array(y), kind
+    shape = linear_table if words["kind"] == "linear" else monotone_cubic_table
+    return shape(np.array(x), np.array(y), beyond=words["beyond"])
 
 
 def _row(k: int, column: int) -> tuple[str | int, ...]:
@@ -258,8 +261,7 @@ def _sine(settings: Any, unit: str, folder: pathlib.Path) -> tuple[PiecewisePoly
 
 
 def _table(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    t, y, kind = _points(settings, "s", unit, "t", folder)
-    return {"linear": linear_table, "cubic": monotone_cubic_table}[kind](t, y)
+    return _points(settings, "s", unit, "t", folder)
 
 
 def _constant(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
@@ -297,7 +299,7 @@ def table_schema(declared: Table) -> dict[str, Any]:
     number = {"type": ["number", "string"]}
     pairs = {"type": "array", "items": {"type": "array", "items": number, "minItems": 2, "maxItems": 2}}
     column = {"type": "array", "items": number}
-    named = {"x": column, "y": column, "kind": {"enum": ["linear", "cubic"]}, "file": {"type": "string"}}
+    named = {"x": column, "y": column, **{word: {"enum": list(allowed)} for word, allowed in WORDS.items()}, "file": {"type": "string"}}
     in_columns = {"type": "object", "properties": named, "additionalProperties": False}
     return {"description": declared.doc, "anyOf": [pairs, in_columns]}
 
