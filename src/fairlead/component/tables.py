@@ -299,7 +299,8 @@ def table_schema(declared: Table) -> dict[str, Any]:
     number = {"type": ["number", "string"]}
     pairs = {"type": "array", "items": {"type": "array", "items": number, "minItems": 2, "maxItems": 2}}
     column = {"type": "array", "items": number}
-    named = {"x": column, "y": column, **{word: {"enum": list(allowed)} for word, allowed in WORDS.items()}, "file": {"type": "string"}}
+    words = {word: {"enum": list(allowed)} for word, allowed in WORDS.items()}
+    named = {"x": column, "y": column, **words, "file": {"type": "string"}}
     in_columns = {"type": "object", "properties": named, "additionalProperties": False}
     return {"description": declared.doc, "anyOf": [pairs, in_columns]}
 
