@@ -1,0 +1,76 @@
+"""Scenes for the tests: short netlists, and classes of a user, written where they are used.
+
+A test says what it simulates in the words a user would write, then compares with a closed form of
+`tests/reference`, which knows nothing of fairlead.
+"""
+
+from __future__ import annotations
+
+import itertools
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import fairlead
+
+Scene = Callable[..., Any]
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Scene:
+    """scene(text, **overrides) -> Model: a netlist without its first two lines, written to a file of its own."""
+    numbers = itertools.count()
+
+    def make(text: str, libraries: tuple[str, ...] = (), **overrides: Any) -> Any:
+        path = tmp_path / f"scene{next(numbers)}.yaml"
+        path.write_text("schema: 1\nname: scene\n" + textwrap.dedent(text), encoding="utf-8")
+        return fairlead.load(path, set={name: str(value) for name, value in overrides.items()}, libraries=libraries)
+
+    return make
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Callable[[str], str]:
+    """library(text) -> path of a Python file with component classes, to be given as `libraries=(path,)`."""
+    numbers = itertools.count()
+
+    def write(text: str) -> str:
+        path = tmp_path / f"classes{next(numbers)}.py"
+        path.write_text("from fairlead.component import *\n" + textwrap.dedent(text), encoding="utf-8")
+        return str(path)
+
+    return write
+
+
+@pytest.fixture
+def simulate(scene: Scene, tmp_path: Path) -> Scene:
+    """simulate(text, **overrides) -> Result: the same, run to its stop, which it must reach."""
+    numbers = itertools.count()
+
+    def run(text: str, libraries: tuple[str, ...] = (), **overrides: Any) -> Any:
+        result = scene(text, libraries, **overrides).run(out=tmp_path / f"run{next(numbers)}")
+        assert result.status == "finished", result.run["sentence"]
+        return result
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def bundled(tmp_path_factory: pytest.TempPathFactory) -> Scene:
+    """bundled(name, {"run.stop": "2 s"}) -> Result of a bundled model; each run is made once for all tests."""
+    done: dict[Any, Any] = {}
+
+    def run(name: str, overrides: dict[str, Any] | None = None) -> Any:
+        settings = {key: str(value) for key, value in (overrides or {}).items()}
+        key = (name, *sorted(settings.items()))
+        if key not in done:
+            model = fairlead.load(name, set=settings)
+            done[key] = model.run(out=tmp_path_factory.mktemp(name) / "run")
+        result = done[key]
+        assert result.status == "finished", result.run["sentence"]
+        return result
+
+    return run
