@@ -8,12 +8,14 @@ from __future__ import annotations
 from fairlead.component.base import Family
 from fairlead.component.instantiate import Assembly, PortRef
 from fairlead.errors import Fault, Location, ModelError
+from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.flatten.kinematics import group
 from fairlead.flatten.routing import lay
 from fairlead.flatten.wiring import port_graph, wire
 
 
+@collected_later
 def flatten(assembly: Assembly) -> FlatModel:
     """Nodes, groups and links of all leaves. Raises ModelError with everything wrong with the graph."""
     flat, faults = survey(assembly)

@@ -114,7 +114,6 @@ def _integers(rows: Iterable[Iterable[int]]) -> Integers:
     return np.array(list(rows), dtype=np.int64)
 
 
-
 def _signal(numbering: Numbering, output: PortRef) -> int:
     place = numbering.signals.get(output)
     return numbering.dump if place is None else numbering.n + place
@@ -145,15 +144,16 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
 def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
     """Position or potential (x), rate (v), acceleration (a), prescribed acceleration (A), reaction (R)."""
     index, ratio, offset = flat.place(port)
-    group, nothing = flat.groups[index], (numbering.zero, 0.0, 0.0)
+    group = flat.groups[index]
+    rate = numbering.rate.get(index)
+    if group.free and (variable in "AR" or (variable != "x" and rate is None)):
+        return numbering.zero, 0.0, 0.0
     if variable == "R":
-        return (numbering.first_reaction + numbering.reactions[index], 1.0, 0.0) if not group.free else nothing
+        return numbering.first_reaction + numbering.reactions[index], 1.0, 0.0
     if group.free:
         if variable == "x":
             return numbering.position[index], ratio, offset
-        rate = numbering.rate.get(index)
-        if rate is None or variable == "A":
-            return nothing
+        assert rate is not None
         return (rate if variable == "v" else numbering.acceleration + rate), ratio, 0.0
     assert group.prescribed is not None
     if group.prescribed.outputs is None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from fairlead.component.values import Variant
 from fairlead.errors import Fault, ModelError
+from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.blocks import Block, Floats, Tables, build_blocks
 from fairlead.system.context import context, working_arrays
@@ -32,6 +33,7 @@ from fairlead.system.unknowns import Numbering, number
 HOLD_TIME = 1e-3  # s; a held contact loses a slip left over from rounding with this time constant
 
 
+@collected_later
 def compile(flat: FlatModel, accuracy: float = 1e-3) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
     kernels = _kernels(flat)

@@ -8,6 +8,7 @@ from fairlead.component.instantiate import PortRef
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.kernels import Kernel
+from fairlead.system.structure import Structure
 
 
 def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
@@ -18,9 +19,13 @@ def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
         if group.prescribed is not None and group.prescribed.outputs is not None:
             needed |= {PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs}
     _refuse_unfit(flat, kernels, needed)
+    deciding: dict[tuple[int, str], list[str]] = {}
     for output in needed:
         graph.add_node(output.instance)
-        for source in _read_by(flat, kernels[output.instance], output):
+        s = kernels[output.instance].structure
+        if (id(s), output.port) not in deciding:  # once a class: a long line has thousands of instances
+            deciding[id(s), output.port] = _deciding(s, output.port)
+        for source in _read_by(flat, output, deciding[id(s), output.port]):
             graph.add_edge(source.instance, output.instance)
     try:
         return {path: rank for rank, layer in enumerate(nx.topological_generations(graph)) for path in layer}
@@ -45,15 +50,17 @@ def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: set[PortR
         raise ModelError(faults)
 
 
-def _read_by(flat: FlatModel, kernel: Kernel, output: PortRef) -> list[PortRef]:
-    """Outputs whose values decide this one, through signal inputs and prescribed motions."""
-    s = kernel.structure
-    wanted = s.outputs.index(output.port)
+def _deciding(structure: Structure, output: str) -> list[str]:
+    """Keys of the inputs whose values decide an output."""
+    wanted = structure.outputs.index(output)
+    return [structure.inputs[j] for k, j in structure.d_signals if k == wanted]
+
+
+def _read_by(flat: FlatModel, output: PortRef, keys: list[str]) -> list[PortRef]:
+    """Outputs whose values decide this one, through the signal inputs and prescribed motions among `keys`."""
     found = []
-    for k, j in s.d_signals:
-        if k != wanted:
-            continue
-        kind, _, rest = s.inputs[j].partition(":")
+    for key in keys:
+        kind, _, rest = key.partition(":")
         if kind == "in":
             source = flat.sources.get(PortRef(output.instance, rest))
             found += [source] if source else []

@@ -132,13 +132,19 @@ def _number_own(made: Numbering, instance: Instance) -> None:
 
 def _groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
     """Groups on which some law's flow depends on the rate: a node without mass keeps its rate then."""
-    found = set()
-    for instance in flat.instances:
-        for uses in structures[instance.path].flow_inputs.values():
-            for target, keys in uses.items():
-                if target.startswith("port:"):
-                    found |= {flat.place(PortRef(instance.path, k.split(":")[1]))[0] for k in keys if k.endswith(":v")}
-    return found
+    distinct = {id(s): s for s in structures.values()}  # instances of a class share theirs
+    ports = {key: _ports_with_rate_forces(s) for key, s in distinct.items()}
+    return {
+        flat.place(PortRef(instance.path, port))[0]
+        for instance in flat.instances
+        for port in ports[id(structures[instance.path])]
+    }
+
+
+def _ports_with_rate_forces(structure: Structure) -> set[str]:
+    flows = [flow for uses in structure.flow_inputs.values() for flow in uses.items()]
+    keys = {key for target, read in flows if target.startswith("port:") for key in read}
+    return {key.split(":")[1] for key in keys if key.endswith(":v")}
 
 
 def reaction_masses(flat: FlatModel, numbering: Numbering) -> list[tuple[int, float, int]]:
