@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import functools
 import json
-import os
 import pathlib
 import resource
 import statistics
@@ -88,7 +87,7 @@ def commands(folder: str) -> dict[str, list[str]]:
     """What is typed."""
     program = [sys.executable, "-m", "fairlead"]
     return {
-        "run single_bend": [*program, "run", "single_bend", "--force", "--out", os.path.join(folder, "run")],
+        "run single_bend": [*program, "run", "single_bend", "--force", "--out", f"{folder}/run"],
         "import fairlead": [sys.executable, "-c", "import fairlead"],
         "fairlead --help": [*program, "--help"],
     }
@@ -116,7 +115,9 @@ def main() -> None:
     result["chain"] = [per_step(blocks) for blocks in BLOCKS]
     result["exponent"] = exponent(result["chain"])
     for row in result["chain"]:
-        print(f"chain of {row['blocks']:5} blocks: {1e6 * row['step']:9.1f} us a step, planned in {row['planning']:.3f} s")
+        print(
+            f"chain of {row['blocks']:5} blocks: {1e6 * row['step']:9.1f} us a step, planned in {row['planning']:.3f} s"
+        )
     print(f"exponent {result['exponent']:.2f} ({within('exponent', result['exponent'])})")
 
     stages()
