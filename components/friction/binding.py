@@ -11,6 +11,7 @@ from fairlead.components.friction.contact import Contact
 
 from fairlead.component import Choice, Input, Law, Output, Parameter, Zones, derived, guard, zone
 
+BACK = 0.999999  # share of the plateau's end at which a ramp leads back to it; less would let the force jump
 FORMS = {
     "robust": {"cap": "on", "latch": "on", "hysteresis": 0.1, "applied_force": "reduced"},
     "literal": {"cap": "off", "latch": "off", "hysteresis": 0.0, "applied_force": "aggregate"},
@@ -143,8 +144,8 @@ class Binding(Contact):
 
     @guard("ramp_forward", "ramp_backward", to="plateau", unit="m/s")
     def settles(p, a, b, zone):
-        """Back on the plateau."""
-        return p.border - direction(zone) * (b.v - a.v)
+        """Back on the plateau; a hair below its end, or rounding sends a contact that rests there to and fro."""
+        return BACK * p.border - direction(zone) * (b.v - a.v)
 
     @guard("ramp_forward", "transit", "break_forward", "break_backward", to="slide_forward", unit="m/s")
     def slides_forward(p, a, b):
