@@ -1,0 +1,130 @@
+"""Friction between turning bodies: the sliding contact at a radius.
+
+A friction torque is a friction force at a lever arm, whatever treats its sticking. So there is no second set of
+laws for shafts: two racks of the same radius turn the shafts' motion into the slip of one `Contact`, which brings
+every treatment and every curve along, those of the user included, tested once. The racks are no unknowns of
+their own; a held clutch costs what a held pad costs. Speeds of curves and creep are slip speeds at the radius.
+"""
+
+from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.curve import Curve
+from fairlead.components.mechanics.ground import Ground
+from fairlead.components.rotation.rack import Rack
+
+from fairlead.component import (
+    Choice,
+    Component,
+    Composite,
+    Count,
+    Expansion,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    Rotational,
+)  # fmt: skip
+
+METHODS = (
+    "binding", "hold", "karnopp", "reset_integrator", "dahl", "lugre", "elastoplastic", "tanh", "arctan", "root",
+    "saturation",
+)  # fmt: skip
+
+
+class Pressing(Component):
+    """The normal force of all faces together, signal in and out."""
+
+    faces = Parameter("1", "Number of rubbing faces.", default=1.0, above=0)
+    normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
+    normal = Input("N", "Normal force that presses the stack.", default="normal_force")
+    pressing = Output("N", "Normal force times faces.")
+
+    def law(p, normal):
+        """Every face carries the whole normal force."""
+        return Law(pressing=p.faces * normal)
+
+
+class LeverArm(Component):
+    """Friction at a radius as a torque, signal in and out."""
+
+    radius = Parameter("m", "Lever arm.", above=0)
+    friction = Input("N", "Friction at the radius.")
+    torque = Output("N*m", "Friction torque.")
+
+    def law(p, friction):
+        """Force times lever arm."""
+        return Law(torque=p.radius * friction)
+
+
+class Rubbing(Composite, abstract=True):
+    """What clutch, brake and bearing have in common: a contact at a radius, pressed on one or more faces."""
+
+    radius = Parameter("m", "Mean radius at which friction acts.", above=0)
+    curve = Part(Curve, "Coefficient of friction over slip speed at the radius.")
+    method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
+    creep = Parameter("m/s", "Tolerated creep at the radius; the scene's when not given.", default=None, above=0)
+    normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
+    faces = Count("Number of rubbing faces, each pressed with the whole normal force.", default=1)
+    normal = Input("N", "Normal force.", default="normal_force")
+    torque = Output("N*m", "Friction torque, positive when it opposes positive slip.")
+    slip = Output("m/s", "Slip speed at the radius.")
+
+
+def rubbing(p, scene, other):
+    """Expansion of a contact between the shaft `b` and, at `other`, a shaft `a` or the ground."""
+    word = {} if p.method is None else {"method": p.method}
+    known = scene.member(Contact, word).declaration.parameters
+    creep = {} if p.creep is None or "creep" not in known else {"creep": p.creep}
+    children = {
+        "contact": scene.make(Contact, curve=p.curve, **word, **creep),
+        "pressing": scene.make(Pressing, faces=p.faces, normal_force=p.normal_force),
+        "lever": scene.make(LeverArm, radius=p.radius),
+        "rim_b": scene.make(Rack, radius=p.radius),
+        **other,
+    }
+    surface = "rim_a.rack" if "rim_a" in other else "ground.flange"
+    joins = [
+        (surface, "contact.a"), ("rim_b.rack", "contact.b"), ("pressing.pressing", "contact.normal"),
+        ("contact.friction", "lever.friction"),
+    ]  # fmt: skip
+    shown = {"torque": "lever.torque", "slip": "contact.slip", "normal": "pressing.normal"}
+    ports = {"a": "rim_a.pinion", "b": "rim_b.pinion"} if "rim_a" in other else {"shaft": "rim_b.pinion"}
+    return Expansion(children, joins, ports, shown)
+
+
+class Clutch(Rubbing):
+    """Two shafts coupled by friction: torque up to faces * radius * mu * normal force, slip b over a.
+
+    The normal force may be a signal: connect it to `normal` and the clutch engages as it is pressed.
+    For plates between radii r and R the mean radius is (r + R)/2 when run in (uniform wear) and
+    2/3 (R^3 - r^3)/(R^2 - r^2) when new (uniform pressure). Fade with temperature is left out.
+    """
+
+    a, b = Rotational("one shaft"), Rotational("the other shaft")
+
+    def expand(p, scene):
+        """A contact between two rims."""
+        return rubbing(p, scene, {"rim_a": scene.make(Rack, radius=p.radius)})
+
+
+class Brake(Rubbing):
+    """A shaft held by friction against the housing: torque up to faces * radius * mu * normal force."""
+
+    shaft = Rotational("the braked shaft")
+
+    def expand(p, scene):
+        """A contact between the rim and the ground."""
+        return rubbing(p, scene, {"ground": scene.make(Ground)})
+
+
+class Bearing(Rubbing):
+    """A shaft that rubs in a plain bearing: torque radius * mu(slip) * load, with the bore's radius.
+
+    A Stribeck or hump curve describes boundary, mixed and lubricated running; `normal` is the radial load.
+    """
+
+    shaft = Rotational("the shaft in the bearing")
+
+    def expand(p, scene):
+        """A contact between the journal and the housing."""
+        return rubbing(p, scene, {"ground": scene.make(Ground)})
