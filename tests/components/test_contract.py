@@ -260,3 +260,29 @@ def test_a_derivative_that_is_wrong_in_the_machine_code_is_told(monkeypatch):
 def test_the_list_of_properties_can_be_parametrised():
     assert [check.name for check in checks(TwoEnded)] == list(PROPERTIES)
     assert str(checks(TwoEnded)[0]) == "TwoEnded derivatives"
+
+
+USERS_FILE = """\
+from fairlead.component import Component, Law, Parameter, Translational
+
+
+class Cushion(Component):
+    \"\"\"A spring that stiffens:  force = k u + c u^3.\"\"\"
+
+    a, b = Translational(), Translational()
+    k = Parameter("N/m", above=0)
+    c = Parameter("N/m^3", default=0.0, least=0)
+
+    def law(p, a, b):
+        u = b.x - a.x
+        force = p.k * u + p.c * u**3
+        return Law(a=-force, b=force, stored=p.k * u**2 / 2 + p.c * u**4 / 4)
+"""
+
+
+def test_a_component_in_a_users_own_file_passes(tmp_path):
+    from fairlead.component.registry import load_library
+
+    (tmp_path / "cushion.py").write_text(USERS_FILE)
+    assert USERS_FILE.count("\n") <= 15
+    contract(load_library(str(tmp_path / "cushion.py")).Cushion)

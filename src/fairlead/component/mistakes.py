@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from fairlead.component.base import Declared, Family
+from fairlead.component.base import Component, Declared, Family
 from fairlead.component.declare import Block, Choice, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.tables import TableError
 from fairlead.errors import Fault, did_you_mean, listing, shown
@@ -46,8 +46,8 @@ def owner_name(kind: type[Declared]) -> str:
     head = next((base for base in kind.__mro__ if "members" in base.__dict__), None)
     if head is None or not issubclass(kind, Family):
         return kind.__name__
-    return f"{kind.key} {kind.word}" if not hasattr(head, "law") and not kind.declaration.ports else (
-        f"{head.__name__} ({kind.key}: {kind.word})")  # fmt: skip
+    whole = issubclass(kind, Component)
+    return f"{head.__name__} ({kind.key}: {kind.word})" if whole else f"{kind.key} {kind.word}"
 
 
 def _meant(name: str, allowed: Mapping[str, Any]) -> str:
@@ -58,7 +58,8 @@ def _spot(kind: type[Declared], loc: tuple[Any, ...], tree: Value, path: str, wh
     """Follow a pydantic location through the netlist and the declarations at once."""
     node, names, owner = tree, path, owner_name(kind)
     siblings: Mapping[str, Any] = kind.declaration.parameters
-    declared, family = None, None
+    declared: Any = None
+    family: Any = None
     for number, step in enumerate(loc):
         if family is not None and step in family.members:  # the tag of a union, not a key of the netlist
             owner, siblings, family = (

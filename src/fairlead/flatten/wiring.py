@@ -72,10 +72,10 @@ def _signal(declared: dict[PortRef, Input | Output], where: Location) -> tuple[d
     """One output feeds any number of inputs."""
     outputs = [ref for ref, d in declared.items() if isinstance(d, Output)]
     inputs = [ref for ref, d in declared.items() if isinstance(d, Input)]
-    if len(declared) == 1 or (len(outputs) == 1 and not _other_unit(declared, outputs[0])):
+    odd = _other_unit(declared, outputs[0]) if len(outputs) == 1 else None
+    if len(declared) == 1 or (len(outputs) == 1 and odd is None):
         return dict.fromkeys(inputs, outputs[0]) if outputs else {}, []
-    if len(outputs) == 1:
-        odd = _other_unit(declared, outputs[0])
+    if odd is not None:
         what = f"{outputs[0]} is in {declared[outputs[0]].unit}, {odd} wants {declared[odd].unit}."
         return {}, [Fault(where, what, "Join an output with inputs of its unit.")]
     if outputs:

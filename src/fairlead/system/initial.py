@@ -64,7 +64,7 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
 
 def _names(flat: FlatModel, numbering: Numbering) -> dict[str, Named]:
     """Every name an initial value may be given to."""
-    names = {}
+    names: dict[str, Named] = {}
     for ref in flat.node_of:
         names |= _of_port(flat, numbering, ref, str(ref))
         if getattr(flat.assembly.instances[ref.instance].type, "inertia", None):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -37,7 +38,7 @@ class Check:
         rng = np.random.default_rng(zlib.crc32(str(self).encode()))
         for optional in (True, False):
             try:
-                PROPERTIES[self.name](lambda o=optional: _world(self, rng, o), rng)
+                PROPERTIES[self.name](functools.partial(_world, self, rng, optional), rng)
             except TraceError as error:
                 raise ContractError(f"{self.kind.__name__}: its law cannot be traced: {error}") from error
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -32,15 +32,19 @@ def families(kind: type[Declared]) -> Iterator[tuple[type[Declared], dict[str, A
 
     The members of a family each with every member of their parts; then each option of each choice once.
     """
-    members = list(kind.members.values()) if is_head(kind) else [kind]  # type: ignore[attr-defined]
+    members = list(kind.members.values()) if is_head(kind) else [kind]
     for member in members:
         declared = member.declaration.parameters
-        parts = {name: list(d.family.members) for name, d in declared.items() if isinstance(d, Part)}
+        parts = {name: list(_members(d)) for name, d in declared.items() if isinstance(d, Part)}
         for words in itertools.product(*parts.values()):
             yield member, dict(zip(parts, words, strict=True))
         for name, d in declared.items():
             if isinstance(d, Choice):
                 yield from ((member, {name: option}) for option in d.options if option != d.default)
+
+
+def _members(part: Part) -> dict[str, type[Family]]:
+    return cast(type[Family], part.family).members
 
 
 def sample(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool) -> Values:
@@ -81,7 +85,8 @@ def _value(declared: Any, rng: np.random.Generator, word: Any, optional: bool) -
         absent = declared.default is None and not optional
         return None if absent else number(declared, rng)
     if isinstance(declared, Part):
-        member: type[Family] = declared.family.members[word or next(iter(declared.family.members))]  # type: ignore[attr-defined]
+        members = _members(declared)
+        member = members[word or next(iter(members))]
         return sample(member, rng, {}, optional)
     if isinstance(declared, Block):
         return {

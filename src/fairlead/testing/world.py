@@ -73,7 +73,8 @@ class World:
 
         `alone`: inputs that need not be connected have their default, as in a world without others.
         """
-        has, values = self.kind.declaration, {}
+        has = self.kind.declaration
+        values: dict[str, Any] = {}
         for name, port in has.ports.items():
             if port.domain.mechanical:
                 values |= {f"port:{name}:x": _around(rng, 0.3), f"port:{name}:v": _around(rng, 0.3)}
@@ -84,8 +85,8 @@ class World:
                 values[f"port:{name}:x"] = _around(rng, 10.0)
             values[f"port:{name}:R"] = _around(rng, 10.0)
         for name, declared in has.inputs.items():
-            rests = alone and isinstance(declared.default, int | float)
-            values[f"in:{name}"] = float(declared.default) if rests else float(abs(_around(rng, 10.0)))
+            rest = declared.default if alone and isinstance(declared.default, int | float) else None
+            values[f"in:{name}"] = float(abs(_around(rng, 10.0))) if rest is None else float(rest)
             if declared.unit == "1":
                 values[f"in:{name}"] = min(values[f"in:{name}"], 1.0)
         values |= {f"own:{name}": _around(rng, 1.0) for name in (*has.states, *has.unknowns)}
