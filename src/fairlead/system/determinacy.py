@@ -12,6 +12,7 @@ alternating paths lead to from it, is the underdetermined part (Dulmage and Mend
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Iterator
 
 import networkx as nx
@@ -186,14 +187,20 @@ class _Signals:
     """Which algebraic unknowns the value of a signal depends on, through other signals too."""
 
     def __init__(self, numbering: Numbering, blocks: list[Block], algebraic: np.ndarray) -> None:
-        self.n, self.algebraic = numbering.n, algebraic
+        self.n, self.dump, self.algebraic = numbering.n, numbering.dump, algebraic
+        self.blocks = blocks
         self.known: dict[int, set[int]] = {}
-        self.inputs: dict[int, list[int]] = {}
-        for block in blocks:
+
+    @functools.cached_property
+    def inputs(self) -> dict[int, list[int]]:
+        """Per signal, the places in z that it reads."""
+        found: dict[int, list[int]] = {}
+        for block in self.blocks:
             for k, j in block.kernel.structure.d_signals:
                 for signal, z in zip(block.sig_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
-                    if signal != numbering.dump:
-                        self.inputs.setdefault(signal - self.n, []).append(z)
+                    if signal != self.dump:
+                        found.setdefault(signal - self.n, []).append(z)
+        return found
 
     def columns(self, signal: int) -> set[int]:
         """The unknowns a signal depends on; empty for reactions, zero and time."""
