@@ -10,7 +10,17 @@ import fairlead.integrate.ordering as ordering
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import Memory
-from fairlead.integrate.protocol import CALLBACKS, EVENT, Block, OnBlock, Outcome, Problem, Run, Status
+from fairlead.integrate.protocol import (
+    CALLBACKS,
+    EVENT,
+    Block,
+    Integers,
+    OnBlock,
+    Outcome,
+    Problem,
+    Run,
+    Status,
+)
 from fairlead.integrate.replan import replan
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.tableau import TABLEAUS, Tableau
@@ -31,7 +41,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     computed, after Ctrl-C too. Raises ValueError for settings or arrays that do not fit together.
     """
     begun = time.perf_counter()
-    advance = compiled_loop()
+    advance = compiled_loop(run.engine)
     tableau = TABLEAUS[run.method]
     check(problem, run)
     memory = prepare(problem, run, tableau)
@@ -87,6 +97,8 @@ def check(problem: Problem, run: Run) -> None:
         value = getattr(run, name)
         if value is not None and not value > 0:
             raise ValueError(f"{name} = {value:g} s must be above zero.")
+    if not 0.5 <= run.theta <= 1.0:
+        raise ValueError(f"theta = {run.theta:g} must be from 0.5 to 1.")
     n, ng = len(problem.initial), len(problem.guard_machine)
     by_unknown = ("differential", "quadrature", "absolute", "relative", "cap", "unknown_names")
     lengths = dict.fromkeys(by_unknown, n) | dict.fromkeys(("guard_tolerance", "guard_names"), ng)
@@ -124,6 +136,9 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     memory = Memory(lengths, given_arrays(problem, tableau, plan))
     write_numbers(memory, {**sizes, "n_outputs": n_outputs, "dense": int(plan.dense)})
     write_numbers(memory, settings(run, tableau))
+    if run.engine == "stepping":
+        write_numbers(memory, stepping_settings(run))
+        memory.array["controlled"][:] = controlled(problem)
     calls = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}
     if not calls["call_guards"] or not calls["call_switch"]:
         calls["call_guards"] = calls["call_switch"] = 0
@@ -177,6 +192,28 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
         "error_exponent": 1.0 / (tableau.error_order + 1),
         "t_next": NEVER, "t_release": NEVER, "t_last_switch": -NEVER,
     }  # fmt: skip
+
+
+def stepping_settings(run: Run) -> dict[str, float]:
+    """What the stepping engine sets differently, or alone."""
+    return {
+        "least_theta": run.theta, "theta_now": run.theta, "fixed_step": run.fixed_step or 0.0,
+        "error_exponent": 1.0 / 3.0,
+    }  # fmt: skip
+
+
+def controlled(problem: Problem) -> Integers:
+    """1 for unknowns whose error sets the step: differential, and no speed that has a position."""
+    chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
+    pattern = problem.pattern
+    columns = ordering.columns_of(pattern)
+    touches: list[set[int]] = [set() for _ in chosen]
+    for i, j in zip(pattern.rows.tolist(), columns.tolist(), strict=True):
+        touches[i].add(j)
+    for x in ordering.kinematic_rows(problem, touches):
+        if not problem.quadrature[x]:
+            chosen[list(touches[x])] = 0
+    return chosen
 
 
 def write_numbers(memory: Memory, values: dict[str, float]) -> None:

@@ -17,21 +17,39 @@ SOURCES = (
 """Every file of this folder whose text the machine code depends on."""
 
 
+STEPPING_SOURCES = ("theta_step.py", "stepping_trial.py", "stepping_loop.py")
+"""What the stepping engine adds to them."""
+
+
 @functools.cache
-def compiled_loop() -> Callable[[int, int], int]:
-    """advance(address of the struct, attempts) -> status; see loop.py."""
+def compiled_loop(engine: str = "rodas") -> Callable[[int, int], int]:
+    """advance(address of the struct, attempts) -> status; see loop.py and stepping_loop.py.
+
+    Each engine is an entry of its own in the cache, so that only what is used gets compiled.
+    """
     folder = importlib.resources.files("fairlead.integrate")
-    key = native.digest("integrate", *(folder.joinpath(name).read_text("utf-8") for name in SOURCES))
-    code = native.load_or_compile(key, _build)
+    names = SOURCES if engine == "rodas" else SOURCES + STEPPING_SOURCES
+    key = native.digest("integrate", *(folder.joinpath(name).read_text("utf-8") for name in names))
+    code = native.load_or_compile(key, _build if engine == "rodas" else _build_stepping)
     call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(code.address["advance"])
     call.keep_alive = code  # type: ignore[attr-defined]
     return call
 
 
 def _build() -> native.Build:
-    import numba
-
     from fairlead.integrate.loop import advance
+
+    return _compile(advance)
+
+
+def _build_stepping() -> native.Build:
+    from fairlead.integrate.stepping_loop import advance_stepping
+
+    return _compile(advance_stepping)
+
+
+def _compile(advance: Callable[[int, int], int]) -> native.Build:
+    import numba
 
     signature = numba.int64(numba.int64, numba.int64)
     function = numba.cfunc(signature, error_model="numpy", _nrt=False)(advance)

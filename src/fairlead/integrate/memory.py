@@ -24,6 +24,9 @@ INTEGERS = (
     # where the run is
     "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes",
     "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
+    # stepping only: whether J and M are those of the zones in force, whether
+    # a surface that holds is accelerated, steps failed in a row
+    "linearised", "driven", "failed",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
@@ -37,6 +40,8 @@ NUMBERS = (
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
     "t_release", "t_last_switch", "factored_h",
+    # stepping only: theta asked for and in force, the step asked for, distances of the slopes remembered
+    "least_theta", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
 )  # fmt: skip
 """Real numbers of the struct."""
 
@@ -47,6 +52,8 @@ VECTORS = {
     "K": "stages_n", "D": "three_n",
     "absolute": "n", "relative": "n", "cap": "n", "column_scale": "n", "row_scale": "n", "factor_work": "n",
     # matrices along their patterns; `matrix` holds W or the matrix of the consistent point
+    # stepping only: mean slopes of this step, of the one before and of the one before that
+    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "hold_time": "n",
     "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
     "pivot": "n",
     # the method
@@ -67,6 +74,8 @@ INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
     "differential": "n", "quadrature": "n",
+    # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
+    "controlled": "n", "holds": "n", "zones_at_start": "n_zones",
     "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",

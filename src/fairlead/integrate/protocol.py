@@ -153,7 +153,12 @@ class Run:
     start: float = 0.0
     every: float | None = None
     """Record on this grid (and both sides of each event); None: every accepted step."""
+    engine: Literal["rodas", "stepping"] = "rodas"
+    """rodas: Rosenbrock, every switch located; stepping: zones found inside each step (theta_step.py)."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
+    """Of `rodas`."""
+    theta: float = 0.5
+    """Of `stepping`, from 1/2 (order 2, no damping) to 1 (order 1, the most damping)."""
     first_step: float | None = None
     max_step: float = np.inf
     fixed_step: float | None = None

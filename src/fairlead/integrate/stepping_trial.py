@@ -1,0 +1,156 @@
+"""A trial step of the stepping engine: proposed, taken, its error estimated, accepted or repeated.
+
+The error of the midpoint rule is h^3 y'''/12, and y''' comes free of charge: it is the second divided
+difference of the mean slopes of this step and the two before,
+
+    error = h^3/6 [k_n, k_n-1, k_n-2]
+
+Controlled are all differential unknowns but speeds that have a position (x' = v). A contact that starts
+or stops inside a step bends the motion there: the speed at the end of the step is then still right to
+order 2, while a difference of accelerations sees a jump; the position it leads to is wrong by order
+h^2 times the jump, which is what the difference of speeds says.
+"""
+
+from __future__ import annotations
+
+from math import inf, isfinite
+
+from fairlead.integrate.codes import (
+    GO_ON,
+    MAX_EVENTS,
+    MAX_STEPS,
+    REPLAN,
+    SINGULAR_MATRIX,
+    STEP_FLOOR,
+    UNSETTLED,
+)
+from fairlead.integrate.controller import step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.foreign import compiled, copy, indices, reals
+from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
+from fairlead.integrate.theta_step import CYCLES, give_back_zones, take_theta_step
+from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
+
+KEEP_BELOW = 1.15
+"""A step that may grow by less than this is kept, and the factors of its matrix with it."""
+THETA_RISE, THETA_FALL = 0.05, 0.9
+"""theta - 1/2 grows by this when the zones of a step cycle, and shrinks by this factor with every accepted one."""
+
+
+@compiled
+def attempt_stepping(m):
+    """One trial step: repeated with a shorter one, or accepted to its end."""
+    if m.steps >= m.max_steps:
+        return MAX_STEPS
+    if m.total_events >= m.max_events:
+        return MAX_EVENTS
+    if m.adaptive == 0 and m.failed == 0:
+        m.h_next = m.fixed_step
+    h = propose(m)
+    m.h = h
+    status = take_theta_step(m, h)
+    if status == INACCURATE:
+        give_back_zones(m)
+        return REPLAN
+    if status != DONE:
+        return repeat_shorter(m, h, status)
+    m.error = error_of_step(m, h)
+    if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
+        give_back_zones(m)
+        if isfinite(m.error):
+            m.rejected_error += 1
+            indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
+        else:
+            m.rejected_nan += 1
+        m.h_next = step_after_rejection(m, h)
+        m.retried += 1
+        return GO_ON if m.h_next >= smallest_step(m) else STEP_FLOOR
+    m.failed = max(m.failed - 1, 0)
+    m.theta_now = m.least_theta + THETA_FALL * (m.theta_now - m.least_theta)
+    if m.theta_now < m.least_theta + 1e-3:
+        m.theta_now = m.least_theta
+    accept(m, h, False)
+    if m.h_next > 0.95 * h and m.h_next < KEEP_BELOW * h and m.adaptive == 1:
+        m.h_next = h
+    return GO_ON
+
+
+@compiled
+def repeat_shorter(m, h, status):
+    """Halve a step whose zones cycle or whose iteration fails; end the run at the step floor."""
+    give_back_zones(m)
+    m.rejected_nan += 1
+    m.retried += 1
+    m.failed += 2
+    if status == CYCLES:
+        m.theta_now = min(m.theta_now + THETA_RISE, 1.0)
+    m.h_next = 0.5 * h
+    if m.h_next >= smallest_step(m):
+        return GO_ON
+    if status == CYCLES:
+        return UNSETTLED
+    return not_finite_here(m, SINGULAR_MATRIX if status == SINGULAR else STEP_FLOOR)
+
+
+@compiled
+def error_of_step(m, h):
+    """Size of the error of the step in weights; leaves `mean_slope`, and the bend of the step in `D`."""
+    n = m.n
+    y, y_end, slope = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_mean_slope, n)
+    before, earlier, error = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n), reals(m.at_error_vector, n)
+    bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
+    near, far = m.gap + 0.5 * h, m.gap_before
+    weigh(m, m.at_y_end)
+    for k in range(n):
+        error[k] = 0.0
+        slope[k] = 0.0
+        bend[k] = 0.0
+        if not isfinite(y_end[k]):
+            m.worst = k
+            return inf - inf
+        if differential[k] == 1:
+            slope[k] = (y_end[k] - y[k]) / h
+            curve = (slope[k] - before[k]) / near
+            bend[k] = -0.5 * h * h * curve
+            if controlled[k] == 1:
+                error[k] = h * h * h / 6.0 * (curve - (before[k] - earlier[k]) / far) / (near + far)
+    return weighted_norm(m, m.at_error_vector)
+
+
+@compiled
+def remember_slope(m):
+    """After an accepted step: its slope becomes the one before."""
+    copy(reals(m.at_slope_before, m.n), reals(m.at_slope_earlier, m.n))
+    copy(reals(m.at_mean_slope, m.n), reals(m.at_slope_before, m.n))
+    m.gap_before = m.gap + 0.5 * m.h
+    m.gap = 0.5 * m.h
+
+
+@compiled
+def begin_history(m):
+    """After a settlement: the slopes before are those of the consistent point, now and a little earlier.
+
+    The first step makes the error of a motion with the time scale T = |y'|/|y''| and the amplitude
+    A = T |y'| equal to one weight: A (h/T)^3 / 12.
+    """
+    n = m.n
+    slope, curvature, u = reals(m.at_slope, n), reals(m.at_curvature, n), reals(m.at_u, n)
+    before, earlier = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n)
+    differential = indices(m.at_differential, n)
+    m.linearised = 0
+    m.failed = 0
+    if m.adaptive == 1 and not (m.steps == 0 and m.first_step > 0.0):
+        for k in range(n):
+            u[k] = slope[k] if differential[k] == 1 else 0.0
+        speed = weighted_norm(m, m.at_u)
+        for k in range(n):
+            u[k] = curvature[k] if differential[k] == 1 else 0.0
+        bend = weighted_norm(m, m.at_u)
+        if speed > 0.0 and bend > 0.0:
+            scale = speed / bend
+            m.h_next = min(m.h_next, scale * (12.0 / (speed * scale)) ** (1.0 / 3.0))
+        m.h_next = max(m.h_next, 4.0 * smallest_step(m))
+    m.gap = 0.0
+    m.gap_before = min(m.h_next, m.max_step)
+    for k in range(n):
+        before[k] = slope[k] if differential[k] == 1 else 0.0
+        earlier[k] = before[k] - m.gap_before * curvature[k] if differential[k] == 1 else 0.0

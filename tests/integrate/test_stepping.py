@@ -1,0 +1,68 @@
+"""The stepping engine: order, zones found inside the step, exact holding, agreement with `rodas`."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fairlead.integrate import Run, Status, integrate
+from tests.integrate.problems import belt_block, coulomb_oscillator, index_one_dae, nonlinear_ode
+
+
+def end_error(made, step, stop=2.0, **settings):
+    problem, exact = made(**settings)
+    outcome = integrate(problem, Run(stop=stop, engine="stepping", fixed_step=step))
+    assert outcome.ok, outcome.sentence
+    return np.abs(outcome.y - exact(stop))
+
+
+@pytest.mark.parametrize("made", [nonlinear_ode, index_one_dae], ids=["ode", "dae"])
+def test_the_order_is_two_where_the_motion_is_smooth(made):
+    problem, _ = made(absolute=1e-10, relative=1e-10)
+    states = problem.differential
+    errors = [end_error(made, h, absolute=1e-10, relative=1e-10)[states].max() for h in (0.02, 0.01)]
+    assert 1.8 < np.log2(errors[0] / errors[1]) < 2.2  # h^2 and a little h^4
+
+
+def test_reversals_of_friction_inside_the_step_cost_no_order_but_one():
+    steps = np.array([0.02, 0.01, 0.005, 0.0025])
+    errors = [end_error(coulomb_oscillator, h, stop=7.3)[0] for h in steps]
+    order = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert order > 0.9  # an instant is rounded to a step: order 1 at least, by luck more
+
+
+def test_the_step_follows_the_accuracy():
+    found = []
+    for accuracy in (1e-4, 1e-6):
+        problem, exact = nonlinear_ode(absolute=accuracy, relative=accuracy)
+        outcome = integrate(problem, Run(stop=2.0, engine="stepping"))
+        found.append(np.abs(outcome.y - exact(2.0)).max())
+        assert outcome.ok
+        assert found[-1] < 100 * accuracy  # the error of some hundred steps adds up
+    assert found[1] < 0.1 * found[0]
+
+
+def test_a_held_block_does_not_creep():
+    problem = belt_block(start=(0.05, 0.2))
+    outcome = integrate(problem, Run(stop=0.2, engine="stepping", fixed_step=1e-3))
+    assert outcome.counters.switches == 0
+    assert np.abs(outcome.values[:, 1] - 0.2).max() < 1e-12  # the belt moves with 0.2 m/s
+
+
+def test_two_runs_are_the_same_to_the_last_bit():
+    outcomes = [integrate(belt_block(), Run(stop=3.0, engine="stepping")) for _ in range(2)]
+    assert outcomes[0].ok
+    assert outcomes[0].y.tobytes() == outcomes[1].y.tobytes()
+    assert outcomes[0].values.tobytes() == outcomes[1].values.tobytes()
+
+
+def test_budgets_end_the_run_and_keep_the_results():
+    outcome = integrate(belt_block(), Run(stop=3.0, engine="stepping", fixed_step=1e-3, max_steps=50))
+    assert outcome.status == Status.MAX_STEPS
+    assert outcome.counters.steps == 50
+    assert len(outcome.times) >= 50
+
+
+def test_theta_outside_its_range_is_refused():
+    with pytest.raises(ValueError, match="theta"):
+        integrate(belt_block(), Run(stop=1.0, engine="stepping", theta=0.3))
