@@ -24,7 +24,7 @@ class BendScene:
     """All numbers of the test in SI units; `mu` is hose on guide, `creep` is v_c of both contacts.
 
     `by_place`: load of the guide from the core tension at the hose node's place, not from the core node of
-    the same index. The design says index; the two part when hose and core do.
+    the same index. docs/physics.md 3.3 says index; the two part when hose and core do.
     """
 
     mu: float = 0.35

@@ -2,7 +2,7 @@
 
     nice -n 10 python benchmarks/bend_variants.py [--step 5e-4]
 
-Writes `data/bend_variants.json` and prints one line per variant beside the number that the design gives.
+Writes `data/bend_variants.json` and prints one line per variant beside the number of the specification.
 """
 
 import argparse
@@ -22,7 +22,7 @@ VARIANTS: dict[str, tuple[dict[str, float], float]] = {
     "EA_h 25 kN": ({"hose_stiffness": 25e3}, 56.0),
     "bulkhead friction constant 0.5": ({"bulkhead_coulomb": 0.5}, 92.0),
     "T_out 200 N": ({"outboard": 200.0}, 46.0),
-    # The line must lie inboard of the bend to be paid out through it; the design does not say where it starts.
+    # The line must lie inboard of the bend to be paid out through it; where it starts was not specified.
     "deployment from -4.5 m": ({"speed": 0.3, "first": -4.5}, 76.0),
     "mu 0.25": ({"mu": 0.25}, 5.0),
     "mu 0.40": ({"mu": 0.40}, 6.0),

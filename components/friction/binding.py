@@ -37,7 +37,7 @@ class Binding(Contact):
     exempt = {
         "dissipates break_forward": "The latch keeps the force of sliding while the slip is still creeping back.",
         "dissipates break_backward": "The same the other way; what it gives is less than F_s times the creep.",
-        "settles naive": "It counts one of two bodies, so the load depends on the zone (hazard of the printed law).",
+        "settles naive": "It counts one of two bodies, so the load depends on the zone (docs/physics.md 1.6).",
     }
     form = Choice(("robust", "literal"), "The repaired law or the printed one.", default="robust")
     creep = Parameter("m/s", "Slip speed at which the viscous part alone carries F_s.", default=1e-4, above=0)

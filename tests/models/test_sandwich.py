@@ -47,7 +47,7 @@ def test_the_reference_converges_to_the_exact_hold(moreau, held) -> None:
 
 @pytest.mark.parametrize(("creep", "published"), [(1e-4, 6e-5), (1e-5, 6e-6)])
 def test_binding_is_off_by_what_it_creeps(bundled, held, creep: float, published: float) -> None:
-    """The design measured 6e-5 and 6e-6 m on a scene like this one; the scale is creep times time stuck."""
+    """The specification measured 6e-5 and 6e-6 m on a scene like this one; the scale is creep times time stuck."""
     result = bundled("sandwich", {"creep": f"{creep} m/s"})
     assert distance(positions(result), held) < published
 
