@@ -1,7 +1,8 @@
-"""Machine code of compiled functions: made by numba once, kept on disk, loaded without numba.
+"""Machine code of compiled functions: made once, kept on disk, loaded without the compiler.
 
     key = digest(source_text, ...)                 everything the code depends on
-    native = load_or_compile(key, build)           build() runs on a miss only and imports numba
+    native = load_or_compile(key, build)           build() runs on a miss only, and imports the compiler: numba
+                                                   for the integrator, `system/lowering.py` for kernels
     native.address["rhs"]                          C function address, callable through ctypes
 
 numba's own cache watches one file per function and goes stale when a called function in another
@@ -32,7 +33,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 MAGIC = b"fairlead-native-1\n"
-# numba references these only on paths that raise or count references; compiled laws do neither.
+# numba refers to these only on paths that raise or count references; compiled laws do neither.
 UNREACHED = (
     "NRT_Free", "NRT_MemInfo_call_dtor", "NRT_decref", "NRT_incref", "numba_do_raise", "numba_gil_ensure",
     "numba_gil_release", "numba_runtime_build_excinfo_struct", "numba_unpickle",

@@ -108,13 +108,14 @@ def worth_keeping(values: NDArray[np.float64], side: NDArray[np.int8]) -> NDArra
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
         progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float) -> Result:  # fmt: skip
-    """Run a compiled model and return its results. Raises ModelError, UsageError; a run that fails keeps its results."""
+    """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError."""
     chosen = system.record(_patterns(netlist))
     limits = read_limits(netlist.limits, system.recorded)
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
     with RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force) as directory:
-        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, netlist.record.every is not None)
+        on_grid = netlist.record.every is not None
+        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid)
         with interrupted_between_blocks(watch):
             outcome = integrate(system, _engine_settings(netlist, settings), watch)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
@@ -146,8 +147,9 @@ def _engine_settings(netlist: Netlist, settings: RunSettings) -> Run:
 
 def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str, Any]:
     return {
-        "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest, "description": netlist.description,
-        "settings": settings.model_dump(), "engine": "rodas", "engine_reason": "the only engine of this version",
+        "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
+        "description": netlist.description, "settings": settings.model_dump(),
+        "engine": "rodas", "engine_reason": "the only engine of this version",
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "unknowns": system.n, "machines": len(system.zones),
     }  # fmt: skip
@@ -158,7 +160,8 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
     counts = {n: v for n, v in vars(counters).items() if isinstance(v, int)}
     return {
         "end_time": outcome.t, "sentence": outcome.sentence, "culprits": list(outcome.culprits),
-        "chattering": list(outcome.chattering), "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
+        "chattering": list(outcome.chattering),
+        "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
         "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
     }  # fmt: skip

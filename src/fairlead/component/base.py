@@ -43,6 +43,7 @@ from fairlead.component.declare import (
     ZoneLaw,
     Zones,
 )  # fmt: skip
+from fairlead.quantities import QuantityError, parse_unit
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Part, Block, Table, Waveform, Stations)
 METHODS = ("law", "inertia", "start", "ties", "stored", "dissipated", "supplied", "expand", "check", "prescribes")
@@ -169,6 +170,8 @@ def _collect(cls: type) -> Declaration:
 def _check(cls: type[Declared]) -> None:
     """Names, signatures and targets; the physics is the contract suite's business."""
     has = cls.declaration
+    _check_units(cls)
+    _check_named_numbers(cls)
     if issubclass(cls, Composite):
         _demand(cls, hasattr(cls, "expand"), "a Composite needs an expand(p) method")
         return
@@ -193,6 +196,34 @@ def _check(cls: type[Declared]) -> None:
             _demand(cls, zone in has.zones, f"guard {name!r} names {zone!r}, which is not in zones {has.zones}")
         _demand(cls, mark.to not in mark.zones, f"guard {name!r} leads from {mark.to!r} to itself")
         _check_arguments(cls, mark.function, has.arguments)
+
+
+def _check_units(cls: type[Declared]) -> None:
+    """Every unit means something."""
+    has = cls.declaration
+    declared = {**has.parameters, **has.inputs, **has.outputs, **has.states, **has.unknowns, **has.discrete}
+    for block in [d for d in declared.values() if isinstance(d, Block)]:
+        declared |= block.parameters
+    for name, one in declared.items():
+        units = (one.x, one.y) if isinstance(one, Table) else (getattr(one, "unit", "1"),)
+        for unit in units:
+            try:
+                parse_unit(unit)
+            except QuantityError as error:
+                _demand(cls, False, f"{name!r}: {error}")
+
+
+def _check_named_numbers(cls: type[Declared]) -> None:
+    """Starts and defaults that are given by the name of a parameter."""
+    has = cls.declaration
+    known = {*has.parameters, *has.derived}
+    starting: dict[str, State | Discrete] = {**has.states, **has.discrete}
+    for name, one in starting.items():
+        named = not isinstance(one.start, str) or one.start in known
+        _demand(cls, named, f"{name!r} starts at {one.start!r}, which is no parameter")
+    for name, read in has.inputs.items():
+        named = not isinstance(read.default, str) or read.default in known
+        _demand(cls, named, f"{name!r} is {read.default!r} when nothing is connected, which is no parameter")
 
 
 def _check_arguments(cls: type, function: Callable[..., Any], allowed: Iterable[str]) -> None:

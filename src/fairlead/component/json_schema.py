@@ -93,7 +93,7 @@ def _or_expression(node: Schema) -> Schema:
 def _component(name: str, kind: type[Declared], definitions: dict[str, Schema]) -> Schema:
     """A component with the `type` that names it; a family by the word that selects the member."""
     if is_head(kind):
-        made = _members(kind, definitions)  # type: ignore[arg-type]
+        made = _members(kind, definitions)
     else:
         made = _parameters(kind, definitions)
     typed = {"const": name}

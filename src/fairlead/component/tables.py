@@ -133,7 +133,7 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
         if not after > before:
             raise TableError(f"{x_name} must rise from point to point; {after:g} follows {before:g}", "", at(k + 1, 0))
     shape = linear_table if words["kind"] == "linear" else monotone_cubic_table
-    return shape(np.array(x), np.array(y), beyond=words["beyond"])
+    return shape(x, y, beyond=words["beyond"])
 
 
 def _row(k: int, column: int) -> tuple[str | int, ...]:
