@@ -103,10 +103,24 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
     if nodes:
         what = f"{_named(nodes)} has no mass and no law determines its {THROUGH[nodes[0].domain.name]}{while_}."
         return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
+    if owners and owners.keys() <= _holding(blocks):
+        what = f"{_hold(owners)} in a closed circle; no law determines how they share the force."
+        way_out = "Join them into one, or use method: binding, which shares it by creep."
+        return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     names = [f"{path}.{name}" for (path, name), at in numbering.own.items() if at in part]
     what = f"{_and(names)}: no equation determines {'it' if len(names) == 1 else 'them'}{while_}."
     way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
     return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+
+
+def _holding(blocks: list[Block]) -> set[str]:
+    """Components that hold in the zone they begin in."""
+    holding = set()
+    for block in blocks:
+        s = block.kernel.structure
+        if any(s.zones[0] in zones for zones in s.holds.values()):
+            holding.update(instance.path for instance in block.instances)
+    return holding
 
 
 def _zones_at_start(blocks: list[Block], paths: set[str]) -> str:
