@@ -139,7 +139,7 @@ def period(result):
     return float(np.diff(times[1:]).mean())
 
 
-# Figures of physics section 2, c05; 1 % is what the issue asks of them.
+# Independent computations, physics section 2, which come with a creep or a band of their own: 1 % apart at most.
 PERIODS = [
     ("hold", {}, 1.1863),
     ("karnopp", {"band": "1e-4 m/s"}, 1.189),
