@@ -21,6 +21,7 @@ class NaiveSign(Contact):
     """
 
     width = Parameter("m/s", "Slip speed over which the sign changes; not to be resolved.", default=1e-15, above=0)
+    advice = "The sign of the slip jumps inside a step; use method hold, or binding where many contacts stick."
     zones = Zones("on", "off")
 
     @zone("on")

@@ -19,6 +19,7 @@ class NaiveZone(Contact):
     warns of it as well.
     """
 
+    advice = "The two-zone law has no zone for sticking; use method hold, or binding where many contacts stick."
     zones = Zones("forward", "backward", "off")
 
     @zone("forward", "backward")

@@ -1,0 +1,185 @@
+"""Force against slip speed of a contact, zone by zone, as its law and guards give it with the numbers of a scene.
+
+    found = characteristic(values, normal=10.0)
+    found.branches["plateau"]        slip [m/s] and friction [N] where this zone can stay
+
+The laws are run with plain numbers for a surface at rest and a body of 1 kg. A zone can stay at a slip where none of
+its guards has risen, for a body that does not accelerate (steady slip) or, if none does, for one that is driven by
+`DRIVEN` times stiction. States such as a bristle's deflection are at their steady value.
+"""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.component.base import terms_of
+from fairlead.component.declare import Hold
+from fairlead.component.values import Values
+
+DRIVEN = 1.5  # applied force over stiction, for zones that steady slip never sees
+POINTS = 241  # slip speeds, from a hundredth of the smallest scale to ten times the largest, both signs
+LOAD_SHARES = (0.5, 0.99)  # of the holding capacity, at which creep is told
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Characteristic:
+    """A contact's law with numbers. Speeds in m/s, forces in N."""
+
+    label: str
+    normal: float
+    breakaway: float
+    branches: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # zone -> slip, friction
+    driven: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while driven
+    holds: bool = False  # a zone holds the slip at zero
+    capacity: float = 0.0  # largest force below the first maximum
+    slope: float | None = None  # at zero slip [N s/m]; None: rigid, or bristles
+    stiffness: float | None = None  # of bristles [N/m]
+    creep: tuple[float, ...] = ()  # at LOAD_SHARES of the capacity
+
+    def rows(self) -> list[tuple[str, str]]:
+        """What is printed: (quantity, value with unit)."""
+        if self.stiffness is not None:
+            stiffness = f"{self.stiffness:.4g} N/m (bristles)"
+        else:
+            stiffness = "rigid" if self.slope is None else f"{self.slope:.4g} N*s/m"
+        creep = ", ".join(f"{v:.3g} m/s at {share:.0%}" for v, share in zip(self.creep, LOAD_SHARES, strict=True))
+        return [
+            ("normal force", f"{self.normal:.4g} N"), ("breakaway", f"{self.breakaway:.4g} N"),
+            ("holding capacity", f"{self.capacity:.4g} N"), ("stiffness", stiffness), ("creep", creep),
+        ]  # fmt: skip
+
+
+def characteristic(values: Values, normal: float) -> Characteristic:
+    """Evaluate a contact (a member of the family `Contact`) at a normal force [N]."""
+    has, p = values.type.declaration, values
+    slips = _slips(p)
+    breakaway = normal * p.curve.breakaway()
+    steady: dict[str, tuple[Floats, Floats]] = {}
+    driven: dict[str, tuple[Floats, Floats]] = {}
+    holds = False
+    for zone in has.zones:
+        if zone == "off":
+            continue
+        points = [(v, _force(p, zone, v, normal), v) for v in slips]
+        if any(isinstance(force, Hold) for _, force, _ in points):
+            holds = True
+            continue
+        known = [(v, force) for v, force, _ in points if force is not None]
+        stays = [(v, f) for v, f in known if _stays(p, zone, v, f, normal, 0.0)]
+        if stays:
+            steady[zone] = _columns(stays)
+            continue
+        pushed = [
+            (v, f) for v, f in known for d in (-1, 1) if _stays(p, zone, v, f, normal, d * DRIVEN * breakaway - f)
+        ]
+        if pushed:
+            driven[zone] = _columns(pushed)
+    return _measured(p, normal, breakaway, steady, driven, holds)
+
+
+def _measured(
+    p: Values, normal: float, breakaway: float, steady: dict[str, Any], driven: dict[str, Any], holds: bool
+) -> Characteristic:
+    label, rest = p.type.word, dict.fromkeys(LOAD_SHARES, 0.0)  # type: ignore[attr-defined]
+    common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven}
+    if holds or p.type.declaration.states:
+        ratio = getattr(p, "ratio", None)
+        stiffness = None if holds or ratio is None else normal * ratio
+        return Characteristic(
+            **common, holds=holds, capacity=breakaway, stiffness=stiffness, creep=tuple(rest.values())
+        )
+    latched = [zone for zone in steady if zone.startswith("break")]  # entered by breaking away, not from rest
+    v, force = _forward([branch for zone, branch in steady.items() if zone not in latched])
+    if not len(v):
+        return Characteristic(**common, creep=tuple(rest.values()))
+    top = int(np.argmax(np.maximum.accumulate(force) * (1 - 1e-9) > force)) or len(force)  # the first fall
+    rising = np.maximum.accumulate(force[:top])
+    capacity = float(rising[-1])
+    creep = tuple(float(np.interp(share * capacity, rising, v[:top])) for share in LOAD_SHARES)
+    return Characteristic(**common, capacity=capacity, slope=float(force[0] / v[0]), creep=creep)
+
+
+def _forward(branches: list[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
+    """All points of positive slip, in order."""
+    pairs = sorted((float(v), float(f)) for slip, force in branches for v, f in zip(slip, force, strict=True) if v > 0)
+    table = np.array(pairs).reshape(-1, 2)
+    return table[:, 0], table[:, 1]
+
+
+def _slips(p: Values) -> Floats:
+    """Slip speeds of both signs, logarithmic, that show the treatment's own scale and the curve's."""
+    names = ("creep", "band", "stick_speed")
+    own = [getattr(p, name) for name in names if name in p.type.declaration.parameters and getattr(p, name) is not None]
+    curve = [scale for scale in (p.curve.scale(),) if scale]
+    scales = [*own, *curve] or [1e-3]
+    half = np.geomspace(min(scales) / 100, max([*curve, *(100 * s for s in own), *scales]) * 10, 20 * POINTS)
+    return np.concatenate([-half[::-1], half])
+
+
+def _columns(points: list[tuple[float, float]]) -> tuple[Floats, Floats]:
+    table = np.array(sorted(points))
+    return table[:, 0], table[:, 1]
+
+
+def _force(p: Values, zone: str, slip: float, normal: float) -> Any:
+    """Friction in a zone; a Hold where the zone holds; None where a state has no steady value."""
+    states = dict.fromkeys(p.type.declaration.states, 0.0)
+    terms = _terms(p, zone, slip, normal, states)
+    unknown = next(iter(p.type.declaration.unknowns), None)
+    if unknown is not None:
+        return terms[unknown] if isinstance(terms[unknown], Hold) else -float(terms[unknown])
+    for state in states:
+        steady = _steady(p, zone, slip, normal, state)
+        if steady is None:
+            return None
+        terms = _terms(p, zone, slip, normal, {state: steady})
+    return float(terms["b"])
+
+
+def _steady(p: Values, zone: str, slip: float, normal: float, state: str) -> float | None:
+    """Where a state's rate, linear in it, is zero."""
+    rate = [float(_terms(p, zone, slip, normal, {state: z})[state]) for z in (0.0, 1.0)]
+    if rate[0] == rate[1]:
+        return 0.0 if rate[0] == 0 else None
+    return rate[0] / (rate[0] - rate[1])
+
+
+def _terms(p: Values, zone: str, slip: float, normal: float, states: dict[str, float]) -> dict[str, Any]:
+    law = p.type.declaration.laws[zone]
+    return terms_of(p.type, _called(law, _arguments(p, zone, slip, normal, 0.0, states)))
+
+
+def _stays(p: Values, zone: str, slip: float, friction: float, normal: float, push: float) -> bool:
+    """True when no guard of the zone has risen."""
+    has = p.type.declaration
+    if has.states:
+        d = -1 if zone.endswith("backward") else 1
+        return "forward" not in zone and "backward" not in zone or d * slip > 0
+    arguments = _arguments(p, zone, slip, normal, push, dict.fromkeys(has.unknowns, friction))
+    for guard in has.guards.values():
+        if zone in guard.zones:
+            said = _called(guard.function, arguments)
+            if all(value > 0 for value in (said if isinstance(said, tuple) else (said,))):
+                return False
+    return True
+
+
+def _arguments(p: Values, zone: str, slip: float, normal: float, push: float, own: dict[str, float]) -> dict[str, Any]:
+    """Arguments of a law: the surface at rest, the body of 1 kg at `slip` with acceleration `push`."""
+    has = p.type.declaration
+    return {
+        **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0), "p": p, "t": 0.0, "zone": zone, "normal": normal,
+        "a": SimpleNamespace(x=0.0, v=0.0, a=0.0, inverse_mass=0.0),
+        "b": SimpleNamespace(x=0.0, v=slip, a=push, inverse_mass=1.0), **own,
+    }  # fmt: skip
+
+
+def _called(function: Any, arguments: dict[str, Any]) -> Any:
+    return function(**{name: arguments[name] for name in inspect.signature(function).parameters})

@@ -1,0 +1,131 @@
+"""One scene under several treatments: what each costs, and how far it is from the exact one.
+
+    comparison = compare("belt", {"pad.method": ["hold", "binding", "tanh"]}, out="results/compare")
+    print(comparison.rows[0].error)
+
+Error is the root mean square difference from the reference over the common time, relative to the range of the
+signal in the reference; the worst signal counts. Runs that end early or do not start are rows with a reason.
+"""
+
+from __future__ import annotations
+
+import itertools
+import pathlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fairlead.errors import FairleadError
+
+if TYPE_CHECKING:
+    from fairlead.results import Result
+
+FINER = 1e-2  # accuracy of the reference, relative to that of the scene
+GRID = 4001  # common times at which signals are compared
+EXACT = "hold"  # the treatment that the others are measured against
+
+
+@dataclass(frozen=True)
+class Row:
+    """One run. Numbers are None where the run did not get that far; `reason` is empty when it finished."""
+
+    label: str
+    status: str
+    reason: str = ""
+    error: float | None = None  # relative to the range of the worst signal
+    worst: str = ""  # that signal
+    creep: float | None = None  # m/s
+    steps: int | None = None
+    switches: int | None = None
+    seconds: float | None = None  # stepping alone; compiling happens once
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All rows, and what the errors are measured against."""
+
+    rows: tuple[Row, ...]
+    reference: str
+    directory: pathlib.Path
+
+
+def compare(
+    path: str, vary: Mapping[str, Sequence[str]], *, settings: Mapping[str, str] | None = None,
+    libraries: Iterable[str] = (), out: str | pathlib.Path = "results/compare", signals: str = "*",
+    max_wall: float = 60.0,
+) -> Comparison:  # fmt: skip
+    """Run every combination of the values in `vary`; a run ends after `max_wall` seconds at the latest.
+
+    The reference is exact hold at a hundredth of the accuracy where a `method` is varied, else the first
+    combination. Raises ModelError when the reference cannot be built.
+    """
+    folder, fixed = pathlib.Path(out), dict(settings or {})
+    chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
+    exact = {name: EXACT if name.split(".")[-1] == "method" else values[0] for name, values in vary.items()}
+    accuracy = _load(path, {**fixed, **exact}, libraries).netlist.run.accuracy
+    reference, failed = _run(path, {**fixed, **exact}, libraries, folder / "reference", max_wall, accuracy * FINER)
+    if reference is not None and reference.status != "finished":
+        reference = None
+    rows = []
+    for number, values in enumerate(chosen):
+        result, row = _run(path, {**fixed, **values}, libraries, folder / f"run{number}", max_wall, None)
+        rows.append(_row(", ".join(values.values()), result, row, reference, signals))
+    label = f"{', '.join(exact.values())} at accuracy {max(accuracy * FINER, 1e-12):g}"
+    return Comparison(
+        tuple(rows), label if reference is not None else f"none: {failed or 'the reference failed'}", folder
+    )
+
+
+def _load(path: str, settings: Mapping[str, str], libraries: Iterable[str]) -> Any:
+    from fairlead.simulate import load
+
+    return load(path, set=settings, libraries=libraries)
+
+
+def _run(
+    path: str, settings: Mapping[str, str], libraries: Iterable[str], out: pathlib.Path, max_wall: float, accuracy: float | None
+) -> tuple[Result | None, str]:  # fmt: skip
+    """The result, or None and why there is none; a result that ended early comes with why."""
+    more = {} if accuracy is None else {"accuracy": max(accuracy, 1e-12)}
+    try:
+        model = _load(path, settings, libraries)
+        result = model.run(out=out, force=True, max_wall=max_wall, **more)
+    except FairleadError as error:
+        return None, str(error)
+    if result.status == "finished":
+        return result, ""
+    advice = {getattr(instance.type, "advice", "") for instance in model.assembly.instances.values()} - {""}
+    return result, " ".join([result.run["sentence"], *sorted(advice)])
+
+
+def _row(label: str, result: Result | None, reason: str, reference: Result | None, signals: str) -> Row:
+    if result is None:
+        return Row(label, "not started", reason)
+    run, error, worst = result.run, None, ""
+    if result.status == "finished" and reference is not None:
+        error, worst = _error(result, reference, signals)
+    creep = run.get("worst_creep") or {}
+    return Row(
+        label, result.status, reason, error, worst, creep.get("value"), run["steps"], run["switches"], run["solve_time"]
+    )
+
+
+def _error(result: Result, reference: Result, pattern: str) -> tuple[float | None, str]:
+    """Largest relative difference over the signals that are positions or forces in both."""
+    t = np.linspace(max(result.t[0], reference.t[0]), min(result.t[-1], reference.t[-1]), GRID)
+    worst, name = None, ""
+    common = set(reference.match(pattern)) & set(result.match(pattern))
+    for signal in reference.signals:
+        if signal.name not in common or signal.unit not in ("m", "rad") or signal.name.endswith(".deflection"):
+            continue
+        right = np.interp(t, reference.t, reference[signal.name])
+        span = float(np.ptp(right))
+        if span == 0:
+            continue
+        difference = np.interp(t, result.t, result[signal.name]) - right
+        share = float(np.sqrt(np.mean(difference**2))) / span
+        if worst is None or share > worst:
+            worst, name = share, signal.name
+    return worst, name

@@ -1,0 +1,86 @@
+"""`fairlead friction`: force against slip speed, as a scene's contacts or a curve of one's own give it."""
+
+import json
+import pathlib
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
+
+if TYPE_CHECKING:
+    from fairlead.component.values import Values
+
+
+def friction(
+    subject: Annotated[
+        str,
+        typer.Argument(help="A netlist, a bundled model, or a curve: 0.4, or '{curve: tustin, stiction: 0.5, ...}'."),
+    ],
+    settings: Settings,
+    libraries: Libraries,
+    method: Annotated[str, typer.Option(help="For a curve: the treatment.")] = "binding",
+    normal: Annotated[str, typer.Option(help="Normal force where the scene gives none.")] = "1 N",
+    out: Annotated[pathlib.Path, typer.Option(metavar="DIR", help="Leave the figures here.")] = pathlib.Path("results"),
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Draw friction against slip speed with its zones; print creep, breakaway, holding capacity, stiffness."""
+    from fairlead.analysis.characteristic import characteristic
+    from fairlead.quantities import si
+    from fairlead.report.friction_figure import draw
+
+    usual, records = si(normal, "N"), []
+    out.mkdir(parents=True, exist_ok=True)
+    for number, (names, values) in enumerate(_contacts(subject, settings, libraries, method).items()):
+        given = values.given.get("normal_force")
+        found = characteristic(values, usual if given is None else given)
+        figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
+        rows = found.rows()
+        records.append({"contacts": names, "method": found.label, "figure": str(figure), **dict(rows)})
+        if not (as_json or quiet):
+            note = " (of no scene; set it with --normal)" if given is None else ""
+            typer.echo(f"{names}: {found.label}")
+            for name, value in rows:
+                typer.echo(f"  {name:<18}{value}{note if name == 'normal force' else ''}")
+            typer.echo(f"  wrote {figure}")
+    if as_json:
+        typer.echo(json.dumps(records, indent=2))
+
+
+def _contacts(subject: str, settings: list[str], libraries: list[str], method: str) -> dict[str, "Values"]:
+    """Contacts by name; equal ones share an entry, named by the first and how many follow."""
+    if subject.startswith("{") or subject.replace(".", "", 1).isdigit():
+        return {subject: _of_curve(subject, libraries, method)}
+    import fairlead
+
+    model = fairlead.load(subject, set=parse_settings(settings), libraries=libraries)
+    found: dict[str, list[Any]] = {}
+    contacts = [one for one in model.flat.instances if {"curve", "normal_force"} <= set(one.values.given)]
+    for instance in contacts:
+        found.setdefault(repr(instance.values), []).append(instance)
+    if not found:
+        raise typer.BadParameter(f"{subject} has no contact.")
+    return {
+        each[0].path + (f" and {len(each) - 1} more like it" if len(each) > 1 else ""): each[0].values
+        for each in found.values()
+    }
+
+
+def _of_curve(text: str, libraries: list[str], method: str) -> "Values":
+    from fairlead.component.parameters import make
+    from fairlead.component.registry import known_types
+    from fairlead.errors import did_you_mean
+    from fairlead.netlist.yaml12 import read_yaml
+
+    members = known_types(libraries)["Contact"].members  # type: ignore[attr-defined]
+    if method not in members:
+        raise typer.BadParameter(f"there is no method {method!r}. {did_you_mean(method, members)}")
+    tree, faults = read_yaml(f"curve: {text}", "curve")
+    if tree is None or faults:
+        raise typer.BadParameter(f"{text!r} is not a curve: {'; '.join(map(str, faults))}")
+    try:
+        return make(members[method], **tree.plain())
+    except ValueError as error:
+        raise typer.BadParameter(f"{text!r} is not a curve: {error}") from error
