@@ -139,7 +139,7 @@ def period(result):
     return float(np.diff(times[1:]).mean())
 
 
-# Independent computations, physics section 2, which come with a creep or a band of their own: 1 % apart at most.
+# The table of physics section 2, from computations apart from fairlead; 1 % is what was asked for.
 PERIODS = [
     ("hold", {}, 1.1863),
     ("karnopp", {"band": "1e-4 m/s"}, 1.189),
