@@ -104,7 +104,6 @@ SEEDED = [
     ("20 s", "20 s, max_steps: 1.5", "run.max_steps = 1.5 is not a whole number"),
     ("20 s", "20 s, max_steps: 0", "run.max_steps = 0 is not above 0"),
     ("20 s", "20 s, max_wall: 0 s", "run.max_wall = 0 s is not above 0"),
-    ("20 s", "20 s, creep: 1 Hz", "run.creep = 1 Hz is a frequency, not a speed"),
     ("10 ms", "10 mm", "belt.yaml:16:33: record.every = 10 mm is a length, not a time"),
     ('["*"]', "[*]", "belt.yaml:16:"),
     ('["*"]', "[*.x]", 'goes in quotes: "*.tension"'),
