@@ -108,7 +108,8 @@ def bands(low: Row, high: Row) -> Iterator[tuple[str, str, str, str, bool]]:
     )  # fmt: skip
     errors = [abs(r.inboard_mean_N / r.capstan - 1) for r in (low, high)]
     yield (
-        "mean inboard tension, 5-15 s", f"{low.inboard_mean_N} N ({errors[0]:.1%})", f"{high.inboard_mean_N} N ({errors[1]:.1%})",
+        "mean inboard tension, 5-15 s",
+        f"{low.inboard_mean_N} N ({errors[0]:.1%})", f"{high.inboard_mean_N} N ({errors[1]:.1%})",
         f"{low.capstan:.0f} N within 1 % | {high.capstan:.0f} N within 2 %", errors[0] < 0.01 and errors[1] < 0.02,
     )  # fmt: skip
     yield (
@@ -140,8 +141,9 @@ def markdown(r: Row) -> str:
     """The row of the validation page: same columns as the independent engines, work in one column."""
     d, low = r.registration_mm, r.lowest_hose_so_far_N
     creep = "1e-4" if r.method == "binding" else "-"
-    cells = [f"rodas, {r.method}, accuracy {r.accuracy:g}", r.elements, creep, *(f"{d[k]:.1f}" for k in ("1", "5", "8", "12", "20")),
-             f"{r.registration_max_mm:.1f}", r.inboard_mean_N, f"{r.inboard_std_N:.0f}", f"{r.inboard_half_range_N:.0f}",
+    cells = [f"rodas, {r.method}, accuracy {r.accuracy:g}", r.elements, creep,
+             *(f"{d[k]:.1f}" for k in ("1", "5", "8", "12", "20")), f"{r.registration_max_mm:.1f}",
+             r.inboard_mean_N, f"{r.inboard_std_N:.0f}", f"{r.inboard_half_range_N:.0f}",
              low["1"], low["8"], low["20"], r.ruck_first_crossing_s or "never", r.ruck_first_dwell_s or "never",
              f"{r.dissipated_J:.0f}"]  # fmt: skip
     return "| " + " | ".join(map(str, cells)) + " |"

@@ -20,7 +20,7 @@ def friction_in(p: Any, zone: str, slip: Any, normal: Any) -> Any:
     d = direction(zone)
     if zone == "plateau":
         return normal * (p.mu_s / p.creep + p.mu_n / p.v_n) * slip
-    if zone in BOUND and p.cap == "on":  # the ramp lies above F_s everywhere (docs/physics.md 1.4)
+    if zone in BOUND and p.cap == "on":  # the ramp is above F_s everywhere (docs/physics.md 1.4)
         return d * normal * p.mu_s
     if zone in BOUND:
         coefficient = p.mu_s / p.creep * (p.v_n - d * slip) / (p.v_n - p.v_m)

@@ -79,7 +79,7 @@ PARTIALS = 32  # float64               partial derivatives; the first is 1
 WORK = 33  # float64               the first is 1, then d(signal)/dy, d(signal)/dt, df/dy, df/dt
 PROGRAM = 34  # int64 (program, 3)    work[a] += coefficient * partials[b] * work[c]
 PROGRAM_COEF = 35  # float64 (program,)
-JACOBIAN_AT = 36  # int64 (1,)            where in work df/dy begins; df/dt follows it
+JACOBIAN_AT = 36  # where in work df/dy begins; df/dt follows it. A number like the first, not an address
 MASS_STATIC = 37  # float64 (mass,)
 MASS_PROGRAM = 38  # int64 (k, 2)          mass[a] += coefficient * partials[b]
 MASS_COEF = 39  # float64 (k,)
