@@ -63,8 +63,9 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
                 replanned_at = int(memory.number["factorisations"])
             elif status == Status.PAUSED:
                 attempts = next_attempts(attempts, spent)
-                if run.max_wall is not None and time.perf_counter() - begun > run.max_wall:
-                    status = Status.MAX_WALL
+            over = run.max_wall is not None and time.perf_counter() - begun > run.max_wall
+            if over and status in (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN):
+                status = Status.MAX_WALL
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
         flush(memory, run, take)
