@@ -10,7 +10,6 @@ its guards has risen, for a body that does not accelerate (steady slip) or, if n
 
 from __future__ import annotations
 
-import inspect
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any
@@ -23,7 +22,7 @@ from fairlead.component.declare import Hold
 from fairlead.component.values import Values
 
 DRIVEN = 1.5  # applied force over stiction, for zones that steady slip never sees
-POINTS = 241  # slip speeds, from a hundredth of the smallest scale to ten times the largest, both signs
+POINTS = 500  # slip speeds of each sign, from a hundredth of the smallest scale to ten times the largest
 LOAD_SHARES = (0.5, 0.99)  # of the holding capacity, at which creep is told
 Floats = NDArray[np.float64]
 
@@ -119,7 +118,7 @@ def _slips(p: Values) -> Floats:
     own = [getattr(p, name) for name in names if name in p.type.declaration.parameters and getattr(p, name) is not None]
     curve = [scale for scale in (p.curve.scale(),) if scale]
     scales = [*own, *curve] or [1e-3]
-    half = np.geomspace(min(scales) / 100, max([*curve, *(100 * s for s in own), *scales]) * 10, 20 * POINTS)
+    half = np.geomspace(min(scales) / 100, max([*curve, *(100 * s for s in own), *scales]) * 10, POINTS)
     return np.concatenate([-half[::-1], half])
 
 
@@ -161,7 +160,7 @@ def _stays(p: Values, zone: str, slip: float, friction: float, normal: float, pu
     has = p.type.declaration
     if has.states:
         d = -1 if zone.endswith("backward") else 1
-        return "forward" not in zone and "backward" not in zone or d * slip > 0
+        return not zone.endswith("ward") or d * slip > 0
     arguments = _arguments(p, zone, slip, normal, push, dict.fromkeys(has.unknowns, friction))
     for guard in has.guards.values():
         if zone in guard.zones:
@@ -175,11 +174,13 @@ def _arguments(p: Values, zone: str, slip: float, normal: float, push: float, ow
     """Arguments of a law: the surface at rest, the body of 1 kg at `slip` with acceleration `push`."""
     has = p.type.declaration
     return {
-        **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0), "p": p, "t": 0.0, "zone": zone, "normal": normal,
+        **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0),
+        "p": p, "t": 0.0, "zone": zone, "normal": normal,
         "a": SimpleNamespace(x=0.0, v=0.0, a=0.0, inverse_mass=0.0),
         "b": SimpleNamespace(x=0.0, v=slip, a=push, inverse_mass=1.0), **own,
     }  # fmt: skip
 
 
 def _called(function: Any, arguments: dict[str, Any]) -> Any:
-    return function(**{name: arguments[name] for name in inspect.signature(function).parameters})
+    code = function.__code__
+    return function(**{name: arguments[name] for name in code.co_varnames[: code.co_argcount]})

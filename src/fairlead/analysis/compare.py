@@ -85,7 +85,8 @@ def _load(path: str, settings: Mapping[str, str], libraries: Iterable[str]) -> A
 
 
 def _run(
-    path: str, settings: Mapping[str, str], libraries: Iterable[str], out: pathlib.Path, max_wall: float, accuracy: float | None
+    path: str, settings: Mapping[str, str], libraries: Iterable[str], out: pathlib.Path, max_wall: float,
+    accuracy: float | None,
 ) -> tuple[Result | None, str]:  # fmt: skip
     """The result, or None and why there is none; a result that ended early comes with why."""
     more = {} if accuracy is None else {"accuracy": max(accuracy, 1e-12)}

@@ -8,7 +8,7 @@ progress, warnings and errors to standard error. A verb imports what it needs wh
 
 import typer
 
-from fairlead.cli import check, compare, describe, doctor, friction, graph, run, schema
+from fairlead.cli import check, compare, describe, doctor, friction, graph, new, run, schema
 from fairlead.cli.verb import Verb
 
 __all__ = ["app", "main"]
@@ -21,7 +21,10 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for verb in (check.check, compare.compare, describe.describe, friction.friction, graph.graph, run.run, schema.schema, doctor.doctor):
+for verb in (
+    check.check, describe.describe, graph.graph, run.run, friction.friction, compare.compare, schema.schema, new.new,
+    doctor.doctor,
+):  # fmt: skip
     app.command(cls=Verb)(verb)
 
 

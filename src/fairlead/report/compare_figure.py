@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from fairlead.analysis.compare import Comparison
 
 PANELS = (
-    ("error", "error"), ("creep", "worst creep [m/s]"), ("steps", "steps"), ("switches", "switches"), ("seconds", "stepping [s]"),
+    ("error", "error"), ("creep", "worst creep [m/s]"), ("steps", "steps"), ("switches", "switches"),
+    ("seconds", "stepping [s]"),
 )  # fmt: skip
 LEAST = 1e-12  # below it is rounding, and a logarithm has no place for zero
 

@@ -29,6 +29,7 @@ def draw(found: Characteristic, path: Path, title: str) -> Path:
         least = min((np.abs(v).min() for v, _ in found.branches.values()), default=1e-6)
         # Creep and sliding are decades apart: linear near zero, logarithmic beyond, the same for both signs.
         ax.set_xscale("symlog", linthresh=float(least) * 30)
+        ax.tick_params(axis="x", labelsize=7)
         ax.set_xlabel("slip speed [m/s]")
         ax.set_ylabel("friction [N]")
         ax.axhline(0, color="0.7", linewidth=0.6)

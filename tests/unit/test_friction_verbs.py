@@ -1,0 +1,103 @@
+"""`fairlead friction`, `compare` and `new friction`: what they print, draw and write."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from fairlead.cli import app
+
+TUSTIN = "{curve: tustin, stiction: 0.5, coulomb: 0.3, velocity: 5 mm/s}"
+
+
+@pytest.fixture
+def answer(tmp_path, monkeypatch):
+    """answer(*words) -> what the command says, run in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *words: CliRunner().invoke(app, list(words))
+
+
+def record(said):
+    assert said.exit_code == 0, said.output
+    return json.loads(said.output)
+
+
+def test_friction_of_a_scene_uses_its_numbers(answer, tmp_path):
+    (pad,) = record(answer("friction", "block_and_spring", "--json"))
+    assert pad["contacts"] == "pad"
+    assert pad["normal force"] == "10 N"
+    assert pad["holding capacity"] == "5 N"  # robust binding is capped at stiction
+    assert (tmp_path / "results" / "friction.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("method", "creep"),
+    [("binding", 0.99e-4 / 1.25), ("saturation", 0.99e-4), ("tanh", 2.6467e-4), ("root", 7.018e-4), ("hold", 0.0)],
+)
+def test_friction_tells_the_creep_of_the_formula(answer, method, creep):
+    """With a constant coefficient: af/g0, af/F v_c, v_c atanh 0.99, v_c 0.99/sqrt(1 - 0.99^2), nothing."""
+    (found,) = record(answer("friction", "0.4", "--method", method, "--normal", "100 N", "--json"))
+    assert found["breakaway"] == "40 N"
+    told = float(found["creep"].split(", ")[1].split(" ")[0])
+    assert told == pytest.approx(creep, rel=0.02)  # three digits, and a capacity met only to 0.02 %
+
+
+def test_bristles_tell_their_stiffness(answer):
+    (found,) = record(answer("friction", TUSTIN, "--method", "lugre", "--normal", "10 N", "--json"))
+    assert found["stiffness"] == "2.5e+05 N/m (bristles)"  # 5 N in 20 um
+
+
+def test_a_text_that_is_no_curve_and_a_method_that_is_none_are_usage_errors(answer):
+    assert answer("friction", "{curve: tustin}").exit_code == 2
+    wrong = answer("friction", "0.4", "--method", "bindng")
+    assert wrong.exit_code == 2
+    assert "binding" in wrong.output
+
+
+def test_compare_shows_error_creep_and_cost_and_failures_with_their_reason(answer, tmp_path):
+    vary = "pad.method=hold,binding,naive_zone,nonsense"
+    found = record(answer("compare", "block_and_spring", "--vary", vary, "--set", "run.stop=3", "--json", "--out", "c"))
+    hold, binding, naive, none = found["rows"]
+    assert hold["error"] < 1e-4 < binding["error"] < 0.1
+    assert hold["creep"] < 1e-12 < binding["creep"] <= 1e-4
+    assert hold["steps"] > 0
+    assert (naive["status"], naive["error"]) == ("failed", None)
+    assert "pad (forward <-> backward)" in naive["reason"]
+    assert "use method hold, or binding" in naive["reason"]
+    assert none["status"] == "not started"
+    assert (tmp_path / "c" / "compare.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_compare_prints_a_table(answer):
+    said = answer("compare", "block_and_spring", "--vary", "pad.method=hold,tanh", "--set", "run.stop=2 s")
+    assert said.exit_code == 0, said.output
+    assert "treatment" in said.output
+    assert "error against hold at accuracy 1e-07" in said.output
+    assert answer("compare", "block_and_spring", "--vary", "pad.method=hold,,tanh").exit_code == 2
+
+
+def test_a_new_law_is_short_keeps_the_contract_unedited_and_runs(answer, tmp_path):
+    assert answer("new", "friction", "my_law").exit_code == 0
+    file = tmp_path / "my_law.py"
+    assert len(file.read_text(encoding="utf-8").splitlines()) < 30
+    # In a process of its own: a law once loaded is a member of the family for as long as Python runs.
+    script = """
+import fairlead
+from fairlead.component.registry import load_library
+from fairlead.testing import contract
+contract(load_library("my_law.py").MyLaw)
+model = fairlead.load("block_and_spring", set={"method": "my_law", "run.stop": "1 s"}, libraries=["my_law.py"])
+assert model.run(out="run").status == "finished"
+"""
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=600)
+
+
+def test_new_refuses_what_is_there_and_what_is_no_name(answer, tmp_path):
+    (tmp_path / "my_law.py").write_text("mine\n", encoding="utf-8")
+    assert answer("new", "friction", "my_law").exit_code == 2
+    assert (tmp_path / "my_law.py").read_text(encoding="utf-8") == "mine\n"
+    assert answer("new", "friction", "hold").exit_code == 2
+    assert answer("new", "friction", "MyLaw").exit_code == 2
+    assert answer("new", "friction", "../law").exit_code == 2
