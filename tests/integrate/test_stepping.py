@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, Status, integrate
-from tests.integrate.problems import belt_block, coulomb_oscillator, index_one_dae, nonlinear_ode
+from tests.integrate.problems import belt_block, coulomb_oscillator, index_one_dae, nonlinear_ode, stick_slip_times
 
 
 def end_error(made, step, stop=2.0, **settings):
@@ -66,3 +66,23 @@ def test_budgets_end_the_run_and_keep_the_results():
 def test_theta_outside_its_range_is_refused():
     with pytest.raises(ValueError, match="theta"):
         integrate(belt_block(), Run(stop=1.0, engine="stepping", theta=0.3))
+
+
+def test_a_break_away_from_stiction_is_landed_on_to_order_two():
+    """Stiction 10 above Coulomb 6: a jump. The catch at the end of each slip is a matter of one step."""
+    breaks, slip, stick = stick_slip_times()
+    step = 1e-3
+    outcome = integrate(belt_block(), Run(stop=2.5, engine="stepping", fixed_step=step))
+    times, zones = outcome.events["t"], outcome.events["after"].tolist()
+    assert zones[:4] == [2, 0, 2, 0]
+    assert times[0] == pytest.approx(breaks, abs=1e-9)  # the force of the belt is linear in time
+    assert times[1] == pytest.approx(breaks + slip, abs=2 * step)  # the log has the end of the step
+    assert times[2] == pytest.approx(breaks + slip + stick, abs=100 * step**2)
+
+
+def test_the_belt_agrees_with_rodas():
+    problem = belt_block(absolute=[1e-8, 1e-7, 1e-6], relative=1e-6)
+    one = integrate(problem, Run(stop=3.0, engine="stepping"))
+    other = integrate(belt_block(), Run(stop=3.0))
+    assert one.counters.switches == other.counters.switches
+    assert one.y[0] == pytest.approx(other.y[0], abs=1e-5)  # 2 mm of slip a step, error h^2 of that

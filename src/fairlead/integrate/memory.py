@@ -25,8 +25,8 @@ INTEGERS = (
     "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes",
     "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
     # stepping only: whether J and M are those of the zones in force, whether
-    # a surface that holds is accelerated, steps failed in a row
-    "linearised", "driven", "failed",
+    # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
+    "linearised", "driven", "failed", "seeking",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
@@ -42,6 +42,7 @@ NUMBERS = (
     "t_release", "t_last_switch", "factored_h",
     # stepping only: theta asked for and in force, the step asked for, distances of the slopes remembered
     "least_theta", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
+    "t_jump",
 )  # fmt: skip
 """Real numbers of the struct."""
 
@@ -76,6 +77,7 @@ INDICES = {
     "differential": "n", "quadrature": "n",
     # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
     "controlled": "n", "holds": "n", "zones_at_start": "n_zones",
+    "continuous": "n_guards",
     "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",

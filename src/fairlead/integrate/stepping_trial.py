@@ -20,18 +20,28 @@ from fairlead.integrate.codes import (
     MAX_EVENTS,
     MAX_STEPS,
     REPLAN,
+    SETTLE,
     SINGULAR_MATRIX,
     STEP_FLOOR,
     UNSETTLED,
 )
 from fairlead.integrate.controller import step_after_rejection, weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals
+from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
-from fairlead.integrate.theta_step import CYCLES, give_back_zones, take_theta_step
+from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.settling import begin_settling
+from fairlead.integrate.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
 
+IDLE, HOLD_SHARE = 1e-2, 0.025
+"""Where the motion has an error below IDLE, this share of the bend of a holding force counts as its error: a
+contact under a swinging load, where nothing moves, would else be stepped over. In a chain that moves it would
+cost four times the steps and gain nothing."""
 KEEP_BELOW = 1.15
 """A step that may grow by less than this is kept, and the factors of its matrix with it."""
+LANDINGS = 4
+"""Tries to end a step where a law jumps."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
 """theta - 1/2 grows by this when the zones of a step cycle, and shrinks by this factor with every accepted one."""
 
@@ -43,7 +53,7 @@ def attempt_stepping(m):
         return MAX_STEPS
     if m.total_events >= m.max_events:
         return MAX_EVENTS
-    if m.adaptive == 0 and m.failed == 0:
+    if m.adaptive == 0 and m.failed == 0 and m.seeking == 0:
         m.h_next = m.fixed_step
     h = propose(m)
     m.h = h
@@ -51,6 +61,11 @@ def attempt_stepping(m):
     if status == INACCURATE:
         give_back_zones(m)
         return REPLAN
+    if status == JUMPS or (status == DONE and jump_is_due(m, h)):
+        if not landed(m, h):
+            return GO_ON
+        m.seeking = LANDINGS
+        status = DONE
     if status != DONE:
         return repeat_shorter(m, h, status)
     m.error = error_of_step(m, h)
@@ -69,9 +84,36 @@ def attempt_stepping(m):
     if m.theta_now < m.least_theta + 1e-3:
         m.theta_now = m.least_theta
     accept(m, h, False)
+    if m.seeking > 0:
+        m.crossed = 1
+        m.n_fired = 0
+        m.seeking = 0
     if m.h_next > 0.95 * h and m.h_next < KEEP_BELOW * h and m.adaptive == 1:
         m.h_next = h
     return GO_ON
+
+
+@compiled
+def landed(m, h):
+    """True if the step ends at `t_jump` as it should; else it is repeated up to there, or settled at its start."""
+    give = m.n_fired
+    switched = m.passes > 0
+    give_back_zones(m)
+    if m.t_jump - m.t <= max(1e-9 * (m.stop - m.start), smallest_step(m)):
+        m.n_fired = give
+        m.seeking = 0
+        m.crossed = 1
+        write_row(m, m.t, m.at_y, BEFORE)
+        begin_settling(m)
+        m.phase = SETTLE
+        return False
+    if not switched and m.seeking > 0 and (m.seeking >= LANDINGS or abs(m.t_jump - m.t - h) <= 1e-3 * h):
+        return True
+    if switched and m.seeking >= LANDINGS:
+        m.t_jump = m.t + 0.5 * h
+    m.seeking += 1
+    m.h_next = min(m.t_jump - m.t, h)
+    return False
 
 
 @compiled
@@ -98,6 +140,7 @@ def error_of_step(m, h):
     y, y_end, slope = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_mean_slope, n)
     before, earlier, error = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n), reals(m.at_error_vector, n)
     bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
+    holds = indices(m.at_holds, n)
     near, far = m.gap + 0.5 * h, m.gap_before
     weigh(m, m.at_y_end)
     for k in range(n):
@@ -113,6 +156,14 @@ def error_of_step(m, h):
             bend[k] = -0.5 * h * h * curve
             if controlled[k] == 1:
                 error[k] = h * h * h / 6.0 * (curve - (before[k] - earlier[k]) / far) / (near + far)
+        else:
+            slope[k] = (y_end[k] - y[k]) / near
+    size = weighted_norm(m, m.at_error_vector)
+    if size > IDLE or m.passes > 0:
+        return size
+    for k in range(n):
+        if holds[k] == 1:
+            error[k] = HOLD_SHARE * h * (slope[k] - before[k])
     return weighted_norm(m, m.at_error_vector)
 
 
@@ -152,5 +203,5 @@ def begin_history(m):
     m.gap = 0.0
     m.gap_before = min(m.h_next, m.max_step)
     for k in range(n):
-        before[k] = slope[k] if differential[k] == 1 else 0.0
+        before[k] = slope[k] if differential[k] == 1 else curvature[k]
         earlier[k] = before[k] - m.gap_before * curvature[k] if differential[k] == 1 else 0.0

@@ -32,10 +32,11 @@ from fairlead.integrate.foreign import (
     switch_at,
 )
 from fairlead.integrate.guards import evaluate_guards
+from fairlead.integrate.jumps import all_continuous, find_jump, law_jumps
 from fairlead.integrate.linear import DONE, add_mass_times, factorise, solve
 from fairlead.integrate.settling import begin_settling, recurs
 
-CYCLES, DIVERGES = 6, 7
+CYCLES, DIVERGES, JUMPS = 6, 7, 8
 PASSED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved."""
 SLOW = 0.01
@@ -46,11 +47,14 @@ SMOOTH_ITERATIONS = 10
 
 @compiled
 def take_theta_step(m, h):
-    """Compute `y_end` and the zones that go with it; DONE, SINGULAR, INACCURATE, CYCLES or DIVERGES."""
+    """Compute `y_end` and the zones that go with it.
+
+    Returns DONE, SINGULAR, INACCURATE, CYCLES, DIVERGES or JUMPS (a switch with a jump, at `t_jump`).
+    """
     predict(m, h)
     begin_settling(m)
     copy(indices(m.at_zones, m.n_zones), indices(m.at_zones_at_start, m.n_zones))
-    fresh_slip, smooth, previous = True, 0, 1e300
+    fresh_slip, smooth, previous = m.driven == 1 or m.gap == 0.0, 0, 1e300
     if m.driven == 1:
         m.linearised = 0
     while True:
@@ -78,7 +82,14 @@ def take_theta_step(m, h):
         fresh_slip = m.n_fired > 0
         if m.n_fired > 0:
             smooth = 0
-            if not follow_guards(m, h):
+            suspect = m.passes == 0 and not all_continuous(m)
+            if suspect:
+                field_at(m.call_rhs, (m.context, m.t + h, m.at_y_end, m.at_x))
+            jumped = follow_guards(m, h)
+            if jumped or (suspect and law_jumps(m, h)):
+                find_jump(m, h)
+                return JUMPS
+            if m.passes > m.max_passes:
                 return CYCLES
 
 
@@ -175,11 +186,11 @@ def residual_of_step(m, h, fresh_slip):
     field_at(m.call_rhs, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
     m.rhs += 1
     y, y_end, v, b, f = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_v, n), reals(m.at_b, n), reals(m.at_f, n)
-    differential = indices(m.at_differential, n)
+    differential, holds = indices(m.at_differential, n), indices(m.at_holds, n)
     backward = -1.0 / h
     for k in range(n):
         v[k] = backward * (y_end[k] - y[k]) if differential[k] == 1 else 0.0
-        b[k] = f[k]
+        b[k] = f[k] if holds[k] == 0 else 0.0
     add_mass_times(m, m.at_v, m.at_b)
     if m.call_slip != 0:
         slips_of_step(m, h, fresh_slip)
@@ -189,8 +200,9 @@ def residual_of_step(m, h, fresh_slip):
 def slips_of_step(m, h, fresh_slip):
     """Write -slip/h at the end of the step into the rows of b that hold.
 
-    The slip is linear in y1: once solved for, it stays zero while the zones do. Only where a surface is
-    accelerated is it looked at again, when it is small enough for `slip` to answer exactly.
+    What b holds already, -M (y1 - y0)/h, is just that for a contact that held at the start, on a surface
+    at constant speed. After a switch the slip is taken from the law; where a surface is accelerated it is
+    looked at once more, when it is small enough for `slip` to answer exactly.
     """
     n = m.n
     b, holds, r = reals(m.at_b, n), indices(m.at_holds, n), reals(m.at_residual, n)
@@ -198,14 +210,18 @@ def slips_of_step(m, h, fresh_slip):
     if fresh_slip:
         field_at(m.call_rhs, (m.context, m.t + h, m.at_y_end, m.at_residual))
         m.rhs += 1
+        for k in range(n):
+            if holds[k] == 1:
+                b[k] = times[k] * (r[k] - times[k] * ft[k]) / h
     elif m.driven == 1:
         slip_at(m.call_slip, (m.context, m.t + h, m.at_y_end, m.at_residual))
-    for k in range(n):
-        if holds[k] == 1:
-            if fresh_slip:
-                b[k] = times[k] * (r[k] - times[k] * ft[k]) / h
-            else:
-                b[k] = r[k] / h if m.driven == 1 else 0.0
+        for k in range(n):
+            if holds[k] == 1:
+                b[k] = r[k] / h
+    elif m.passes > 0 or m.gap == 0.0:
+        for k in range(n):
+            if holds[k] == 1:
+                b[k] = 0.0
 
 
 @compiled
@@ -249,13 +265,15 @@ def violators(m):
 
 @compiled
 def follow_guards(m, h):
-    """Switch on `fired`, all or the first; False when the passes are used up."""
+    """Switch on `fired`, all or the first; True if the switch changes unknowns (a rebound)."""
     if m.passes >= m.max_passes:
+        m.passes += 1
         return False
     if m.one_by_one == 1:
         m.n_fired = 1
     nz = m.n_zones
-    copy(reals(m.at_y_end, m.n), reals(m.at_y_probe, m.n))
+    y, after = reals(m.at_y_end, m.n), reals(m.at_y_probe, m.n)
+    copy(y, after)
     switch_at(m.call_switch, (m.context, m.t + h, m.at_y_probe, m.at_fired, m.n_fired))
     m.linearised = 0
     m.passes += 1
@@ -264,7 +282,10 @@ def follow_guards(m, h):
         copy(indices(m.at_zones, nz), indices(m.at_zones_history + 8 * m.passes * nz, nz))
     if m.one_by_one == 0 and recurs(m):
         m.one_by_one = 1
-    return True
+    changed = False
+    for k in range(m.n):
+        changed = changed or y[k] != after[k]
+    return changed
 
 
 @compiled

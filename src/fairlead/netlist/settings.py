@@ -49,8 +49,8 @@ class RunSettings(Strict):
     """Time at which the run starts."""
     accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-3
     """Relative accuracy; sets the tolerances of all unknowns together."""
-    engine: Literal["auto", "rodas"] = "auto"
-    """The engine; auto chooses by the number of contacts and the accuracy."""
+    engine: Literal["auto", "rodas", "stepping"] = "auto"
+    """The engine; auto is rodas, stepping finds many stick-slip switches inside each step."""
     method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
     """The Rosenbrock method; rodas3p serves loose accuracies."""
     max_step: Duration | None = None
