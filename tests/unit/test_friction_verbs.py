@@ -1,6 +1,9 @@
 """`fairlead friction`, `compare` and `new friction`: what they print, draw and write."""
 
 import json
+import pathlib
+import re
+import shlex
 import subprocess
 import sys
 
@@ -101,3 +104,14 @@ def test_new_refuses_what_is_there_and_what_is_no_name(answer, tmp_path):
     assert answer("new", "friction", "hold").exit_code == 2
     assert answer("new", "friction", "MyLaw").exit_code == 2
     assert answer("new", "friction", "../law").exit_code == 2
+
+
+def test_every_command_of_the_page_on_friction_ends_well(answer):
+    page = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "friction.md").read_text(encoding="utf-8")
+    lines = [line for block in re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL) for line in block.splitlines()]
+    assert len(lines) >= 5
+    # The last one loads a user's law into this process for good; the test of `new` does that in its own.
+    for line in [line for line in lines if "my_law.py" not in line]:
+        said = answer(*shlex.split(line)[1:])
+        assert said.exit_code == 0, said.output
+    assert all(f"figures/{name}.png" in page for name in ("binding", "compare"))
