@@ -35,7 +35,7 @@ def friction(
     out.mkdir(parents=True, exist_ok=True)
     for number, (names, values) in enumerate(_contacts(subject, settings, libraries, method).items()):
         given = values.given.get("normal_force")
-        found = characteristic(values, usual if given is None else given)
+        found = characteristic(values, usual if given is None else float(given))
         figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
         rows = found.rows()
         records.append({"contacts": names, "method": found.label, "figure": str(figure), **dict(rows)})

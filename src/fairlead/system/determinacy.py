@@ -115,7 +115,7 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
 
 def _holding(blocks: list[Block]) -> set[str]:
     """Components that hold in the zone they begin in."""
-    holding = set()
+    holding: set[str] = set()
     for block in blocks:
         s = block.kernel.structure
         if any(s.zones[0] in zones for zones in s.holds.values()):
