@@ -34,8 +34,8 @@ def friction(
     usual, records = si(normal, "N"), []
     out.mkdir(parents=True, exist_ok=True)
     for number, (names, values) in enumerate(_contacts(subject, settings, libraries, method).items()):
-        given = values.given.get("normal_force")
-        found = characteristic(values, usual if given is None else float(given))
+        given = getattr(values, "normal_force", None)
+        found = characteristic(values, usual if given is None else given)
         figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
         rows = found.rows()
         records.append({"contacts": names, "method": found.label, "figure": str(figure), **dict(rows)})
