@@ -43,9 +43,8 @@ def main() -> None:
     parser.add_argument("--blocks", type=int, default=100)
     blocks = parser.parse_args().blocks
     reference = np.load(Path(__file__).parent / "data" / f"chain_{blocks}.npz")
-    print(
-        "| engine | accuracy | error | time [ms] | steps | rejected | solves | switches |\n|---|---|---|---|---|---|---|---|"
-    )
+    print("| engine | accuracy | error | time [ms] | steps | rejected | solves | switches |")
+    print("|---|---|---|---|---|---|---|---|")
     for engine, accuracies in ACCURACIES.items():
         for accuracy in accuracies:
             seconds, outcome = measure(blocks, engine, accuracy, reference["t"])
