@@ -38,6 +38,7 @@ REFUSED = {
         "'sample' is sampled every 'period', which is no parameter",
     ),
     "a unit that means nothing": (f"{LAW}\nstiffness = Parameter('N/mile^9')", "'stiffness': N/mile^9 is not a unit"),
+    "a name that is taken": (f"{LAW}\nvariant = Parameter('N')", "a parameter cannot be called 'variant'"),
     "a start that is no parameter": (
         f"{LAW}\nheld = Discrete('N', start='first')",
         "'held' starts at 'first', which is no parameter",

@@ -48,6 +48,7 @@ from fairlead.quantities import QuantityError, parse_unit
 PARAMETER_KINDS = (Parameter, Choice, Count, Part, Block, Table, Waveform, Stations)
 METHODS = ("law", "inertia", "start", "ties", "stored", "dissipated", "supplied", "expand", "check", "prescribes")
 LEDGER = ("dissipated", "supplied", "stored")
+RESERVED = {"type", "given", "variant", "path"}  # attributes of `values.Values` that would hide a parameter
 
 
 class DeclarationError(TypeError):
@@ -214,9 +215,11 @@ def _check_units(cls: type[Declared]) -> None:
 
 
 def _check_named_numbers(cls: type[Declared]) -> None:
-    """Starts and defaults that are given by the name of a parameter."""
+    """Names of parameters; and starts and defaults that are given by such a name."""
     has = cls.declaration
     known = {*has.parameters, *has.derived}
+    for name in RESERVED & known:
+        _demand(cls, False, f"a parameter cannot be called {name!r}; p.{name} has a meaning of its own")
     starting: dict[str, State | Discrete] = {**has.states, **has.discrete}
     for name, one in starting.items():
         named = not isinstance(one.start, str) or one.start in known

@@ -71,6 +71,20 @@ class Values:
         return f"{self.type.__name__}({', '.join(f'{k}={v!r}' for k, v in self.given.items())})"
 
 
+def number_given(values: Values, said: str | float) -> float:
+    """A number that a declaration gives itself or by the name of a parameter."""
+    return float(getattr(values, said) if isinstance(said, str) else said)
+
+
+def parameter(values: Values, key: str) -> float:
+    """What a kernel reads under a key: `curve.stiction`, `velocity:omega` (of a sine), `#count` (a discrete start)."""
+    if key.startswith("#"):
+        return number_given(values, values.type.declaration.discrete[key[1:]].start)
+    path, _, of_sine = key.partition(":")
+    value = values.path(path)
+    return float(getattr(value.sine, of_sine) if of_sine else value)
+
+
 class _Group:
     """A nested map of parameters, read by attribute."""
 

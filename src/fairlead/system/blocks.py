@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
-from fairlead.component.values import polynomial
+from fairlead.component.values import number_given, parameter, polynomial
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.kernels import Kernel
 from fairlead.system.unknowns import LEDGER, Numbering
@@ -137,8 +137,7 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
     if source is not None:
         return numbering.n + numbering.signals[source], 1.0, 0.0
     default = instance.type.declaration.inputs[name].default
-    value = getattr(instance.values, default) if isinstance(default, str) else default
-    return numbering.zero, 0.0, float(value or 0.0)
+    return numbering.zero, 0.0, number_given(instance.values, default if default is not None else 0.0)
 
 
 def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
@@ -179,15 +178,10 @@ def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: s
 def _parameter(flat: FlatModel, instance: Instance, name: str, tau: float) -> float:
     if name == "@tau":
         return tau
-    if name.startswith("#"):
-        start = instance.type.declaration.discrete[name[1:]].start
-        return float(getattr(instance.values, start) if isinstance(start, str) else start)
     if name.endswith(".inverse_mass"):
         index, ratio, _ = flat.place(PortRef(instance.path, name.split(".")[0]))
         group = flat.groups[index]
         if not group.free:
             return 0.0
         return ratio**2 / group.mass if group.mass > 0 else MASSLESS
-    path, _, part = name.partition(":")
-    value = instance.values.path(path)
-    return float(getattr(value.sine, part) if part else value)
+    return parameter(instance.values, name)

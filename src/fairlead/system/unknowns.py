@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.values import number_given
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.system.structure import Structure
 
@@ -120,9 +121,9 @@ def _number_group(made: Numbering, index: int, group: Group, *, rate_matters: bo
 def _number_own(made: Numbering, instance: Instance) -> None:
     has = instance.type.declaration
     for name, state in has.states.items():
-        start = getattr(instance.values, state.start) if isinstance(state.start, str) else state.start
+        start = number_given(instance.values, state.start)
         made.own[instance.path, name] = made.add(
-            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, float(start), "state")
+            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, start, "state")
         )
     for name, unknown in has.unknowns.items():
         made.own[instance.path, name] = made.add(

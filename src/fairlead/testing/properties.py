@@ -17,8 +17,9 @@ import numpy as np
 
 from fairlead.component.base import terms_of
 from fairlead.component.declare import Hold, Table, Waveform
+from fairlead.component.values import parameter
 from fairlead.system import layout
-from fairlead.testing.rig import Rig, discrete_start
+from fairlead.testing.rig import Rig
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
 Maker = Callable[[], World]
@@ -283,7 +284,7 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         said |= {domain.acceleration: port["a"].real} if domain.acceleration else {}
         return SimpleNamespace(**said, inverse_mass=1 / world.masses.get(name, 1.0), **{domain.through[0]: port["R"]})
     known = {"p": world.of, "t": values["t"], "zone": world.zone(at)}
-    known |= {name: discrete_start(world.of, name) for name in has.discrete}
+    known |= {name: parameter(world.of, f"#{name}") for name in has.discrete}
     return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
 
 

@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.piecewise import PiecewisePolynomial
-from fairlead.component.values import Values, variant_of
+from fairlead.component.values import Values, parameter, polynomial, variant_of
 from fairlead.system import layout
 from fairlead.system.blocks import Tables
 from fairlead.system.kernels import kernel, plain
@@ -94,24 +93,10 @@ def widths(s: Structure) -> dict[int, int]:
     }  # fmt: skip
 
 
-def polynomial(value: Any) -> PiecewisePolynomial:
-    """The pieces of a table or of a quantity in time."""
-    return getattr(value, "polynomial", value)
-
 
 def _parameter(values: Values, name: str, inverse_masses: Mapping[str, float]) -> float:
-    if name.startswith("#"):
-        return discrete_start(values, name[1:])
     if name == "@tau":
         return TAU
     if name.endswith(".inverse_mass"):
         return inverse_masses[name.split(".")[0]]
-    path, _, part = name.partition(":")
-    value = values.path(path)
-    return float(getattr(value.sine, part) if part else value)
-
-
-def discrete_start(values: Values, name: str) -> float:
-    """Value of a discrete variable before its first sample."""
-    start = values.type.declaration.discrete[name].start
-    return float(getattr(values, start) if isinstance(start, str) else start)
+    return parameter(values, name)
