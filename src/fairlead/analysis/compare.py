@@ -1,6 +1,6 @@
 """One scene under several treatments: what each costs, and how far it is from the exact one.
 
-    comparison = compare("belt", {"pad.method": ["hold", "binding", "tanh"]}, out="results/compare")
+    comparison = compare(lambda settings: fairlead.load("belt", settings), {"pad.method": ["hold", "tanh"]})
     print(comparison.rows[0].error)
 
 Error is the root mean square difference from the reference over the common time, relative to the range of the
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import itertools
 import pathlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 FINER = 1e-2  # accuracy of the reference, relative to that of the scene
 GRID = 4001  # common times at which signals are compared
+Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 EXACT = "hold"  # the treatment that the others are measured against
 
 
@@ -52,11 +53,12 @@ class Comparison:
 
 
 def compare(
-    path: str, vary: Mapping[str, Sequence[str]], *, settings: Mapping[str, str] | None = None,
-    libraries: Iterable[str] = (), out: str | pathlib.Path = "results/compare", signals: str = "*",
-    max_wall: float = 60.0,
+    load: Load, vary: Mapping[str, Sequence[str]], *, settings: Mapping[str, str] | None = None,
+    out: str | pathlib.Path = "results/compare", signals: str = "*", max_wall: float = 60.0,
 ) -> Comparison:  # fmt: skip
-    """Run every combination of the values in `vary`; a run ends after `max_wall` seconds at the latest.
+    """Run every combination of the values in `vary` on the model that `load(settings)` gives.
+
+    A run ends after `max_wall` seconds at the latest.
 
     The reference is exact hold at a hundredth of the accuracy where a `method` is varied, else the first
     combination. Raises ModelError when the reference cannot be built.
@@ -64,13 +66,13 @@ def compare(
     folder, fixed = pathlib.Path(out), dict(settings or {})
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
     exact = {name: EXACT if name.split(".")[-1] == "method" else values[0] for name, values in vary.items()}
-    accuracy = _load(path, {**fixed, **exact}, libraries).netlist.run.accuracy
-    reference, failed = _run(path, {**fixed, **exact}, libraries, folder / "reference", max_wall, accuracy * FINER)
+    accuracy = load({**fixed, **exact}).netlist.run.accuracy
+    reference, failed = _run(load, {**fixed, **exact}, folder / "reference", max_wall, accuracy * FINER)
     if reference is not None and reference.status != "finished":
         reference = None
     rows = []
     for number, values in enumerate(chosen):
-        result, row = _run(path, {**fixed, **values}, libraries, folder / f"run{number}", max_wall, None)
+        result, row = _run(load, {**fixed, **values}, folder / f"run{number}", max_wall, None)
         rows.append(_row(", ".join(values.values()), result, row, reference, signals))
     label = f"{', '.join(exact.values())} at accuracy {max(accuracy * FINER, 1e-12):g}"
     return Comparison(
@@ -78,20 +80,13 @@ def compare(
     )
 
 
-def _load(path: str, settings: Mapping[str, str], libraries: Iterable[str]) -> Any:
-    from fairlead.simulate import load
-
-    return load(path, set=settings, libraries=libraries)
-
-
 def _run(
-    path: str, settings: Mapping[str, str], libraries: Iterable[str], out: pathlib.Path, max_wall: float,
-    accuracy: float | None,
+    load: Load, settings: Mapping[str, str], out: pathlib.Path, max_wall: float, accuracy: float | None
 ) -> tuple[Result | None, str]:  # fmt: skip
     """The result, or None and why there is none; a result that ended early comes with why."""
     more = {} if accuracy is None else {"accuracy": max(accuracy, 1e-12)}
     try:
-        model = _load(path, settings, libraries)
+        model = load(settings)
         result = model.run(out=out, force=True, max_wall=max_wall, **more)
     except FairleadError as error:
         return None, str(error)

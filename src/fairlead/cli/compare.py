@@ -32,12 +32,15 @@ def compare(
     verbose: Verbose = False,
 ) -> None:
     """Run a netlist under several treatments: error against exact hold, creep, steps, switches, time."""
+    import fairlead
     from fairlead.analysis.compare import compare as run_all
     from fairlead.report.compare_figure import draw
 
     folder = out or pathlib.Path("results") / f"{pathlib.Path(netlist).stem}-compare"
-    found = run_all(netlist, parse_variations(vary), settings=parse_settings(settings), libraries=libraries, out=folder,
-                    signals=signals, max_wall=max_wall)  # fmt: skip
+    found = run_all(
+        lambda chosen: fairlead.load(netlist, set=chosen, libraries=libraries), parse_variations(vary),
+        settings=parse_settings(settings), out=folder, signals=signals, max_wall=max_wall,
+    )  # fmt: skip
     figure = draw(found, folder / "compare.png")
     if as_json:
         record = {"reference": found.reference, "figure": str(figure), "rows": [asdict(row) for row in found.rows]}
