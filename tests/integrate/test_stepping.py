@@ -86,3 +86,12 @@ def test_the_belt_agrees_with_rodas():
     other = integrate(belt_block(), Run(stop=3.0))
     assert one.counters.switches == other.counters.switches
     assert one.y[0] == pytest.approx(other.y[0], abs=1e-5)  # 2 mm of slip a step, error h^2 of that
+
+
+def test_no_recorded_row_shows_a_held_block_that_slips():
+    """Rows on a grid lie inside steps, also inside the one that catches the block and the one after it."""
+    outcome = integrate(belt_block(), Run(stop=2.5, engine="stepping", fixed_step=3e-3, every=7e-4))
+    events = outcome.events[outcome.events["after"] == 0]["t"]
+    for caught in events:
+        after = (outcome.times > caught) & (outcome.times < caught + 0.3)
+        assert np.abs(outcome.values[after, 1] - 0.2).max() < 1e-12

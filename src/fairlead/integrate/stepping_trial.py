@@ -84,6 +84,8 @@ def attempt_stepping(m):
     if m.theta_now < m.least_theta + 1e-3:
         m.theta_now = m.least_theta
     accept(m, h, False)
+    if m.on_grid == 1:
+        record_caught_at_rest(m)
     if m.seeking > 0:
         m.crossed = 1
         m.n_fired = 0
@@ -91,6 +93,19 @@ def attempt_stepping(m):
     if m.h_next > 0.95 * h and m.h_next < KEEP_BELOW * h and m.adaptive == 1:
         m.h_next = h
     return GO_ON
+
+
+@compiled
+def record_caught_at_rest(m):
+    """Rows inside a step show its end zones; what holds at the end has its end speed in them, or it would creep."""
+    y, y_end, bend = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_D, m.n)
+    starts, rows = indices(m.at_mass_starts, m.n + 1), indices(m.at_mass_rows, m.n_mass)
+    values, holds = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n)
+    for j in range(m.n):
+        for p in range(starts[j], starts[j + 1]):
+            if holds[rows[p]] == 1 and values[p] != 0.0:
+                y[j] = y_end[j]
+                bend[j] = 0.0
 
 
 @compiled
