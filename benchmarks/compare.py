@@ -1,6 +1,6 @@
 """Belt and chain on fairlead beside scipy, in one run on one machine: error, time, counters, ratios.
 
-    python benchmarks/compare.py            quick set, two to five minutes
+    python benchmarks/compare.py            quick set, about four minutes
     python benchmarks/compare.py --full     all methods and tolerances, half an hour
 
 Contenders take turns, several rounds, so that a busy spell of the machine hits all alike; a time is the median of
@@ -27,7 +27,7 @@ from work_precision import figure  # isort: skip
 HERE = pathlib.Path(__file__).parent
 DATA, FIGURE = HERE / "data" / "compare.json", HERE.parent / "docs" / "benchmarks.png"
 ROUNDS = 5  # counted, for what is quick
-SPENT = 2.0  # s; who has used more by now does not start another round
+SPENT = 8.0  # s of CPU time, so that load does not cut the rounds; who has used more does not start another
 CASES = {"belt": Belt(), "chain-100": Chain(100)}
 AIMS = {"belt": (1e-4, 50.0), "chain-100": (1e-4, 10.0)}  # error, how many times faster than scipy's best
 ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
@@ -40,7 +40,7 @@ def measure(contenders: Iterable[Contender]) -> list[dict[str, Any]]:
     failed: dict[int, str] = {}
     for round_ in range(ROUNDS + 1):
         for k, rival in enumerate(rivals):
-            if k in failed or sum(one.wall for one in attempts[k]) > SPENT:
+            if k in failed or sum(one.cpu for one in attempts[k]) > SPENT:
                 continue
             try:
                 attempts[k].append(rival.attempt())
@@ -84,7 +84,7 @@ def show(name: str, rows: list[dict]) -> None:
     """Print all rows of a case, and the ratios."""
     print(f"\n{name}: ms; error over 0.1 m (closed form or converged reference)")
     print(f"{'':26}{'accuracy':>9}{'width':>8}{'error':>10}{'CPU':>10}{'loop':>10}{'wall':>10}"
-          f"{'steps':>8}{'rhs':>8}{'LU':>7}{'switches':>9}")  # fmt: skip
+          f"{'steps':>8}{'rhs':>8}{'LU':>7}{'switches':>9}{'rounds':>7}")  # fmt: skip
     for one in rows:
         head = f"{one['series']:26}{one['accuracy']:9.0e}{one['width'] or 0:8.0e}"
         if "failed" in one:
@@ -93,8 +93,8 @@ def show(name: str, rows: list[dict]) -> None:
         count = one["counters"]
         evaluations, factored = count.get("rhs", count.get("nfev")), count.get("factorisations", count.get("nlu"))
         times = "".join(f"{1e3 * one[key]:10.2f}" for key in ("cpu", "least_solve", "wall"))
-        print(f"{head}{one['error']:10.1e}{times}"
-              f"{count['steps']:8}{evaluations:8}{factored:7}{count.get('switches', 0):9}")  # fmt: skip
+        counts = f"{count['steps']:8}{evaluations:8}{factored:7}{count.get('switches', 0):9}{one['rounds']:7}"
+        print(f"{head}{one['error']:10.1e}{times}{counts}")
     print(f"\n{'error at most':14}{'fairlead CPU':>14}  {'by':26}{'scipy CPU':>12}  {'by':26}{'ratio':>7}")
     for line in ratios(rows):
         print(ratio_line(line))

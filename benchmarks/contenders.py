@@ -18,7 +18,7 @@ import numpy as np
 from peer_cases import Belt
 from peers import Case, Peer, error, event_driven, reference_positions, sample_times, smooth
 
-WALL = 30.0  # [s]; an attempt that takes longer is given up
+WALL = 120.0  # [s]; an attempt that takes longer is given up
 
 
 @dataclass(frozen=True)
