@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
 from fairlead.analysis.limits import Limits, read_limits
+from fairlead.analysis.recording import unreasonable
+from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
 from fairlead.netlist.netlist import Netlist
@@ -26,7 +28,6 @@ from fairlead.results import Result, RunDirectory, Signal
 if TYPE_CHECKING:
     from fairlead.system.system import OutputSignal, System
 
-LOOSE = 1e-2  # from this accuracy on the method of order 3 is cheaper
 BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
 SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
 CONTINUOUS = 1e-9  # relative difference across an event that is rounding of the settlement
@@ -109,6 +110,8 @@ def worth_keeping(values: NDArray[np.float64], side: NDArray[np.int8]) -> NDArra
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
         progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float) -> Result:  # fmt: skip
     """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError."""
+    if faults := unreasonable(netlist, settings):
+        raise ModelError(faults)
     chosen = system.record(_patterns(netlist))
     limits = read_limits(netlist.limits, system.recorded)
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
@@ -143,7 +146,7 @@ def _engine(settings: RunSettings) -> tuple[Literal["rodas", "stepping"], str]:
 
 
 def _engine_settings(netlist: Netlist, settings: RunSettings) -> Run:
-    method = settings.method if settings.method != "auto" else ("rodas3p" if settings.accuracy >= LOOSE else "rodas5p")
+    method = "rodas5p" if settings.method == "auto" else settings.method
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
         engine=_engine(settings)[0],

@@ -89,6 +89,7 @@ class Model:
         as can be told.
         """
         from fairlead.analysis.names import unknown_signals
+        from fairlead.analysis.recording import unreasonable
         from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
@@ -102,7 +103,7 @@ class Model:
             assembly.excuse(assembly.instances)
         flat, found = flatten(assembly)
         faults += without_echoes(found, faults)
-        faults += unknown_signals(assembly)
+        faults += unknown_signals(assembly) + unreasonable(self.netlist, self.netlist.run)
         if faults:
             faults += without_echoes(untraceable(flat), faults)
         else:

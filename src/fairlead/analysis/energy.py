@@ -2,7 +2,7 @@
 
     closure = |stored change + dissipated - supplied| / throughput
 
-Throughput is what has passed through the model: the largest of supplied, dissipated and stored energy.
+Throughput is what the model has dealt with: the largest of supplied, dissipated and stored energy at any time.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Ledger:
         if self.first is None:
             self.first = rows[0].copy()
         self.last = rows[-1].copy()
-        self.most = max(self.most, float(np.abs(rows - self.first).max()))
+        self.most = max(self.most, float(np.abs(rows - self.first).max()), float(np.abs(rows[:, 2]).max()))
 
     def summary(self) -> dict[str, float | None]:
         """For run.json; closure is None when nothing passed through."""

@@ -45,8 +45,10 @@ def run(
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
         typer.echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
-    elif not quiet:
-        _print_summary(result, written, profile=profile)
+    else:
+        if not quiet:
+            _print_summary(result, written, profile=profile)
+        _say_what_went_wrong(result.run)
     raise typer.Exit(exit_code(result.run))
 
 
@@ -75,7 +77,7 @@ def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) 
 
 
 def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bool) -> None:
-    """The closing table, the files made beside the results, and what went beyond the limits."""
+    """The closing table and the files made beside the results."""
     from rich.console import Console
 
     from fairlead.cli.summary import summary_table
@@ -86,7 +88,13 @@ def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bo
         typer.echo(f"wrote {file}")
     if profile:
         typer.echo(result.run.get("profile", "no profile was kept"))
-    if result.run["status"] != "finished":
-        typer.echo(f"{result.run['status']}: {result.run.get('sentence', 'the run ended early')}", err=True)
-    for broken in result.run.get("limits_broken") or ():
+
+
+def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
+    """On standard error, with -q too: why a run ended early, contacts that chatter, limits broken."""
+    if outcome["status"] != "finished":
+        typer.echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
+    if chattering := outcome.get("chattering"):
+        typer.echo(f"warning: toggled faster than their dwell: {', '.join(chattering)}", err=True)
+    for broken in outcome.get("limits_broken") or ():
         typer.echo(f"limit broken: {broken}", err=True)

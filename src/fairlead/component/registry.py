@@ -82,7 +82,7 @@ def load_library(path: str) -> ModuleType:
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a script that ends Python would end fairlead without a word
         del sys.modules[name]
         raise ModelError(
             (Fault(None, f"--library {path} cannot be loaded: {_place(error, target)}{error}"),)
