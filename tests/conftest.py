@@ -7,6 +7,7 @@ A test says what it simulates in the words a user would write, then compares wit
 from __future__ import annotations
 
 import itertools
+import signal
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +18,12 @@ import pytest
 import fairlead
 
 Scene = Callable[..., Any]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def ctrl_c_works() -> None:
+    """A shell that starts the tests in the background has Ctrl-C ignored, in them and in all they start."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
