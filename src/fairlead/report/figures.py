@@ -70,7 +70,8 @@ def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
         for picture in pictures:
             path = result.path / picture.file
             # The mark tells a later run in this directory that the picture may go.
-            _figure(result, picture).savefig(path, dpi=DOTS_PER_INCH, metadata={"Software": "fairlead"}, pil_kwargs=FAST)
+            mark = {"Software": "fairlead"}
+            _figure(result, picture).savefig(path, dpi=DOTS_PER_INCH, metadata=mark, pil_kwargs=FAST)
             paths.append(path)
     return paths
 
