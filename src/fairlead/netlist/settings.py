@@ -52,7 +52,7 @@ class RunSettings(Strict):
     engine: Literal["auto", "rodas", "stepping"] = "auto"
     """The engine; auto is rodas, stepping finds many stick-slip switches inside each step."""
     method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
-    """The Rosenbrock method; rodas3p serves loose accuracies."""
+    """The Rosenbrock method; auto takes rodas5p. rodas3p (order 3) serves loose accuracies with few switches."""
     max_step: Duration | None = None
     """Longest step."""
     first_step: Duration | None = None
