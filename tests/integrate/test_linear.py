@@ -8,9 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fairlead.integrate import Run, integrate, ordering
+from fairlead.integrate import Run, condensing, integrate, ordering
+from fairlead.integrate.condensing import columns_of, starts_of
 from fairlead.integrate.memory import INDICES, VECTORS, Memory
-from fairlead.integrate.ordering import columns_of, starts_of
 from fairlead.integrate.protocol import Pattern
 from fairlead.integrate.replan import fresh_plan
 from fairlead.integrate.textbook import textbook
@@ -24,21 +24,13 @@ def solver():
     import numba
 
     from fairlead.integrate.foreign import memory_at
-    from fairlead.integrate.linear import assemble_consistent, assemble_step, factorise, solve
-    from fairlead.integrate.rosenbrock import check_solution
+    from fairlead.integrate.linear import factorise_consistent, factorise_step, solve_watched
 
     @numba.cfunc(numba.int64(numba.int64, numba.float64, numba.int64), error_model="numpy", _nrt=False)
     def run(address, scale, at_x):
         m = memory_at(address)
-        if scale > 0.0:
-            assemble_step(m, scale)
-        else:
-            assemble_consistent(m)
-        status = factorise(m)
-        if status != 0:
-            return status
-        solve(m, at_x)
-        return check_solution(m, at_x, m.at_b) if m.dense == 0 else 0
+        status = factorise_step(m, scale) if scale > 0.0 else factorise_consistent(m)
+        return status if status != 0 else solve_watched(m, at_x)
 
     return run.ctypes
 
@@ -93,22 +85,33 @@ def mechanical_network(rng, bodies, contacts):
 def memory_for(problem, plan):
     n = len(problem.initial)
     lengths = dict.fromkeys([*VECTORS.values(), *INDICES.values()], 1) | {
-        "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows),
+        "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows), **plan.lengths,
+        "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_lower": len(plan.arrays.get("lower_rows", ())),
         "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
     given = {
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
-        "jacobian_place": plan.jacobian_place, "mass_starts": problem.mass_pattern.starts,
-        "mass_rows": problem.mass_pattern.rows, "mass_place": plan.mass_place,
-        "column_scale": np.ones(n), "differential": problem.differential.astype(np.int64), **plan.arrays,
+        "mass_starts": problem.mass_pattern.starts,
+        "mass_rows": problem.mass_pattern.rows, "column_scale": np.ones(n),
+        "differential": problem.differential.astype(np.int64),
+        "quadrature": problem.quadrature.astype(np.int64), **plan.arrays,
     }  # fmt: skip
     memory = Memory(lengths, given)
-    for name in ("n", "n_jacobian", "n_mass", "n_matrix"):
+    for name in ("n", "n_jacobian", "n_mass", "n_matrix", *plan.lengths):
         memory.number[name] = lengths[name]
     memory.number["dense"] = int(plan.dense)
     return memory
+
+
+def planned(problem, backwards=False):
+    """The sparse plan, in its own order or in the opposite one."""
+    layout = condensing.lay_out(problem)
+    entries = condensing.core_entries(problem, layout)
+    order = ordering.elimination_order(problem, layout, entries)
+    order = order[::-1].copy() if backwards else order
+    return ordering.sparse_plan(problem, layout, entries, order, order)
 
 
 def solve_with(memory, problem, J, M, scale, b):
@@ -126,10 +129,9 @@ def test_one_plan_serves_every_zone_and_step_sizes_over_nine_decades(make_plan, 
     # Fewer contacts than bodies on a random tree: held contacts that close no loop in most draws.
     problem, matrices = mechanical_network(rng, bodies=20, contacts=6)
     if make_plan == "dense":
-        plan = ordering.dense_plan(problem.pattern, problem.mass_pattern)
+        plan = ordering.dense_plan(problem)
     else:
-        order = ordering.elimination_order(problem)
-        plan = ordering.sparse_plan(problem.pattern, problem.mass_pattern, order, order)
+        plan = planned(problem)
     memory = memory_for(problem, plan)
     for exponent in range(-9, 1):
         for _ in range(4):
@@ -151,8 +153,7 @@ def test_one_plan_serves_every_zone_and_step_sizes_over_nine_decades(make_plan, 
 def test_the_matrix_of_the_consistent_point_is_factored_along_the_same_plan(seed):
     rng = np.random.default_rng(100 + seed)
     problem, matrices = mechanical_network(rng, bodies=25, contacts=5)
-    order = ordering.elimination_order(problem)
-    memory = memory_for(problem, ordering.sparse_plan(problem.pattern, problem.mass_pattern, order, order))
+    memory = memory_for(problem, planned(problem))
     for _ in range(10):
         J, M = matrices(rng.integers(0, 2, 5), 1e3)
         C = np.where(problem.differential, M, -J)
@@ -168,27 +169,26 @@ def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
     rng = np.random.default_rng(7)
     problem, matrices = mechanical_network(rng, bodies=20, contacts=4)
     # The worst order: multipliers first, where their diagonal is zero while they hold.
-    backwards = ordering.elimination_order(problem)[::-1].copy()
-    bad_plan = ordering.sparse_plan(problem.pattern, problem.mass_pattern, backwards, backwards)
+    bad_plan = planned(problem, backwards=True)
     memory = memory_for(problem, bad_plan)
     J, M = matrices(np.zeros(4), 1e3)
     b = rng.standard_normal(len(J))
     status, _ = solve_with(memory, problem, J, M, 1e3, b)
     assert status == INACCURATE
-    made = fresh_plan(memory, problem)
-    assert made is not None
-    plan = ordering.Plan(False, len(made["matrix_rows"]), made["jacobian_place"], made["mass_place"], made)
+    plan = fresh_plan(memory, problem)
+    assert plan is not None
     fresh = memory_for(problem, plan)
     status, x = solve_with(fresh, problem, J, M, 1e3, b)
     assert status == FACTORED
     np.testing.assert_allclose(x, np.linalg.solve(1e3 * M - J, b), rtol=1e-8)
 
 
-def test_an_order_eliminates_multipliers_after_the_speeds_they_act_on_and_quadratures_first():
+def test_an_order_eliminates_multipliers_after_the_speeds_they_act_on():
     problem, _ = mechanical_network(np.random.default_rng(3), bodies=15, contacts=8)
-    position = ordering.inverse(ordering.elimination_order(problem))
-    assert position[-1] == 0
-    W = np.zeros((len(position),) * 2, bool)
+    order = planned(problem).arrays["row_order"]
+    position = ordering.inverse(order, len(problem.initial))
+    assert sorted(order) == list(range(15, 38))  # positions and the ledger are condensed out
+    W = np.zeros((len(problem.initial),) * 2, bool)
     for pattern in (problem.pattern, problem.mass_pattern):
         W[pattern.rows, columns_of(pattern)] = True
     for k in np.flatnonzero(~problem.differential):
@@ -210,8 +210,9 @@ def test_condensed_positions_cause_no_fill_in_a_chain():
         differential=np.ones(n, bool), quadrature=np.zeros(n, bool),
     )  # fmt: skip
     plan = ordering.plan(problem)
-    # Per body: the pivot, one entry x -> v, three v -> x below, and a tridiagonal factor.
-    assert len(plan.arrays["lower_rows"]) + len(plan.arrays["upper_rows"]) <= 6 * bodies
+    # The core is tridiagonal in the speeds; eliminated by rounds, each touches two others.
+    assert plan.lengths["n_core"] == bodies
+    assert len(plan.arrays["lower_rows"]) + len(plan.arrays["upper_rows"]) <= 4 * bodies
 
 
 def chain(bodies, accuracy=1e-6):
@@ -249,3 +250,24 @@ def test_a_sparse_run_keeps_the_momentum_that_the_push_gives():
     assert outcome.ok, outcome.sentence
     assert outcome.y[1::2].sum() == pytest.approx(np.sin(3.0), abs=1e-6)
     assert outcome.counters.replans == 0
+
+
+def test_columns_that_did_not_change_are_kept_and_the_factors_are_those_of_a_full_factorisation():
+    rng = np.random.default_rng(11)
+    problem, _ = mechanical_network(rng, bodies=60, contacts=8)
+    plan = planned(problem)
+    kept, zones = memory_for(problem, plan), rng.integers(0, 2, 8)
+    for _ in range(12):
+        zones[rng.integers(8)] ^= 1
+        _, matrices = mechanical_network(np.random.default_rng(11), bodies=60, contacts=8)
+        J, M = matrices(zones, 1e3)
+        b = rng.standard_normal(len(J))
+        if np.linalg.cond(1e3 * M - J) > 1e12:
+            continue
+        fresh = memory_for(problem, plan)
+        answers = [solve_with(memory, problem, J, M, 1e3, b) for memory in (kept, fresh)]
+        assert answers[0][0] == answers[1][0] == FACTORED
+        np.testing.assert_array_equal(kept.array["pivot"], fresh.array["pivot"])
+        np.testing.assert_array_equal(answers[0][1], answers[1][1])
+        np.testing.assert_allclose(answers[0][1], np.linalg.solve(1e3 * M - J, b), rtol=1e-7, atol=1e-12)
+    assert 0 < kept.array["dirty"].sum() < len(kept.array["dirty"]) / 2

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
+from fairlead.integrate.condensing import kinematic_rows
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import Memory
@@ -41,10 +43,10 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     computed, after Ctrl-C too. Raises ValueError for settings or arrays that do not fit together.
     """
     begun = time.perf_counter()
-    advance = compiled_loop(run.engine)
     tableau = TABLEAUS[run.method]
     check(problem, run)
     memory = prepare(problem, run, tableau)
+    advance = loop_of(problem, run, memory)
     blocks: list[Block] = []
     take = on_block if on_block is not None else blocks.append
     status, inside, attempts, replanned_at = Status.PAUSED, 0.0, FIRST_ATTEMPTS, -1
@@ -84,6 +86,15 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     )
 
 
+def loop_of(problem: Problem, run: Run, memory: Memory) -> Callable[[int, int], int]:
+    """The loop of the engine: advance(address of the struct, attempts) -> status."""
+    if run.engine == "ida":
+        from fairlead.integrate.sundials import SundialsLoop
+
+        return SundialsLoop(problem, run, memory)
+    return compiled_loop(run.engine)
+
+
 def next_attempts(attempts: int, spent: float) -> int:
     """Trial steps for the next slice, so that it lasts about SLICE seconds; at most eight times as many."""
     factor = SLICE / max(spent, 1e-6)
@@ -98,6 +109,8 @@ def check(problem: Problem, run: Run) -> None:
         value = getattr(run, name)
         if value is not None and not value > 0:
             raise ValueError(f"{name} = {value:g} s must be above zero.")
+    if run.engine == "ida" and run.fixed_step is not None:
+        raise ValueError("fixed_step is for rodas and stepping; ida chooses its own steps.")
     if not 0.5 <= run.theta <= 1.0:
         raise ValueError(f"theta = {run.theta:g} must be from 0.5 to 1.")
     n, ng = len(problem.initial), len(problem.guard_machine)
@@ -127,11 +140,12 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     sizes = {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, "stages": s,
-        "row_capacity": rows, "event_capacity": events,
+        "row_capacity": rows, "event_capacity": events, **plan.lengths,
     }  # fmt: skip
     lengths = sizes | {
         "stages_n": s * n, "three_n": 3 * n, "stages_stages": s * s, "three_stages": 3 * s,
         "rows_outputs": rows * n_outputs, "n_plus_1": n + 1, "passes_zones": (run.max_passes + 1) * nz,
+        "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
     memory = Memory(lengths, given_arrays(problem, tableau, plan))
@@ -164,9 +178,8 @@ def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dic
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
-        "jacobian_place": plan.jacobian_place,
         "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
-        "mass_place": plan.mass_place, **plan.arrays,
+        **plan.arrays,
     }  # fmt: skip
 
 
@@ -206,14 +219,9 @@ def stepping_settings(run: Run) -> dict[str, float]:
 def controlled(problem: Problem) -> Integers:
     """1 for unknowns whose error sets the step: differential, and no speed that has a position."""
     chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
-    pattern = problem.pattern
-    columns = ordering.columns_of(pattern)
-    touches: list[set[int]] = [set() for _ in chosen]
-    for i, j in zip(pattern.rows.tolist(), columns.tolist(), strict=True):
-        touches[i].add(j)
-    for x in ordering.kinematic_rows(problem, touches):
-        if not problem.quadrature[x]:
-            chosen[list(touches[x])] = 0
+    for x, v in kinematic_rows(problem).items():
+        if not problem.quadrature[x] and v >= 0:
+            chosen[v] = 0
     return chosen
 
 

@@ -1,24 +1,74 @@
 """Linear systems of a step and of a consistent point: assemble, factorise, solve.
 
-    step              W = M/(h gamma) - J
+    step              W = s M - J, s = 1/(h gamma)
     consistent point  C = the columns of M where y_i is differential, of -J where it is algebraic
 
 Both live in `matrix`, along one fixed pattern. Below DENSE_LIMIT unknowns it is a full matrix, by
-rows, factored here with partial pivoting; above, see sparse.py. Unknowns are scaled by their error
-weight before rows are compared, so that the choice of pivots does not depend on units.
+rows, factored here with partial pivoting; above, the core of it (condensing.py) along a plan, see
+sparse.py. Unknowns are scaled by their error weight before rows are compared, so that the choice of
+pivots does not depend on units.
 """
 
 from __future__ import annotations
 
+from fairlead.integrate.core import factorise_core, solve_core
 from fairlead.integrate.foreign import compiled, indices, reals
-from fairlead.integrate.sparse import factorise_sparse, solve_sparse
 
 DONE, SINGULAR, INACCURATE = 0, 1, 2
+REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
+"""Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
+
+
+@compiled
+def factorise_step(m, scale):
+    """Factorise scale M - J; DONE, SINGULAR or INACCURATE. On SINGULAR, `culprit` is the unknown to blame."""
+    m.factorisations += 1
+    if m.dense == 0:
+        return factorise_core(m, scale, False)
+    assemble_step(m, scale)
+    return factorise_dense(m)
+
+
+@compiled
+def factorise_consistent(m):
+    """Factorise the matrix of the consistent point; as factorise_step."""
+    m.factorisations += 1
+    if m.dense == 0:
+        return factorise_core(m, 1.0, True)
+    assemble_consistent(m)
+    return factorise_dense(m)
+
+
+@compiled
+def solve(m, at_b):
+    """Overwrite the n doubles at address `at_b` with the solution for that right-hand side."""
+    m.solves += 1
+    if m.dense == 1:
+        solve_dense(m, at_b)
+    else:
+        solve_core(m, at_b, 0.0)
+
+
+@compiled
+def solve_watched(m, at_b):
+    """As solve, for the first one after a factorisation: DONE, or INACCURATE when other pivots are needed.
+
+    A planned pivot order can lose all accuracy with no small pivot to see, so the residual decides,
+    after one step of refinement.
+    """
+    m.solves += 1
+    if m.dense == 1:
+        solve_dense(m, at_b)
+        return DONE
+    if solve_core(m, at_b, REFINE_ABOVE) <= DISTRUST_ABOVE:
+        return DONE
+    m.culprit = -1
+    return INACCURATE
 
 
 @compiled
 def assemble_step(m, scale):
-    """Write scale M - J into `matrix`."""
+    """Write scale M - J into the full matrix."""
     matrix = reals(m.at_matrix, m.n_matrix)
     place, values = indices(m.at_jacobian_place, m.n_jacobian), reals(m.at_jacobian, m.n_jacobian)
     matrix[:] = 0.0
@@ -31,7 +81,7 @@ def assemble_step(m, scale):
 
 @compiled
 def assemble_consistent(m):
-    """Write the matrix of the consistent point into `matrix`."""
+    """Write the matrix of the consistent point into the full matrix."""
     matrix = reals(m.at_matrix, m.n_matrix)
     differential = indices(m.at_differential, m.n)
     matrix[:] = 0.0
@@ -44,25 +94,6 @@ def assemble_consistent(m):
     place, values = indices(m.at_mass_place, m.n_mass), reals(m.at_mass, m.n_mass)
     for p in range(m.n_mass):
         matrix[place[p]] += values[p]
-
-
-@compiled
-def factorise(m):
-    """Factorise `matrix`; DONE, SINGULAR or INACCURATE. On SINGULAR, `culprit` is the unknown to blame."""
-    m.factorisations += 1
-    if m.dense == 1:
-        return factorise_dense(m)
-    return factorise_sparse(m)
-
-
-@compiled
-def solve(m, at_b):
-    """Overwrite the n doubles at address `at_b` with the solution for that right-hand side."""
-    m.solves += 1
-    if m.dense == 1:
-        solve_dense(m, at_b)
-    else:
-        solve_sparse(m, at_b)
 
 
 @compiled

@@ -10,9 +10,9 @@ from collections.abc import Callable
 import fairlead.native as native
 
 SOURCES = (
-    "memory.py", "foreign.py", "linear.py", "sparse.py", "rosenbrock.py", "interpolant.py", "controller.py",
-    "guards.py", "crossing.py", "record.py", "start.py", "settling.py", "codes.py", "trial.py", "arrival.py",
-    "loop.py",
+    "memory.py", "foreign.py", "condensing.py", "core.py", "linear.py", "sparse.py", "rosenbrock.py", "interpolant.py",
+    "controller.py", "guards.py", "crossing.py", "record.py", "start.py", "settling.py", "codes.py", "trial.py",
+    "arrival.py", "loop.py",
 )  # fmt: skip
 """Every file of this folder whose text the machine code depends on."""
 
@@ -46,6 +46,45 @@ def _build_stepping() -> native.Build:
     from fairlead.integrate.stepping_loop import advance_stepping
 
     return _compile(advance_stepping)
+
+
+SUNDIALS_SOURCES = ("sundials_kernels.py",)
+"""What the ida engine adds to SOURCES."""
+SUNDIALS_KERNELS = {
+    "residual": "vidiii", "prepare": "iidid", "solve_prepared": "viii", "multiply": "vidii", "guards": "vidii",
+    "judge_step": "vidiiii", "find_culprit": "ii",
+}  # fmt: skip
+"""Functions of sundials_kernels.py with the types of their result and arguments: void, int64, double."""
+
+
+@functools.cache
+def compiled_sundials() -> dict[str, Callable[..., int]]:
+    """The functions of sundials_kernels.py by name."""
+    folder = importlib.resources.files("fairlead.integrate")
+    names = SOURCES + SUNDIALS_SOURCES
+    key = native.digest("integrate", *(folder.joinpath(name).read_text("utf-8") for name in names))
+    code = native.load_or_compile(key, _build_sundials)
+    kinds = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
+    calls: dict[str, Callable[..., int]] = {}
+    for name, types in SUNDIALS_KERNELS.items():
+        call = ctypes.CFUNCTYPE(*(kinds[letter] for letter in types))(code.address[name])
+        call.keep_alive = code  # type: ignore[attr-defined]
+        calls[name] = call
+    return calls
+
+
+def _build_sundials() -> native.Build:
+    import numba
+
+    from fairlead.integrate import sundials_kernels
+
+    kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
+    functions = {}
+    for name, types in SUNDIALS_KERNELS.items():
+        signature = kinds[types[0]](*(kinds[letter] for letter in types[1:]))
+        make = numba.cfunc(signature, error_model="numpy", _nrt=False)
+        functions[name] = make(getattr(sundials_kernels, name))
+    return native.Build(meta={}, functions=functions)
 
 
 def _compile(advance: Callable[[int, int], int]) -> native.Build:

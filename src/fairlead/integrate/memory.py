@@ -14,7 +14,8 @@ import numpy as np
 
 INTEGERS = (
     # sizes
-    "n", "n_algebraic", "n_guards", "n_zones", "n_outputs", "n_jacobian", "n_mass", "n_matrix", "stages",
+    "n", "n_core", "n_positions", "n_meters", "n_meter_entries", "n_entries",
+    "n_algebraic", "n_guards", "n_zones", "n_outputs", "n_jacobian", "n_mass", "n_matrix", "stages",
     "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
     # C functions of the problem, and their context
     "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
@@ -24,6 +25,8 @@ INTEGERS = (
     # where the run is
     "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes",
     "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
+    # the core of W: which matrix is factored there, and whether its factors are good
+    "core_kind", "core_valid",
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "failed", "seeking",
@@ -39,7 +42,7 @@ NUMBERS = (
     "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
-    "t_release", "t_last_switch", "factored_h",
+    "t_release", "t_last_switch", "factored_h", "core_scale",
     # stepping only: theta asked for and in force, the step asked for, distances of the slopes remembered
     "least_theta", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
     "t_jump",
@@ -56,7 +59,9 @@ VECTORS = {
     # stepping only: mean slopes of this step, of the one before and of the one before that
     "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "hold_time": "n",
     "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
-    "pivot": "n",
+    "pivot": "n_core", "jacobian_used": "n_jacobian", "mass_used": "n_mass", "core_x": "n_core", "core_b": "n_core",
+    "core_residual": "n_core", "position_ratio": "n_positions", "position_share": "n_positions",
+    "meter_share": "n_meters",
     # the method
     "a": "stages_stages", "C": "stages_stages", "c": "stages", "d": "stages", "m": "stages", "e": "stages",
     "H": "three_stages",
@@ -85,9 +90,15 @@ INDICES = {
     "event_machine": "event_capacity", "event_before": "event_capacity", "event_after": "event_capacity",
     "event_guard": "event_capacity", "event_position": "event_capacity",
     # the plan of the sparse factorisation: pivot order, pattern of W, of L (without diagonal) and of U
-    "row_order": "n", "column_order": "n", "matrix_starts": "n_plus_1", "matrix_rows": "n_matrix",
-    "lower_starts": "n_plus_1", "lower_rows": "n_lower", "upper_starts": "n_plus_1", "upper_rows": "n_upper",
-    "pivot_rows": "n",
+    "row_order": "n_core", "column_order": "n_core", "matrix_starts": "n_core_plus_1", "matrix_rows": "n_matrix",
+    "lower_starts": "n_core_plus_1", "lower_rows": "n_lower", "upper_starts": "n_core_plus_1", "upper_rows": "n_upper",
+    "pivot_rows": "n", "dirty": "n_core",
+    # what J and M put into each column of the core, and what follows from the core
+    "entry_starts": "n_core_plus_1", "entry_source": "n_entries", "entry_place": "n_entries", "entry_kind": "n_entries",
+    "jacobian_column": "n_jacobian", "mass_column": "n_mass",
+    "position": "n_positions", "position_speed": "n_positions", "position_slope": "n_positions",
+    "position_mass": "n_positions", "meter": "n_meters", "meter_mass": "n_meters", "meter_starts": "n_meters_plus_1",
+    "meter_entry": "n_meter_entries", "meter_column": "n_meter_entries",
 }  # fmt: skip
 """Arrays of whole numbers, by the name of their length."""
 

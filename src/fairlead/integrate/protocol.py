@@ -153,8 +153,9 @@ class Run:
     start: float = 0.0
     every: float | None = None
     """Record on this grid (and both sides of each event); None: every accepted step."""
-    engine: Literal["rodas", "stepping"] = "rodas"
-    """rodas: Rosenbrock, every switch located; stepping: zones found inside each step (theta_step.py)."""
+    engine: Literal["rodas", "stepping", "ida"] = "rodas"
+    """rodas: Rosenbrock, every switch located; stepping: zones found inside each step (theta_step.py); ida: BDF
+    by SUNDIALS, every switch located (sundials.py), which needs scikit-sundae."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
     """Of `rodas`."""
     theta: float = 0.5

@@ -8,13 +8,10 @@ See tableau.py for the letters.
 from __future__ import annotations
 
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, reals
-from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, assemble_step, factorise, solve
-from fairlead.integrate.sparse import backward_error
+from fairlead.integrate.linear import DONE, add_mass_times, factorise_step, solve, solve_watched
 
 CHUNK = 512
 """Unknowns combined at a time, so that sums over the stages stay in the nearest cache."""
-REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
-"""Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
 
 
 @compiled
@@ -32,9 +29,8 @@ def prepare_matrix(m, h):
     """Factorise W for the step size h, unless it is already; DONE, SINGULAR or INACCURATE."""
     if m.factored_h == h:
         return DONE
-    assemble_step(m, 1.0 / (h * m.gamma))
     m.factored_h = 0.0
-    status = factorise(m)
+    status = factorise_step(m, 1.0 / (h * m.gamma))
     if status == DONE:
         m.factored_h = h
     return status
@@ -53,12 +49,13 @@ def take_step(m, h):
     for i in range(m.stages):
         stage_right_side(m, h, i)
         copy(reals(m.at_b, n), K[i * n : (i + 1) * n])
-        solve(m, m.at_K + 8 * i * n)
-        if i == 0 and unchecked and m.dense == 0:
-            status = check_solution(m, m.at_K, m.at_b)
+        if i == 0 and unchecked:
+            status = solve_watched(m, m.at_K)
             if status != DONE:
                 m.factored_h = 0.0
                 return status
+        else:
+            solve(m, m.at_K + 8 * i * n)
     combine(m)
     return DONE
 
@@ -139,24 +136,6 @@ def midpoint_defect(m, h):
     for k in range(n):
         if differential[k] == 1:
             error[k] = 0.0
-
-
-@compiled
-def check_solution(m, at_x, at_b):
-    """Watch the first solve after a factorisation; refine once, and report INACCURATE if that is not enough.
-
-    A planned pivot order can lose all accuracy with no small pivot to see, so the residual decides.
-    """
-    if backward_error(m, at_x, at_b) <= REFINE_ABOVE:
-        return DONE
-    x, correction = reals(at_x, m.n), reals(m.at_residual, m.n)
-    solve(m, m.at_residual)
-    for k in range(m.n):
-        x[k] += correction[k]
-    if backward_error(m, at_x, at_b) <= DISTRUST_ABOVE:
-        return DONE
-    m.culprit = -1
-    return INACCURATE
 
 
 @compiled

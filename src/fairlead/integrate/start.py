@@ -17,8 +17,8 @@ from math import isfinite
 
 from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
-from fairlead.integrate.linear import DONE, add_mass_times, assemble_consistent, factorise, solve
-from fairlead.integrate.rosenbrock import check_solution, times_jacobian
+from fairlead.integrate.linear import DONE, add_mass_times, factorise_consistent, solve, solve_watched
+from fairlead.integrate.rosenbrock import times_jacobian
 
 NOT_CONSISTENT = 3
 SETTLED_UPDATE = 1e-6
@@ -32,8 +32,7 @@ def prepare_consistent(m):
     m.jacobians += 1
     m.jacobian_fresh = 0
     m.factored_h = 0.0
-    assemble_consistent(m)
-    return factorise(m)
+    return factorise_consistent(m)
 
 
 @compiled
@@ -77,7 +76,6 @@ def consistent(m, iterations):
 
     Returns DONE, SINGULAR, INACCURATE or NOT_CONSISTENT.
     """
-    n = m.n
     mass_at(m.call_mass, (m.context, m.at_mass))
     status = prepare_consistent(m)
     if status != DONE:
@@ -91,13 +89,12 @@ def consistent(m, iterations):
             if status != DONE:
                 return status
         residual_here(m, m.at_x)
-        b = reals(m.at_b, n)
-        copy(reals(m.at_x, n), b)
-        solve(m, m.at_x)
-        if iteration == 0 and m.dense == 0:
-            status = check_solution(m, m.at_x, m.at_b)
+        if iteration == 0:
+            status = solve_watched(m, m.at_x)
             if status != DONE:
                 return status
+        else:
+            solve(m, m.at_x)
         size = update(m, 1.0)
         if not isfinite(size):
             return NOT_CONSISTENT

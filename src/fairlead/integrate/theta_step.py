@@ -33,7 +33,7 @@ from fairlead.integrate.foreign import (
 )
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.jumps import all_continuous, find_jump, law_jumps
-from fairlead.integrate.linear import DONE, add_mass_times, factorise, solve
+from fairlead.integrate.linear import DONE, add_mass_times, factorise_step, solve
 from fairlead.integrate.settling import begin_settling, recurs
 
 CYCLES, DIVERGES, JUMPS = 6, 7, 8
@@ -124,9 +124,8 @@ def linearise_step(m, h):
         m.factored_h = 0.0
     if m.factored_h == h and m.factored_theta == m.theta_now:
         return DONE
-    assemble_theta(m, 1.0 / (h * m.theta_now))
     m.factored_h = 0.0
-    status = factorise(m)
+    status = factorise_step(m, 1.0 / (h * m.theta_now))
     if status == DONE:
         m.factored_h = h
         m.factored_theta = m.theta_now
@@ -161,21 +160,9 @@ def find_holds(m):
                         times[i] = -values[p] / slopes[q]
                         if ft[i] != 0.0:
                             m.driven = 1
-
-
-@compiled
-def assemble_theta(m, scale):
-    """Write scale M - J into `matrix`, without J in the rows of held contacts."""
-    matrix = reals(m.at_matrix, m.n_matrix)
-    place, values = indices(m.at_jacobian_place, m.n_jacobian), reals(m.at_jacobian, m.n_jacobian)
-    rows, holds = indices(m.at_jacobian_rows, m.n_jacobian), indices(m.at_holds, m.n)
-    matrix[:] = 0.0
     for p in range(m.n_jacobian):
-        if holds[rows[p]] == 0:
-            matrix[place[p]] -= values[p]
-    place, values = indices(m.at_mass_place, m.n_mass), reals(m.at_mass, m.n_mass)
-    for p in range(m.n_mass):
-        matrix[place[p]] += scale * values[p]
+        if holds[slope_rows[p]] == 1:
+            slopes[p] = 0.0
 
 
 @compiled
@@ -227,10 +214,11 @@ def slips_of_step(m, h, fresh_slip):
 @compiled
 def scaled_residual(m):
     """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is. See `worst`."""
-    b, scale = reals(m.at_b, m.n), reals(m.at_row_scale, m.n)
-    order, quadrature = indices(m.at_row_order, m.n), indices(m.at_quadrature, m.n)
+    b, scale, quadrature = reals(m.at_b, m.n), reals(m.at_row_scale, m.n), indices(m.at_quadrature, m.n)
+    rows = m.n if m.dense == 1 else m.n_core
+    order = indices(m.at_row_order, m.n_core)
     largest = 0.0
-    for k in range(m.n):
+    for k in range(rows):
         i = k if m.dense == 1 else order[k]
         size = abs(b[i]) * scale[k]
         if not isfinite(size):
