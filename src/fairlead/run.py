@@ -21,6 +21,7 @@ from fairlead.analysis.recording import unreasonable
 from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
+from fairlead.integrate.sundials_solver import require_package
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
 from fairlead.results import Result, RunDirectory, Signal
@@ -112,6 +113,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError."""
     if faults := unreasonable(netlist, settings):
         raise ModelError(faults)
+    if settings.engine == "ida":
+        require_package()
     chosen = system.record(_patterns(netlist))
     limits = read_limits(netlist.limits, system.recorded)
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
@@ -138,7 +141,7 @@ def _signals(chosen: list[OutputSignal]) -> list[Signal]:
     return [Signal(signal.name, signal.unit, signal.doc) for signal in chosen]
 
 
-def _engine(settings: RunSettings) -> tuple[Literal["rodas", "stepping"], str]:
+def _engine(settings: RunSettings) -> tuple[Literal["rodas", "stepping", "ida"], str]:
     """The engine and why; `benchmarks/engines.py` measures what `auto` goes by."""
     if settings.engine == "auto":
         return "rodas", "auto: it locates every switch, and serves every law"

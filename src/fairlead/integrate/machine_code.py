@@ -6,6 +6,7 @@ import ctypes
 import functools
 import importlib.resources
 from collections.abc import Callable
+from typing import Any
 
 import fairlead.native as native
 
@@ -64,7 +65,7 @@ def compiled_sundials() -> dict[str, Callable[..., int]]:
     names = SOURCES + SUNDIALS_SOURCES
     key = native.digest("integrate", *(folder.joinpath(name).read_text("utf-8") for name in names))
     code = native.load_or_compile(key, _build_sundials)
-    kinds = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
+    kinds: dict[str, Any] = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
     calls: dict[str, Callable[..., int]] = {}
     for name, types in SUNDIALS_KERNELS.items():
         call = ctypes.CFUNCTYPE(*(kinds[letter] for letter in types))(code.address[name])

@@ -49,8 +49,9 @@ class RunSettings(Strict):
     """Time at which the run starts."""
     accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-3
     """Relative accuracy; sets the tolerances of all unknowns together."""
-    engine: Literal["auto", "rodas", "stepping"] = "auto"
-    """The engine; auto is rodas, stepping finds many stick-slip switches inside each step."""
+    engine: Literal["auto", "rodas", "stepping", "ida"] = "auto"
+    """The engine; auto is rodas, stepping finds many stick-slip switches inside each step, ida is an
+    independent check (BDF by SUNDIALS)."""
     method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
     """The Rosenbrock method; auto takes rodas5p. rodas3p (order 3) serves loose accuracies with few switches."""
     max_step: Duration | None = None
