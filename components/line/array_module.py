@@ -1,21 +1,29 @@
-"""A module of a towed array: core with bulkheads inside a hose, an end connector at each end."""
+"""A towed array: core with bulkheads inside a hose, in modules with an end connector at each end."""
+
+from __future__ import annotations
 
 import math
 
 from fairlead.components.friction.curve import Curve
-from fairlead.components.line.array_line import ArrayLine
 from fairlead.components.line.core_element import Core
 from fairlead.components.line.hose_element import Hose
+from fairlead.components.line.laid_line import LaidLine
+from fairlead.components.line.mesh import bulkheads, cut
+from fairlead.components.line.meter import Meter
 from fairlead.components.line.registration import Registration
+from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
 from fairlead.components.mechanics.mass import Mass
 
 from fairlead.component import (
     Block,
+    Choice,
     Composite,
+    Count,
     Expansion,
     Parameter,
     Part,
     Path,
+    Table,
     Translational,
 )  # fmt: skip
 
@@ -27,62 +35,102 @@ LAYER = {
 
 
 class ArrayModule(Composite):
-    """Two-layer line of equal elements; nodes travel along the route, devices stand.
+    """Two-layer line in one or more modules; nodes travel along the route, devices stand.
 
     hose[i], core[i]            elements between node i and i+1, i = 0 at the inboard end
-    hose_node[i], core_node[i]  masses; at both ends hose and core are one body (end connector)
+    hose_node[i], core_node[i]  masses; where modules end hose and core are one body (end connector)
     registration[i]             core against hose, between the connectors
-    outer[i], inner[i]          contacts with the devices of the route and of bulkheads with the hose
+    outer[i], outer_NAME[i]     contacts with the standing devices of the route, and with each that moves
+    inner[i]                    contacts of bulkheads with the hose
 
     Friction passes only where a device presses: without lateral load hose and core are free of each
-    other. Bulkheads are smeared over the elements. At the start the tension is uniform.
+    other. Bulkheads are smeared over the elements unless `bulkhead_pitch` is longer than an element; then the
+    nodes nearest to them have an inner contact each. At the start the tension is uniform.
+    `graded` gives the length of elements over the place in the line, fine for what passes the devices and coarse
+    elsewhere: [[0 m, 2 m], [100 m, 2 m], [102 m, 0.25 m], [140 m, 0.25 m]].
     """
 
     inboard = Translational("inboard end connector")
     outboard = Translational("outboard end connector")
     path = Path("the route the line runs along")
     length = Parameter("m", "Length at the start, under the tension it has there.", above=0)
+    modules = Count("How many modules of equal length.", default=1)
     element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0)
+    graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None)
     start = Parameter("m", "Position of the inboard end along the route at the start.", default=0.0)
     tension = Parameter("N", "Uniform tension at the start.", default=0.0, least=0)
     connector_mass = Parameter("kg", "Mass of each end connector.", default=0.0, least=0)
+    diameter = Parameter("m", "Outside diameter.", default=0.085, above=0)
+    weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)
+    bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0)
     hose = Block(LAYER, "The outer layer.")
     core = Block(LAYER, "The rope that carries the load.")
     bulkhead_friction = Part(Curve, "Friction of the bulkheads in the hose.", default=0.5)
+    bulkhead_pitch = Parameter("m", "Distance of the bulkheads; smeared when not given.", default=None, above=0)
+    ruck_force = Parameter("N", "Compression of the hose above which it rucks; not watched when not given.",
+                           default=None, above=0)  # fmt: skip
+    ruck_stiffness = Parameter("1", "Stiffness of the hose while it rucks, over that before.", default=1.0, above=0,
+                               most=1)  # fmt: skip
+    meters = Choice(("on", "off"), "Scuffing length and friction work of every contact, as states.", default="off")
 
     def check(p):
-        """An element is no longer than the line."""
-        if p.element > p.length:
+        """An element is no longer than a module."""
+        if p.element > p.length / p.modules:
+            whole = "the line" if p.modules == 1 else "a module"
             yield (
                 "element",
-                f"an element of {p.element:g} m is longer than the line of {p.length:g} m",
+                f"an element of {p.element:g} m is longer than {whole} of {p.length / p.modules:g} m",
                 "Make it shorter.",
             )
 
     def expand(p, scene):
         """Masses, elements and connectors; the contacts come when the line is laid on a route."""
-        n = max(1, round(p.length / p.element))
-        each = p.length / n
-        free = each / (1 + p.tension / (p.hose.stiffness + p.core.stiffness))
+        mesh = cut(p.length, p.element, p.modules, p.graded)
+        n = mesh.elements
         children, joins = {}, []
         registration = scene.make(Registration)
         for i in range(n + 1):
-            share = each if 0 < i < n else each / 2
-            x = p.start + i * each
-            extra = p.connector_mass if i in (0, n) else 0.0
+            share, x = mesh.reach(i).length, p.start + mesh.places[i]
+            extra = p.connector_mass if i in mesh.connectors else 0.0
             children[f"hose_node[{i}]"] = scene.make(Mass, mass=p.hose.mass * share + extra, position=x)
             children[f"core_node[{i}]"] = scene.make(Mass, mass=p.core.mass * share, position=x)
-            if 0 < i < n:
+            if i in mesh.connectors:
+                joins.append((f"hose_node[{i}].flange", f"core_node[{i}].flange"))
+            else:
                 children[f"registration[{i}]"] = registration
                 joins.append((f"hose_node[{i}].flange", f"registration[{i}].hose"))
                 joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
-        for kind, layer, name in ((Hose, p.hose, "hose"), (Core, p.core, "core")):
-            damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
-            element = scene.make(kind, axial_stiffness=layer.stiffness, length=free, damping=damping)
-            for i in range(n):
-                children[f"{name}[{i}]"] = element
+        for (kind, more), layer, name in ((hose_kind(p), p.hose, "hose"), ((Core, {}), p.core, "core")):
+            made = {}
+            for i, each in enumerate(map(_tidy, mesh.lengths)):
+                if each not in made:
+                    made[each] = scene.make(kind, **_element(p, layer, each), **more)
+                children[f"{name}[{i}]"] = made[each]
                 joins.append((f"{name}[{i}].a", f"{name}_node[{i}].flange"))
                 joins.append((f"{name}[{i}].b", f"{name}_node[{i + 1}].flange"))
-        joins += [(f"hose_node[{i}].flange", f"core_node[{i}].flange") for i in (0, n)]
         ends = {"inboard": "hose_node[0].flange", "outboard": f"hose_node[{n}].flange"}
-        return Expansion(children, joins, ends, line=ArrayLine(n, each, p))
+        marks = bulkheads(mesh, p.bulkhead_pitch)
+        meter = Meter if p.meters == "on" else None
+        laid = LaidLine(mesh, p, "hose_node", ("hose", "core"), "core_node", marks, meter)
+        return Expansion(children, joins, ends, line=laid)
+
+
+def hose_kind(p):
+    """The class of hose elements, and what it is given besides."""
+    if p.ruck_force is None:
+        return Hose, {}
+    if p.ruck_stiffness == 1:
+        return WatchedHose, {"limit": p.ruck_force}
+    return RuckingHose, {"limit": p.ruck_force, "softening": p.ruck_stiffness}
+
+
+def _element(p, layer, each):
+    """Parameters of an element of a layer whose length under the starting tension is `each`."""
+    free = each / (1 + p.tension / (p.hose.stiffness + p.core.stiffness))
+    damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
+    return {"axial_stiffness": layer.stiffness, "length": free, "damping": damping}
+
+
+def _tidy(length):
+    """Without the rounding of differences, so that equal elements are told to be equal."""
+    return round(length, 12)

@@ -1,12 +1,12 @@
-"""How hard a node of a line is pressed against what it touches in a bend."""
+"""How hard a node of a line is pressed against what it touches."""
 
-from fairlead.component import Component, Input, Law, Output, Parameter, Table, Translational
+from fairlead.component import Component, Input, Law, Output, Parameter, Table, Translational, Zones, guard, zone
 
 
 class LateralLoad(Component):
     """Normal force of a node on a curved route: tension times curvature times length.
 
-    force = mean tension * curvature(s) * length
+    force = mean tension * curvature(s) * length + more
 
     The mean is over the elements on both sides (the one element at an end: `share` 1 instead of 1/2). The
     curvature of the route at the node's own position contains the window of the device, so that the sum
@@ -21,9 +21,71 @@ class LateralLoad(Component):
     hose_out = Input("N", "Hose tension on the outboard side.", default=0.0)
     core_in = Input("N", "Core tension on the inboard side.", default=0.0)
     core_out = Input("N", "Core tension on the outboard side.", default=0.0)
+    more = Input("N", "What presses besides.", default=0.0)
     force = Output("N", "Normal force.")
 
-    def law(p, flange, hose_in, hose_out, core_in, core_out):
+    def law(p, flange, hose_in, hose_out, core_in, core_out, more):
         """A signal only; the contact makes friction of it."""
         tension = p.share * (hose_in + hose_out + core_in + core_out)
-        return Law(flange=0, force=tension * p.curvature(flange.x) * p.length)
+        return Law(flange=0, force=tension * p.curvature(flange.x) * p.length + more)
+
+
+class RoundLoad(LateralLoad):
+    """The same inside a tube, which holds the line from all sides: a line in compression rides the outer wall.
+
+    force = |mean tension| * curvature(s) * length + more
+    """
+
+    zones = Zones("inner", "outer")
+
+    @zone("inner", "outer")
+    def law(p, flange, hose_in, hose_out, core_in, core_out, more, zone):
+        """The wall it rides on decides the sign."""
+        wall = 1 if zone == "inner" else -1
+        tension = p.share * (hose_in + hose_out + core_in + core_out)
+        return Law(flange=0, force=wall * tension * p.curvature(flange.x) * p.length + more)
+
+    @guard("inner", to="outer", unit="N")
+    def is_pushed(p, hose_in, hose_out, core_in, core_out):
+        """Compression."""
+        return -p.share * (hose_in + hose_out + core_in + core_out)
+
+    @guard("outer", to="inner", unit="N")
+    def is_pulled(p, hose_in, hose_out, core_in, core_out):
+        """Tension."""
+        return p.share * (hose_in + hose_out + core_in + core_out)
+
+
+class PressedLoad(Component):
+    """What presses on a node whatever its tension: its weight on a guide, a tight tube.
+
+    force = load(s) * length + more
+    """
+
+    flange = Translational("the node, whose position along the route counts")
+    load = Table("m", "N/m", "Load per length times window along the route.")
+    length = Parameter("m", "Length of line that belongs to the node.", above=0)
+    more = Input("N", "What presses besides.", default=0.0)
+    force = Output("N", "Normal force.")
+
+    def law(p, flange, more):
+        """A signal only."""
+        return Law(flange=0, force=p.load(flange.x) * p.length + more)
+
+
+class ClampLoad(Component):
+    """What the belts of a deployer press on a node.
+
+    force = pressing * window(s) * length + more
+    """
+
+    flange = Translational("the node, whose position along the route counts")
+    window = Table("m", "1", "Share of the node that lies in the clamp, over its place.")
+    length = Parameter("m", "Length of line that belongs to the node.", above=0)
+    pressing = Input("N/m", "Load of the belts, per length.", default=0.0)
+    more = Input("N", "What presses besides.", default=0.0)
+    force = Output("N", "Normal force.")
+
+    def law(p, flange, pressing, more):
+        """A signal only."""
+        return Law(flange=0, force=pressing * p.window(flange.x) * p.length + more)

@@ -24,3 +24,7 @@ class Bend(Station):
     def bend_radius(p):
         """The radius."""
         return p.radius
+
+    def rubs(p):
+        """The surface of the bend."""
+        return p.friction

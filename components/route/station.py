@@ -1,24 +1,74 @@
 """Devices along a route: the family of stations."""
 
-from fairlead.component import Parameter
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairlead.component import Name, Parameter
 from fairlead.component.base import Family
+
+
+@dataclass(frozen=True)
+class Machinery:
+    """The bodies of a device that moves: what stands below `route.<name>` when it is expanded.
+
+    `surface` is the flange that moves with the surface the line touches; `clamp` the output that gives the load
+    with which a device squeezes the line [N/m]. `ports` and `outputs` give inner ones an outer name.
+    """
+
+    children: dict[str, Any]
+    joins: tuple[tuple[str, ...], ...] = ()
+    ports: dict[str, str] = field(default_factory=dict)
+    outputs: dict[str, str] = field(default_factory=dict)
+    surface: str = ""
+    clamp: str = ""
+    total: str = ""  # port that is told the load of every node on the device
 
 
 class Station(Family, abstract=True):
     """A device on [start, start + extent()] of the route; what it does, its members say.
 
-    The window rises from 0 to 1 over the edge length round each border. With the edge a whole multiple of
-    the element the sum of the windows over a travelling line is constant; the default is one element.
+    A device without `start` begins where the one before it ends, so a route is a list of lengths, of positions,
+    or of both. How much of a node is in a device is the share of its piece of line that lies inside; `edge`
+    replaces that by a piece of another length.
     """
 
     key = "type"
-    start = Parameter("m", "Where the device begins.")
-    edge = Parameter("m", "Length over which it takes hold; one element when not given.", default=None, above=0)
+    name = Name("What the device is called: route.<name>; its type in small letters when not given.", default=None)
+    start = Parameter("m", "Where the device begins; at the end of the one before when not given.", default=None)
+    edge = Parameter("m", "Length over which it takes hold of a node; its own piece of line when not given.",
+                     default=None, above=0)  # fmt: skip
+    slope = Parameter("rad", "How steeply the route goes down towards the sea.", default=0.0)
 
     def extent(p):
         """Length of the device along the route [m]."""
         raise NotImplementedError
 
+    def span(p, start):
+        """Where the device begins and ends [m]; either may be infinite."""
+        return start, start + p.extent()
+
     def bend_radius(p):
         """Radius of the route inside [m]; None when straight."""
+        return None
+
+    def rubs(p):
+        """Curve of friction of the surface; None when the line touches nothing."""
+        return None
+
+    def all_round(p):
+        """True when the line is held from all sides, so that a line in compression presses too."""
+        return False
+
+    def bears_weight(p):
+        """True when the line lies on it."""
+        return False
+
+    def squeeze(p):
+        """Load with which it presses on the line all round [N/m]."""
+        return 0.0
+
+    def machinery(p, scene):
+        """The bodies that move; None for a device that stands."""
         return None

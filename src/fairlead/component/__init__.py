@@ -10,6 +10,7 @@ from fairlead.component.declare import (
     Hydraulic,
     Input,
     Law,
+    Name,
     Output,
     Parameter,
     Part,
@@ -17,6 +18,7 @@ from fairlead.component.declare import (
     Rotational,
     State,
     Stations,
+    Summing,
     Table,
     Translational,
     Unknown,
@@ -33,7 +35,7 @@ from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tan
 
 __all__ = [
     "Block", "Choice", "Component", "Composite", "Count", "Declared", "Discrete", "Electrical", "Expansion", "Family",
-    "Hydraulic", "Input", "Law", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Table",
-    "Translational", "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "derived_wave", "exp", "guard", "hold",
+    "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations",
+    "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "derived_wave", "exp", "guard", "hold",
     "log", "pi", "sampled", "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

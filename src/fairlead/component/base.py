@@ -30,6 +30,7 @@ from fairlead.component.declare import (
     Guard,
     Input,
     Law,
+    Name,
     Output,
     Parameter,
     Part,
@@ -45,7 +46,7 @@ from fairlead.component.declare import (
 )  # fmt: skip
 from fairlead.quantities import QuantityError, parse_unit
 
-PARAMETER_KINDS = (Parameter, Choice, Count, Part, Block, Table, Waveform, Stations)
+PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
 METHODS = ("law", "inertia", "start", "ties", "stored", "dissipated", "supplied", "expand", "check", "prescribes")
 LEDGER = ("dissipated", "supplied", "stored")
 RESERVED = {"type", "given", "variant", "path"}  # attributes of `values.Values` that would hide a parameter

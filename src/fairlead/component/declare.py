@@ -41,6 +41,7 @@ TRANSLATIONAL = Domain("translational", (("x", "m"), ("v", "m/s")), ("force", "N
 ROTATIONAL = Domain("rotational", (("angle", "rad"), ("speed", "rad/s")), ("torque", "N*m"), "acceleration")
 HYDRAULIC = Domain("hydraulic", (("pressure", "Pa"),), ("flow", "m^3/s"))
 ELECTRICAL = Domain("electrical", (("voltage", "V"),), ("current", "A"))
+SUM = Domain("sum", (("total", "N"),), ("share", "N"))
 PATH = Domain("path", (), ("", ""))
 
 
@@ -71,6 +72,11 @@ def Hydraulic(doc: str = "", *, optional: bool = False) -> Any:
 def Electrical(doc: str = "", *, optional: bool = False) -> Any:
     """A terminal: voltage [V]; takes in a current [A]."""
     return Port(ELECTRICAL, doc, optional)
+
+
+def Summing(doc: str = "") -> Any:
+    """Adds up signals of many components, such as the loads of all nodes on a wheel: `total` [N] is their sum."""
+    return Port(SUM, doc)
 
 
 def Path(doc: str = "") -> Any:
@@ -165,6 +171,14 @@ class Count:
     default: Any = REQUIRED
     least: int = 1
     most: int = 1_000_000
+
+
+@dataclass(frozen=True)
+class Name:
+    """A lower_snake name by which something is spoken of, such as a device of a route; never seen by a law."""
+
+    doc: str = ""
+    default: Any = REQUIRED
 
 
 @dataclass(frozen=True)

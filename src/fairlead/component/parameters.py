@@ -12,6 +12,7 @@ from __future__ import annotations
 import functools
 import operator
 import pathlib
+import re
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, cast
 
@@ -23,6 +24,7 @@ from fairlead.component.declare import (
     Block,
     Choice,
     Count,
+    Name,
     Parameter,
     Part,
     Stations,
@@ -36,6 +38,7 @@ from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import si, wanted
 
+NAME = re.compile(r"^[a-z][a-z0-9_]{0,59}$")
 STRICT = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, hide_input_in_errors=True)
 
 
@@ -112,6 +115,8 @@ def _field(declared: Any) -> tuple[Any, Any]:
         kind = Literal[declared.options]
     elif isinstance(declared, Count):
         kind = Annotated[int, BeforeValidator(_whole), Field(ge=declared.least, le=declared.most)]
+    elif isinstance(declared, Name):
+        kind = Annotated[str, BeforeValidator(_named), _Schema({"type": "string", "pattern": NAME.pattern})]
     elif isinstance(declared, Part):
         kind = family_type(declared.family)
     elif isinstance(declared, Block):
@@ -163,6 +168,13 @@ def _Schema(schema: dict[str, Any]) -> Any:
     return WithJsonSchema(schema)
 
 
+def _named(value: Any) -> str:
+    """A lower_snake name. Raises ValueError for anything else."""
+    if not isinstance(value, str) or not NAME.match(value):
+        raise ValueError("write a name of small letters, digits and underscores")
+    return value
+
+
 def _whole(value: Any) -> Any:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
@@ -199,16 +211,41 @@ def _block(declared: Block, value: BaseModel) -> dict[str, Any]:
 def _contradictions(
     kind: type[Declared], values: Values, raw: Mapping[str, Value], path: str, where: Location
 ) -> list[Fault]:
-    """What the class's own `check(p)` says: (parameter, what is wrong, way out)."""
+    """What the class's own `check(p)` says: (parameter, what is wrong, way out).
+
+    A parameter may be a path such as `stations[2].start`.
+    """
     check = getattr(kind, "check", None)
     faults = []
     for name, what, way_out in check(values) if check else ():
-        place = raw[name].where if name in raw else where
+        place = _place(raw, name, where)
         faults.append(Fault(place, f"{path}{'.' + name if name else ''}: {what.removesuffix('.')}.", way_out))
     for name, value in values.given.items():
-        if isinstance(value, Values):
-            inner = raw[name].entries if name in raw else {}
-            faults += _contradictions(
-                value.type, value, inner, f"{path}.{name}", raw[name].where if name in raw else where
-            )
+        several = isinstance(value, list)
+        parts = [(f"{name}[{k}]", one) for k, one in enumerate(value)] if several else [(name, value)]
+        for inner_path, one in parts:
+            if isinstance(one, Values):
+                node = _node(raw, inner_path)
+                inner, place = (node.entries, node.where) if node else ({}, where)
+                faults += _contradictions(one.type, one, inner, f"{path}.{inner_path}", place)
     return faults
+
+
+def _place(raw: Mapping[str, Value], path: str, where: Location) -> Location:
+    """Where a parameter stands, or else the nearest of what it stands in."""
+    words = path.replace("[", ".[").split(".")
+    found = (_node(raw, ".".join(words[:k]).replace(".[", "[")) for k in range(len(words), 0, -1))
+    return next((node.where for node in found if node is not None), where)
+
+
+def _node(raw: Mapping[str, Value], path: str) -> Value | None:
+    """The value at a path such as `stations[2].start`; None when nothing is written there."""
+    node: Value | None = None
+    for step in path.replace("[", ".").replace("]", "").split("."):
+        if node is not None and isinstance(node.content, list):
+            node = node.content[int(step)] if step.isdigit() and int(step) < len(node.content) else None
+        else:
+            node = (raw if node is None else node.entries).get(step)
+        if node is None:
+            return None
+    return node

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterable, Iterator
 
-from sympy import sympify
+from sympy import Expr, sympify
 
 from fairlead.component.base import METHODS, Declared
 from fairlead.component.declare import Choice
@@ -47,7 +47,7 @@ def functions(kind: type[Declared], indent: int = 2) -> list[str]:
             value, reads = trace_function(variant, function, *(symbol(f"own:{n}") for n in arguments))
         except TraceError:
             continue
-        if value is not None:
+        if isinstance(value, int | float | Expr) and not isinstance(value, bool):
             said = formula(tables_as_functions(sympify(value), reads), {})
             rows.append((f"{name}({', '.join(arguments)}) = {said}", first_line(function)))
     return columns(rows, indent)

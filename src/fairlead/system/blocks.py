@@ -147,8 +147,8 @@ def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: 
     rate = numbering.rate.get(index)
     if group.free and (variable in "AR" or (variable != "x" and rate is None)):
         return numbering.zero, 0.0, 0.0
-    if variable == "R":
-        return numbering.first_reaction + numbering.reactions[index], 1.0, 0.0
+    if variable == "R":  # the group's, at a port that moves `ratio` times as far
+        return numbering.first_reaction + numbering.reactions[index], 1 / ratio, 0.0
     if group.free:
         if variable == "x":
             return numbering.position[index], ratio, offset

@@ -14,6 +14,7 @@ from fairlead.component.declare import (
     Choice,
     Count,
     Input,
+    Name,
     Output,
     Parameter,
     Part,
@@ -109,6 +110,8 @@ def _allowed(declared: Any) -> str:
         return " | ".join(declared.options)
     if isinstance(declared, Count):
         return f"whole number, {declared.least} to {declared.most}"
+    if isinstance(declared, Name):
+        return "name"
     if isinstance(declared, Part):
         return f"{declared.family.__name__}, see below"
     if isinstance(declared, Stations):

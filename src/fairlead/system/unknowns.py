@@ -152,10 +152,11 @@ def reaction_masses(flat: FlatModel, numbering: Numbering) -> list[tuple[int, fl
     """(reaction, mass, where its acceleration lies in z) of every prescribed group."""
     found = []
     for index, row in numbering.reactions.items():
-        prescribed, a = flat.groups[index].prescribed, numbering.zero
+        prescribed, a, ratio = flat.groups[index].prescribed, numbering.zero, 1.0
         if prescribed is not None and prescribed.outputs is not None:
             a = numbering.n + numbering.signals[PortRef(prescribed.by.instance, prescribed.outputs[2])]
-        found.append((row, flat.groups[index].mass, a))
+            _, ratio, _ = flat.place(prescribed.by)
+        found.append((row, flat.groups[index].mass / ratio, a))  # the source tells its own acceleration
     return found
 
 

@@ -1,0 +1,89 @@
+"""A line of one layer: a cable, a rope, or an array that carries its load in the hose."""
+
+from __future__ import annotations
+
+import math
+
+from fairlead.components.line.core_element import Core
+from fairlead.components.line.hose_element import Hose
+from fairlead.components.line.laid_line import LaidLine
+from fairlead.components.line.mesh import cut
+from fairlead.components.line.meter import Meter
+from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
+from fairlead.components.mechanics.mass import Mass
+
+from fairlead.component import Choice, Composite, Count, Expansion, Parameter, Path, Table, Translational
+
+
+class Cable(Composite):
+    """Line of one layer; nodes travel along the route, devices stand.
+
+    line[i]                     elements between node i and i+1, i = 0 at the inboard end
+    node[i]                     masses
+    outer[i], outer_NAME[i]     contacts with the standing devices of the route, and with each that moves
+
+    `compression: none` is a rope, which cannot push; `carried` a stiff cable or a crustacean array, whose strength is
+    in the hose and which has no bulkheads; it may be watched for rucking. Bending stiffness is left out.
+    """
+
+    inboard = Translational("inboard end")
+    outboard = Translational("outboard end")
+    path = Path("the route the line runs along")
+    length = Parameter("m", "Length at the start, under the tension it has there.", above=0)
+    modules = Count("How many pieces of equal length, joined by connectors.", default=1)
+    element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0)
+    graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None)
+    start = Parameter("m", "Position of the inboard end along the route at the start.", default=0.0)
+    tension = Parameter("N", "Uniform tension at the start.", default=0.0, least=0)
+    connector_mass = Parameter("kg", "Mass of each end connector.", default=0.0, least=0)
+    diameter = Parameter("m", "Outside diameter.", default=0.02, above=0)
+    weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)
+    bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0)
+    mass = Parameter("kg/m", "Mass per length.", above=0)
+    stiffness = Parameter("N", "EA, tension per strain.", above=0)
+    damping_ratio = Parameter("1", "Damping of an element relative to critical.", default=0.05, least=0)
+    compression = Choice(("none", "carried"), "Whether the line can push.", default="none")
+    ruck_force = Parameter("N", "Compression above which it rucks, if it can push; not watched when not given.",
+                           default=None, above=0)  # fmt: skip
+    ruck_stiffness = Parameter("1", "Stiffness while it rucks, over that before.", default=1.0, above=0, most=1)
+    meters = Choice(("on", "off"), "Scuffing length and friction work of every contact, as states.", default="off")
+
+    def check(p):
+        """An element is no longer than the line; only what can push can ruck."""
+        if p.element > p.length / p.modules:
+            what = f"an element of {p.element:g} m is longer than the line of {p.length / p.modules:g} m"
+            yield "element", what, "Make it shorter."
+        if p.ruck_force is not None and p.compression == "none":
+            yield "ruck_force", "a line that cannot push cannot ruck", "Leave it out, or write compression: carried."
+
+    def expand(p, scene):
+        """Masses and elements; the contacts come when the line is laid on a route."""
+        mesh = cut(p.length, p.element, p.modules, p.graded)
+        n, made = mesh.elements, {}
+        children, joins = {}, []
+        for i in range(n + 1):
+            extra = p.connector_mass if i in mesh.connectors else 0.0
+            mass = p.mass * mesh.reach(i).length + extra
+            children[f"node[{i}]"] = scene.make(Mass, mass=mass, position=p.start + mesh.places[i])
+        for i, each in enumerate(round(length, 12) for length in mesh.lengths):
+            if each not in made:
+                made[each] = _element(p, scene, each)
+            children[f"line[{i}]"] = made[each]
+            joins.append((f"line[{i}].a", f"node[{i}].flange"))
+            joins.append((f"line[{i}].b", f"node[{i + 1}].flange"))
+        ends = {"inboard": "node[0].flange", "outboard": f"node[{n}].flange"}
+        meter = Meter if p.meters == "on" else None
+        return Expansion(children, joins, ends, line=LaidLine(mesh, p, "node", ("line",), meter=meter))
+
+
+def _element(p, scene, each):
+    """An element whose length under the starting tension is `each`."""
+    damping = 2 * p.damping_ratio * math.sqrt(p.stiffness / each * p.mass * each)
+    given = {"axial_stiffness": p.stiffness, "length": each / (1 + p.tension / p.stiffness), "damping": damping}
+    if p.compression == "none":
+        return scene.make(Core, **given)
+    if p.ruck_force is None:
+        return scene.make(Hose, **given)
+    if p.ruck_stiffness == 1:
+        return scene.make(WatchedHose, **given, limit=p.ruck_force)
+    return scene.make(RuckingHose, **given, limit=p.ruck_force, softening=p.ruck_stiffness)

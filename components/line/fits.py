@@ -1,0 +1,85 @@
+"""Whether a line fits a route: told with numbers before the run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from fairlead.components.line.mesh import finest
+from fairlead.components.route.placing import Placed, slits
+
+from fairlead.errors import Fault, Location
+
+SHARPEST, ADVISED = 0.5, 0.25  # rad per element; above about 0.25 the capstan error of the mesh shows
+FEWEST = 2  # elements on a device that is to be seen by the mesh at all; five nodes are advised
+
+
+def fits(assembly: Any, line: Any, laid: Any, route: Any) -> list[Fault]:
+    """Faults of a line on a route: no devices, elements too coarse, bends too tight, a drum too small."""
+    placed = route.line.placed
+    if not placed:
+        return [Fault(route.where, f"{route.path}.stations is empty.", "Give at least one device.")]
+    found = []
+    for one in placed:
+        where = _where(assembly, route, one)
+        name = f"{route.path}.{one.name}"
+        found += [Fault(where, f"{name}: {what}.", way) for what, way in _device(one, line, laid)]
+    shortest = finest(line.mesh)
+    for before, after, gap in slits(placed, shortest):
+        what = f"{route.path}.{after.name} begins {gap:.3g} m after {before.name} ends, less than an element"
+        way_out = f"Let it begin at {before.end:g} m, or leave at least {shortest:.3g} m between them."
+        found.append(Fault(_where(assembly, route, after), f"{what} ({shortest:.3g} m).", way_out))
+    return found
+
+
+def _device(one: Placed, line: Any, laid: Any) -> Iterator[tuple[str, str]]:
+    """What is wrong between a line and one device, and the way out."""
+    p, shortest, radius = line.values, finest(line.mesh), one.station.bend_radius()
+    if radius:
+        turn = shortest / radius
+        if turn > SHARPEST:
+            yield (
+                f"an element of {shortest:g} m turns through {turn:.2g} rad in a radius of {radius:g} m",
+                f"Use elements of at most {ADVISED * radius:.3g} m ({ADVISED:g} rad): "
+                f"{math.ceil((one.end - one.begin) / (ADVISED * radius))} on this device.",
+            )
+        if p.bend_radius is not None and radius < p.bend_radius:
+            yield (
+                f"its radius of {radius:g} m is tighter than {laid.path} allows, {p.bend_radius:g} m",
+                "Use a larger radius, or a line that may be bent more.",
+            )
+    extent = one.end - one.begin
+    if one.station.rubs() is not None and extent < FEWEST * shortest:
+        yield (
+            f"it is {extent:.3g} m long, shorter than {FEWEST} elements of {shortest:.3g} m",
+            f"Use elements of at most {extent / FEWEST:.3g} m; {extent / 4:.3g} m puts five nodes on it.",
+        )
+    if one.station.edge is not None and math.isfinite(extent) and extent < one.station.edge:
+        yield f"it is {extent:.3g} m long, shorter than its edge of {one.station.edge:.3g} m", "Use a shorter edge."
+    if one.station.type.word == "Winch" and one.station.layers == "on":
+        yield from _drum(one, p)
+
+
+def _drum(one: Placed, p: Any) -> Iterator[tuple[str, str]]:
+    """A drum that cannot take the line."""
+    layers, wanted = one.station.wound(), one.station.filled + p.length
+    if layers.wraps < 1:
+        yield (
+            f"its width of {layers.width:g} m takes no wrap of a line of {layers.diameter:g} m",
+            "Give a wider drum.",
+        )
+    elif one.station.height is not None and layers.capacity < wanted:
+        yield (
+            f"it takes {layers.capacity:.4g} m of line ({layers.most} layers of {layers.wraps} wraps), "
+            f"and the line has {wanted:.4g} m",
+            "Give a wider drum, higher flanges or a larger radius.",
+        )
+
+
+def _where(assembly: Any, route: Any, one: Placed) -> Location:
+    """Where the device stands in the netlist; the route itself when it was not written there."""
+    entry = assembly.netlist.components.get(route.path)
+    listed = entry.parameters.get("stations") if entry is not None else None
+    items = listed.content if listed is not None and isinstance(listed.content, list) else []
+    return items[one.number].where if one.number < len(items) else route.where

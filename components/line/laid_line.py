@@ -1,0 +1,240 @@
+"""A line laid on a route: every node gets its contacts with the devices, and what else acts on it there."""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from fairlead.components.line.fits import fits
+from fairlead.components.line.lateral_load import ClampLoad, LateralLoad, PressedLoad, RoundLoad
+from fairlead.components.line.laying import Laying
+from fairlead.components.line.line_weight import LineWeight
+from fairlead.components.line.mesh import Mesh
+from fairlead.components.route.bearing_load import Told
+from fairlead.components.route.drum import StoredNode, WoundNode
+from fairlead.components.route.route_line import RouteLine, Surface
+from fairlead.components.route.tow import SeaDrag, TailEnd
+from fairlead.components.route.window import Reach, Window, total
+
+from fairlead.errors import Fault
+
+FIXED_DEVICE = 1e9  # kg; what a body bound to a fixed device counts as
+SIDES = ("in", "out")
+
+
+@dataclass(frozen=True)
+class LaidLine:
+    """What a route must know of a line: its mesh, its bodies and what it is made of.
+
+    Children of the line: `outer`[i] is the body of a node that touches the devices, `inner`[i] the one inside it (a
+    body of its own at nodes that are no connectors), `layers`[k] the elements with their tensions, outer layer first.
+    `bulkheads` tells which nodes have a contact between the two, and for what piece of line.
+    """
+
+    mesh: Mesh
+    values: Any
+    outer: str
+    layers: tuple[str, ...]
+    inner: str = ""
+    bulkheads: dict[int, Reach] | None = None
+    meter: Any = None  # class of what counts slip and work of every contact
+
+    def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
+        """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""
+        faults = fits(assembly, self, line, route)
+        if faults:
+            return faults
+        add = _On(self, Laying(assembly, line), route.path, route.line)
+        for i in range(self.mesh.elements + 1):
+            if f"{line.path}.{self.outer}[{i}]" not in add.to.prescribed:  # friction could not change a given motion
+                add.node(i)
+        add.ends()
+        return []
+
+
+@dataclass(frozen=True)
+class _On:
+    """A line and the route it is laid on."""
+
+    line: LaidLine
+    to: Laying
+    path: str  # of the route
+    route: RouteLine
+
+    def node(self, i: int) -> None:
+        """Contacts and forces of one node."""
+        body, reach = f"{self.line.outer}[{i}]", self.line.mesh.reach(i)
+        two = bool(self.line.inner) and i not in self.line.mesh.connectors
+        bulkhead = (self.line.bulkheads or {}).get(i) if two else None
+        squeezed = self.clamps(i, body, reach)
+        slots = [self.contact(surface, i, body, reach, squeezed) for surface in self.route.surfaces]
+        if bulkhead is not None:
+            self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
+        bodies = [body] + ([f"{self.line.inner}[{i}]"] if two else [])
+        for one in bodies:
+            self.storage(i, one)
+            self.weight(i, one, reach, bodies)
+        self.drag(i, body, reach)
+
+    def contact(self, surface: Surface, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
+        """Loads and contact of a node with one surface; returns the name of the contact."""
+        name = f"outer_{surface.name}" if surface.name else "outer"
+        load, told = "", [one.name for one, _ in surface.devices]
+        pressed = surface.pressed(self.line.values.weight)
+        if pressed:
+            load = self.to.child(f"{name}_pressed[{i}]", PressedLoad, load=self.table(reach, *pressed), length=reach.length)
+            self.to.join(f"{load}.flange", f"{body}.flange")
+        for one in told:
+            if one in squeezed:
+                load = squeezed[one]
+        if surface.curved():
+            kind = RoundLoad if surface.all_round else LateralLoad
+            load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, surface.curved(), self.line.layers, load)
+        inner = f"{self.line.inner}[{i}]"
+        masses = {"partner_mass_b": self.to.mass(inner)} if self.line.inner and i not in self.line.mesh.connectors else {}
+        self.to.contact(f"{name}[{i}]", f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
+        self.meter(f"{name}[{i}]")
+        total_of = self.route.machinery[surface.name].total if surface.name in self.route.machinery else ""
+        if total_of:
+            tells = self.to.child(f"{name}_tells[{i}]", Told)
+            self.to.join(f"{load}.force", f"{tells}.value")
+            self.to.join_to(f"{tells}.sum", f"{self.path}.{surface.name}.{total_of}")
+        return f"{name}[{i}]"
+
+    def inner_contact(self, i: int, body: str, reach: Reach, clamped: str, slots: list[str]) -> None:
+        """Bulkhead on hose: pressed by the tension of the core in bends, and by clamps."""
+        core, load = f"{self.line.inner}[{i}]", clamped
+        curved = [one.window(one.curvature) for one in self.route.placed if one.curvature]
+        if curved:
+            layers = self.line.layers[1:]
+            load = self.tension_load(f"inner_load[{i}]", LateralLoad, i, core, reach, curved, layers, clamped)
+        if not load:
+            return
+        masses = {"partner_mass_a": FIXED_DEVICE}
+        path = f"{self.to.line.path}.{body}.flange"
+        self.to.contact(f"inner[{i}]", path, core, load, self.line.values.bulkhead_friction, masses)
+        self.meter(f"inner[{i}]")
+        if slots:
+            self.to.exchange(slots[0], "bound_b", f"inner[{i}]")
+            self.to.exchange(f"inner[{i}]", "bound_a", slots[0])
+
+    def meter(self, contact: str) -> None:
+        """What counts slip and work, if the line wants it."""
+        if self.line.meter is not None:
+            name, _, number = contact.partition("[")
+            meter = self.to.child(f"{name}_meter[{number}", self.line.meter)
+            self.to.join(f"{contact}.slip", f"{meter}.slip")
+            self.to.join(f"{contact}.friction", f"{meter}.friction")
+
+    def tension_load(
+        self, name: str, kind: Any, i: int, body: str, reach: Reach, curved: list[Window],
+        layers: tuple[str, ...], more: str,
+    ) -> str:  # fmt: skip
+        """A load fed by the tensions of the elements on both sides."""
+        beside = self.line.mesh.neighbours(i)
+        table = self.table(reach, *curved)
+        load = self.to.child(name, kind, curvature=table, length=reach.length, share=1 / len(beside))
+        self.to.join(f"{load}.flange", f"{body}.flange")
+        for layer, entry in zip(layers, ("hose", "core")[-len(layers) :], strict=True):
+            for element in beside:
+                self.to.join(f"{layer}[{element}].tension", f"{load}.{entry}_{SIDES[element - i + 1]}")
+        if more:
+            self.to.join(f"{more}.force", f"{load}.more")
+        return load
+
+    def clamps(self, i: int, body: str, reach: Reach) -> dict[str, str]:
+        """Load of every clamping device on a node, by its name."""
+        made = {}
+        for one, output in self.route.squeezing():
+            window = self.table(reach, one.window())
+            load = self.to.child(f"clamp_{one.name}[{i}]", ClampLoad, window=window, length=reach.length)
+            self.to.join(f"{load}.flange", f"{body}.flange")
+            self.to.join_to(f"{load}.pressing", f"{self.path}.{output}")
+            made[one.name] = load
+        return made
+
+    def all_clamps(self, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
+        """What squeezes a bulkhead: of one clamp the load on its node, of several their chain; tubes too."""
+        tubes = [one.window(one.station.squeeze()) for one in self.route.placed if one.station.squeeze()]
+        if len(squeezed) <= 1 and not tubes and reach == self.line.mesh.reach(i):
+            return next(iter(squeezed.values()), "")
+        load = ""
+        if tubes:
+            load = self.to.child(f"inner_pressed[{i}]", PressedLoad, load=self.table(reach, *tubes), length=reach.length)
+            self.to.join(f"{load}.flange", f"{body}.flange")
+        for one, output in self.route.squeezing():
+            window = self.table(reach, one.window())
+            again = self.to.child(f"inner_clamp_{one.name}[{i}]", ClampLoad, window=window, length=reach.length)
+            self.to.join(f"{again}.flange", f"{body}.flange")
+            self.to.join_to(f"{again}.pressing", f"{self.path}.{output}")
+            if load:
+                self.to.join(f"{load}.force", f"{again}.more")
+            load = again
+        return load
+
+    def storage(self, i: int, body: str) -> None:
+        """The bond with the drum."""
+        for one in self.route.of_type("Winch"):
+            made, station = self.route.machinery[one.name], one.station
+            given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
+            name = f"stored_{body.partition('_')[0]}[{i}]" if self.line.inner else f"stored[{i}]"
+            if station.layers == "off":
+                stored = self.to.child(name, StoredNode, **given)
+                self.to.join_to(f"{stored}.rim", f"{self.path}.{one.name}.{made.surface}")
+            else:
+                stored = self.to.child(name, WoundNode, **given)
+                self.to.join_to(f"{stored}.drum", f"{self.path}.{one.name}.{made.surface}")
+                self.to.join_to(f"{stored}.radius", f"{self.path}.{one.name}.layers.radius_now")
+            self.to.join(f"{stored}.node", f"{body}.flange")
+
+    def weight(self, i: int, body: str, reach: Reach, bodies: list[str]) -> None:
+        """Weight along the slope, divided between the layers by mass."""
+        weight = self.line.values.weight
+        steep = [one for one in self.route.placed if one.station.slope]
+        if not weight or not steep:
+            return
+        share = self.to.mass(body) / sum(map(self.to.mass, bodies))
+        windows = [one.window(weight * share * math.sin(one.station.slope)) for one in steep]
+        name = f"weight_{body.partition('_')[0]}[{i}]" if self.line.inner else f"weight[{i}]"
+        child = self.to.child(name, LineWeight, fall=self.table(reach, *windows), length=reach.length)
+        self.to.join(f"{child}.node", f"{body}.flange")
+
+    def drag(self, i: int, body: str, reach: Reach) -> None:
+        """Drag of the sea."""
+        for one in self.route.of_type("Sea"):
+            if one.station.form == "distributed" and one.station.drag_coefficient > 0:
+                per_length = one.station.per_length(self.line.values.diameter)
+                window = self.table(reach, one.window())
+                child = self.to.child(f"drag[{i}]", SeaDrag, window=window, per_length=per_length, length=reach.length)
+                self.to.join(f"{child}.node", f"{body}.flange")
+                self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
+
+    def ends(self) -> None:
+        """What pulls at the outboard end; and how much lies on the drum at the start."""
+        p, last = self.line.values, self.line.mesh.elements
+        for one in self.route.of_type("Sea"):
+            s = one.station
+            lumped = s.form == "lumped"
+            beyond = s.beyond if lumped else 0.0
+            child = self.to.child(
+                "tail", TailEnd, tail=s.tail, drogue=0.5 * s.density * s.drogue, beyond=beyond, place=p.start + p.length,
+                per_length=s.per_length(p.diameter) if lumped else 0.0,
+            )  # fmt: skip
+            self.to.join(f"{child}.node", f"{self.line.outer}[{last}].flange")
+            self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
+        for one in self.route.of_type("Winch"):
+            if one.station.layers == "on":
+                wound = one.station.filled + max(one.end - p.start, 0.0)
+                drum = self.to.assembly.instances[f"{self.path}.{one.name}.layers"]
+                drum.values.given["radius"] = one.station.wound().over_angle(wound, one.station.crossover)
+
+    def table(self, reach: Reach, *windows: Window) -> Any:
+        """The sum of windows; the same table for all nodes of the same reach."""
+        return _table(windows, reach)
+
+
+@functools.lru_cache(maxsize=4096)
+def _table(windows: tuple[Window, ...], reach: Reach) -> Any:
+    return total(windows, reach)

@@ -1,0 +1,81 @@
+"""Adds children to a line that was expanded already, and joins them."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairlead.components.friction.contact import Contact
+
+from fairlead.component.declare import Input
+from fairlead.component.instantiate import Join, PortRef
+
+
+@dataclass(frozen=True)
+class Laying:
+    """The assembly, and the line whose children are added. Names of children are those below the line."""
+
+    assembly: Any
+    line: Any
+    shared: dict[Any, Any] = field(default_factory=dict)
+
+    def child(self, name: str, kind: type, **given: Any) -> str:
+        """Add a child of a type; returns its name."""
+        self.assembly.add(f"{self.line.path}.{name}", self.made(kind, **given), self.line.where)
+        return name
+
+    def contact(self, name: str, a: str, body: str, load: str, curve: Any, masses: dict[str, float]) -> None:
+        """A contact as the scene's friction block treats it, between the port `a` (a full path) and a body."""
+        scene = self.assembly.scene
+        declared = scene.member(Contact, {}).declaration.parameters
+        known = {key: value for key, value in masses.items() if key in declared}
+        self.child(name, Contact, curve=curve, **known)
+        self.join_to(f"{name}.a", a)
+        self.join(f"{body}.flange", f"{name}.b")
+        self.join(f"{load}.force", f"{name}.normal")
+
+    def made(self, kind: type, **given: Any) -> Any:
+        """Values of a child; equal children of a line share theirs."""
+        key = (kind, *((name, value if isinstance(value, float) else id(value)) for name, value in given.items()))
+        if key not in self.shared:
+            self.shared[key] = self.assembly.scene.make(kind, **given)
+        return self.shared[key]
+
+    def exchange(self, name: str, entry: str, other: str) -> None:
+        """Tell a contact whether the other one of its body is bound, if its treatment counts that."""
+        has = self.assembly.instances[f"{self.line.path}.{name}"]
+        counts = getattr(has.values, "applied_force", None) == "aggregate"
+        if counts and isinstance(has.type.declaration.inputs.get(entry), Input):
+            self.join(f"{other}.bound", f"{name}.{entry}")
+
+    def join(self, one: str, two: str) -> None:
+        """Connect two children."""
+        self._join(*(self._inner(text) for text in (one, two)))
+
+    def join_to(self, one: str, path: str) -> None:
+        """Connect a child with something outside the line, by its full path."""
+        instance, _, port = path.rpartition(".")
+        self._join(self._inner(one), PortRef(instance, port))
+
+    def _inner(self, text: str) -> PortRef:
+        child, _, port = text.rpartition(".")
+        return PortRef(f"{self.line.path}.{child}", port)
+
+    def _join(self, *refs: PortRef) -> None:
+        self.assembly.joins.append(Join(refs, self.line.where))
+
+    def mass(self, name: str) -> float:
+        """Mass of a node [kg]."""
+        return float(self.assembly.instances[f"{self.line.path}.{name}"].values.mass)
+
+    @functools.cached_property
+    def prescribed(self) -> set[str]:
+        """Paths of all instances that a motion source drives directly."""
+        instances = self.assembly.instances
+        driven = (
+            join.ports
+            for join in self.assembly.joins
+            if any(hasattr(instances[r.instance].type, "prescribes") for r in join.ports)
+        )
+        return {ref.instance for ports in driven for ref in ports}

@@ -1,0 +1,111 @@
+"""How a line is cut into elements: lengths, modules, bulkheads."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fairlead.components.route.window import Reach
+
+MOST_NODES = 200_000
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Places of the nodes along the line [m], from its inboard end; and which of them are connectors."""
+
+    places: tuple[float, ...]
+    connectors: frozenset[int]
+
+    @property
+    def elements(self) -> int:
+        """How many elements."""
+        return len(self.places) - 1
+
+    def length(self, element: int) -> float:
+        """Length of an element [m]."""
+        return self.places[element + 1] - self.places[element]
+
+    @property
+    def lengths(self) -> list[float]:
+        """Lengths of all elements [m]."""
+        return [self.length(k) for k in range(self.elements)]
+
+    def reach(self, node: int) -> Reach:
+        """The piece of line that a node stands for: half of each adjacent element."""
+        behind = self.length(node - 1) / 2 if node > 0 else 0.0
+        ahead = self.length(node) / 2 if node < self.elements else 0.0
+        return Reach(_tidy(behind), _tidy(ahead))
+
+    def neighbours(self, node: int) -> list[int]:
+        """Elements that meet at a node, inboard first."""
+        return [k for k in (node - 1, node) if 0 <= k < self.elements]
+
+
+def _tidy(length: float) -> float:
+    """Without the rounding of differences, so that equal elements are told to be equal."""
+    return round(length, 12)
+
+
+def cut(length: float, element: float, modules: int = 1, graded: Callable[[float], float] | None = None) -> Mesh:
+    """Equal elements near `element` in every module; with `graded(place)` elements of the length it gives there."""
+    module = length / modules
+    places, connectors = [0.0], {0}
+    for k in range(modules):
+        begin = k * module
+        inner = _equal(module, element) if graded is None else _graded(begin, module, graded)
+        places += [begin + x for x in inner]
+        connectors.add(len(places) - 1)
+    return Mesh(tuple(places), frozenset(connectors))
+
+
+def _equal(length: float, element: float) -> list[float]:
+    n = max(1, round(length / element))
+    return [length * k / n for k in range(1, n + 1)]
+
+
+def _graded(begin: float, length: float, graded: Callable[[float], float]) -> list[float]:
+    """March with the wanted length at the middle of each element, then fit the whole into the module."""
+    steps: list[float] = []
+    while (at := sum(steps)) < length * (1 - 1e-9) and len(steps) < MOST_NODES:
+        step = graded(begin + at)
+        steps.append(graded(begin + at + step / 2))
+    over = sum(steps) - length
+    if len(steps) > 1 and over > steps[-1] / 2:  # the last piece is nearer to nothing than to an element
+        steps.pop()
+    scale = length / sum(steps)
+    return list(itertools.accumulate(step * scale for step in steps))
+
+
+def bulkheads(mesh: Mesh, pitch: float | None) -> dict[int, Reach]:
+    """Nodes that have a bulkhead, and the piece of core that presses on it.
+
+    Without a pitch, or with one of at most an element, bulkheads are smeared: every node has its piece of them.
+    Else they sit at the nodes nearest to multiples of the pitch from the connectors.
+    """
+    inner = [node for node in range(mesh.elements + 1) if node not in mesh.connectors]
+    if pitch is None:
+        return {node: mesh.reach(node) for node in inner}
+    chosen: list[int] = []
+    for first, last in itertools.pairwise(sorted(mesh.connectors)):
+        begin, end = mesh.places[first], mesh.places[last]
+        count = max(1, round((end - begin) / pitch))
+        for k in range(1, count):
+            place = begin + (end - begin) * k / count
+            node = min(range(first + 1, last), key=lambda i: abs(mesh.places[i] - place), default=None)
+            if node is not None and node not in chosen:
+                chosen.append(node)
+    marks = sorted({*chosen, *mesh.connectors})
+    found = {}
+    for before, node, after in zip(marks, marks[1:], marks[2:], strict=False):
+        if node not in mesh.connectors:
+            here = mesh.places[node]
+            found[node] = Reach(_tidy((here - mesh.places[before]) / 2), _tidy((mesh.places[after] - here) / 2))
+    return found
+
+
+def finest(mesh: Mesh) -> float:
+    """Length of the shortest element [m]."""
+    return min(mesh.lengths, default=math.inf)

@@ -1,0 +1,95 @@
+"""Devices put in their places: names, positions, overlaps and slits."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from fairlead.components.route.window import Window
+
+TOUCHES = 1e-6  # m; ends that are this close are one place
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A device at its place on the route: `begin` and `end` [m] may be infinite at the ends of the route."""
+
+    name: str
+    number: int  # in the list of the netlist
+    station: Any
+    begin: float
+    end: float
+
+    def window(self, height: float = 1.0) -> Window:
+        """Its window, counting `height` per length."""
+        return Window(self.begin, self.end, height, self.station.edge)
+
+    @property
+    def curvature(self) -> float:
+        """1/m; 0 when straight."""
+        radius = self.station.bend_radius()
+        return 1 / radius if radius else 0.0
+
+
+def place(stations: Iterable[Any]) -> list[Placed]:
+    """Positions of all devices in the order of the list; one without `start` begins where the last ended."""
+    placed: list[Placed] = []
+    at = 0.0
+    for number, (name, station) in enumerate(zip(names(stations := list(stations)), stations, strict=True)):
+        start = at if station.start is None else station.start
+        begin, end = station.span(start)
+        placed.append(Placed(name, number, station, begin, end))
+        at = end if math.isfinite(end) else start
+    return placed
+
+
+def names(stations: Iterable[Any]) -> list[str]:
+    """Given names, else the type in small letters, with a number when there are several: bend_1, bend_2."""
+    stations = list(stations)
+    words = [station.name or station.type.word.lower() for station in stations]
+    many = {word for word, count in Counter(words).items() if count > 1}
+    seen: Counter[str] = Counter()
+    made = []
+    for station, word in zip(stations, words, strict=True):
+        seen[word] += 1
+        made.append(f"{word}_{seen[word]}" if word in many and station.name is None else word)
+    return made
+
+
+def misplaced(stations: Iterable[Any]) -> Iterator[tuple[str, str, str]]:
+    """(parameter, what is wrong, way out) for names given twice, devices that overlap, and slits between them."""
+    placed = place(stations)
+    for name, count in Counter(one.name for one in placed).items():
+        if count > 1:
+            again = [one.number for one in placed if one.name == name][1]
+            yield f"stations[{again}].name", f"{count} devices are called {name}", "Give each a name of its own."
+    ordered = sorted(placed, key=lambda one: (one.begin, one.end))
+    for before, after in itertools.pairwise(ordered):
+        gap = after.begin - before.end
+        if gap < -TOUCHES:
+            what = (
+                f"{after.name} begins at {after.begin:g} m, before {before.name} ends at {before.end:g} m: they "
+                f"overlap by {-gap:.3g} m"
+            )
+            yield f"stations[{after.number}]", what, "Move one of them, or leave out `start` to begin where it ends."
+    for one in placed:
+        if one.station.start is not None and one.number and _out_of_order(placed[one.number - 1], one):
+            what = f"{one.name} stands after {placed[one.number - 1].name} in the list, but lies inboard of it"
+            yield f"stations[{one.number}]", what, "List the devices from the winch to the sea."
+
+
+def _out_of_order(before: Placed, after: Placed) -> bool:
+    return after.end <= before.begin and after.begin < before.begin
+
+
+def slits(placed: Iterable[Placed], element: float) -> Iterator[tuple[Placed, Placed, float]]:
+    """Gaps between devices that are shorter than an element, so that a node is in both and in neither."""
+    ordered = sorted(placed, key=lambda one: (one.begin, one.end))
+    for before, after in itertools.pairwise(ordered):
+        gap = after.begin - before.end
+        if TOUCHES < gap < element:
+            yield before, after, gap

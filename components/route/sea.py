@@ -1,0 +1,48 @@
+"""The sea end of a route: drag along the line that is in the water, and what it tows."""
+
+import math
+
+from fairlead.components.route.station import Machinery, Station
+from fairlead.components.route.tow import Tow
+
+from fairlead.component import Choice, Parameter, Waveform
+
+WATER = 1025.0  # kg/m^3, sea water
+
+
+class Sea(Station):
+    """All of the line outboard of `start` is in the sea, which flows past at the speed of the ship.
+
+        drag per length = 1/2 rho C_t pi d |u| u,   u = speed - v      (v: speed of the line, outboard positive)
+
+    At the outboard end of the line pulls `tail` and a drogue, 1/2 rho drogue |u| u (drogue: C_D A).
+
+    `form: lumped` leaves the drag to the outboard end, for a line whose sea part is not modelled: `beyond` is the
+    length that is in the water outboard of the end at the start, and grows by what is paid out; its inertia
+    (mass per length times `beyond`, as at the start) is added to the end.
+    """
+
+    word = "Sea"
+    speed = Waveform("m/s", "Speed of the ship through the water.", default=0.0)
+    drag_coefficient = Parameter("1", "Tangential drag coefficient C_t.", default=0.003, least=0)
+    density = Parameter("kg/m^3", "Density of the water.", default=WATER, above=0)
+    tail = Parameter("N", "Steady pull at the end of the line.", default=0.0, least=0)
+    drogue = Parameter("m^2", "Drag area C_D A of a drogue at the end of the line.", default=0.0, least=0)
+    form = Choice(("distributed", "lumped"), "Where the drag acts.", default="distributed")
+    beyond = Parameter("m", "Line in the water outboard of the modelled end, if lumped.", default=0.0, least=0)
+
+    def extent(p):
+        """It takes no length of the route."""
+        return 0.0
+
+    def span(p, start):
+        """All that is outboard of it."""
+        return start, math.inf
+
+    def per_length(p, diameter):
+        """1/2 rho C_t pi d [kg/m^2]: drag per length and speed squared."""
+        return 0.5 * p.density * p.drag_coefficient * math.pi * diameter
+
+    def machinery(p, scene):
+        """The speed of the ship, one signal for all nodes."""
+        return Machinery({"tow": scene.make(Tow, speed=p.speed)}, outputs={"speed": "tow.through_water"})

@@ -1,0 +1,74 @@
+"""A winch drum: the inboard end of a route, on which the line is stored."""
+
+from __future__ import annotations
+
+import math
+
+from fairlead.components.route.drum import Drum
+from fairlead.components.route.drum_layers import Layers
+from fairlead.components.rotation.inertia import Inertia
+from fairlead.components.rotation.rack import Rack
+from fairlead.components.route.station import Machinery, Station
+
+from fairlead.component import Choice, Parameter
+
+
+class Winch(Station):
+    """A drum that takes up the line at `start`; what is inboard of it is stored, and locked to the drum.
+
+        line speed = R w       moment dw/dt = torque at the shaft + R (tension of the line at the drum)
+
+    Line on the drum moves with it, so that its strain stays as it was wound on, and comes off with it. The drum
+    takes hold of a node over `edge` (0.1 m); the bond is viscous, `lock` times slip, and so strong that what it lets
+    slip is nothing (1 kN: 0.01 mm/s).
+
+    `layers: off`  the radius does not change; `route.<name>.rim` is a flange that moves with the line, where a
+                   speed or a tension may be given. `on` takes `width` and the diameter of the line and grows the
+                   radius by layers: R_j = radius + d/2 + (j - 1) d (nested: times sqrt(3)/2), with a change from
+                   one to the next over `crossover`. `filled` is what is on the drum at the start beside the line
+                   of the model. The radius is that of the line's middle in the first layer when layers are off.
+    """
+
+    word = "Winch"
+    radius = Parameter("m", "Radius of the drum; of the middle of the line when it has no layers.", above=0)
+    moment = Parameter("kg*m^2", "Inertia of drum and drive at the shaft, without the line.", default=100.0, above=0)
+    layers = Choice(("off", "on"), "Whether the radius grows with what is wound on.", default="off")
+    width = Parameter("m", "Width between the flanges of the drum.", default=0.8, above=0)
+    height = Parameter("m", "Depth from the flange's edge to the drum; no limit when not given.", default=None, above=0)
+    packing = Choice(("nested", "stacked"), "How one layer lies on the other.", default="nested")
+    crossover = Parameter("rad", "Angle over which a layer changes to the next.", default=math.pi / 2, above=0)
+    filled = Parameter("m", "Line on the drum beside that of the model.", default=0.0, least=0)
+    lock = Parameter("N*s/m", "Bond of a stored node with the drum.", default=1e8, above=0)
+    line_diameter = Parameter("m", "Diameter that a layer takes.", default=0.085, above=0)
+
+    def extent(p):
+        """It takes no length of the route."""
+        return 0.0
+
+    def span(p, start):
+        """All that is inboard of it."""
+        return -math.inf, start
+
+    def wound(p):
+        """Layers of the drum."""
+        return Layers(p.radius, p.line_diameter, p.width, p.packing == "nested", p.height)
+
+    def machinery(p, scene):
+        """Drum with a rim, or with a radius that follows its angle."""
+        drum = scene.make(Inertia, moment=p.moment)
+        shown = {"rate": "drum.rate", "turned": "drum.turned"}
+        if p.layers == "off":
+            children = {"drum": drum, "rim": scene.make(Rack, radius=p.radius)}
+            ports = {"shaft": "drum.shaft", "rim": "rim.rack"}
+            return Machinery(children, (("drum.shaft", "rim.pinion"),), ports, shown, "rim.rack")
+        children = {"drum": drum, "layers": scene.make(Drum, radius=constant_radius(p))}
+        ports = {"shaft": "drum.shaft"}
+        joins = (("drum.shaft", "layers.shaft"),)
+        return Machinery(children, joins, ports, shown | {"radius": "layers.radius_now"}, "layers.shaft")
+
+
+def constant_radius(p):
+    """The radius over the angle when nothing more is wound than at the start; the line replaces it when laid."""
+    from fairlead.component.piecewise import constant
+
+    return constant(p.wound().radius_at(p.filled))
