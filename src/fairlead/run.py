@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import pathlib
 import signal
 import threading
@@ -124,11 +125,22 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid)
         with interrupted_between_blocks(watch):
             outcome = integrate(system, _engine_settings(netlist, settings), watch)
+        outcome = _explained(outcome, system)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
             summary["profile"] = _profile(system, outcome, compiled, time.perf_counter() - begun)
         directory.finish(_status(outcome), summary)
     return Result.open(path)
+
+
+def _explained(outcome: Outcome, system: System) -> Outcome:
+    """A run in which a controller in plain Python failed says so; it ended because nothing followed from that."""
+    for controller in system.controllers:
+        if isinstance(controller.failure, KeyboardInterrupt | SystemExit):
+            raise controller.failure
+        if controller.failure is not None:
+            return dataclasses.replace(outcome, status=Status.NOT_FINITE, sentence=controller.complaint)
+    return outcome
 
 
 def _patterns(netlist: Netlist) -> list[str]:

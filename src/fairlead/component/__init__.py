@@ -1,11 +1,13 @@
 """All that a component author imports: declarations, laws and the functions to write them with."""
 
 from fairlead.component.base import Component, Composite, Declared, Expansion, Family
+from fairlead.component.controller import Controller
 from fairlead.component.declare import (
     Block,
     Choice,
     Count,
     Discrete,
+    Effect,
     Electrical,
     Hydraulic,
     Input,
@@ -31,11 +33,25 @@ from fairlead.component.declare import (
     sampled,
     zone,
 )  # fmt: skip
-from fairlead.component.functions import atan, cos, exp, log, pi, sin, sqrt, tanh
+from fairlead.component.functions import (
+    atan,
+    clip,
+    cos,
+    exceeds,
+    exp,
+    greatest,
+    least,
+    log,
+    pi,
+    sin,
+    sqrt,
+    tanh,
+)  # fmt: skip
 
 __all__ = [
-    "Block", "Choice", "Component", "Composite", "Count", "Declared", "Discrete", "Electrical", "Expansion", "Family",
-    "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path", "Rotational", "State", "Stations",
-    "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan", "cos", "derived", "derived_wave", "exp", "guard", "hold",
-    "log", "pi", "sampled", "sin", "sqrt", "tanh", "zone",
+    "Block", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect", "Electrical",
+    "Expansion", "Family", "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path", "Rotational",
+    "State", "Stations", "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan", "clip", "cos",
+    "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "least", "log", "pi", "sampled", "sin",
+    "sqrt", "tanh", "zone",
 ]  # fmt: skip

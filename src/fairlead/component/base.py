@@ -27,6 +27,7 @@ from fairlead.component.declare import (
     Count,
     Derived,
     Discrete,
+    Effect,
     Guard,
     Input,
     Law,
@@ -49,7 +50,7 @@ from fairlead.quantities import QuantityError, parse_unit
 PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
 METHODS = ("law", "inertia", "start", "ties", "stored", "dissipated", "supplied", "expand", "check", "prescribes")
 LEDGER = ("dissipated", "supplied", "stored")
-RESERVED = {"type", "given", "variant", "path"}  # attributes of `values.Values` that would hide a parameter
+RESERVED = {"type", "given", "variant", "path", "effects"}  # attributes of `values.Values` that would hide a parameter
 
 
 class DeclarationError(TypeError):
@@ -69,9 +70,11 @@ class Declaration:
     discrete: dict[str, Discrete] = field(default_factory=dict)
     samples: dict[str, Sampled] = field(default_factory=dict)
     derived: dict[str, Derived] = field(default_factory=dict)
+    effects: dict[str, Effect] = field(default_factory=dict)
     zones: tuple[str, ...] = ("always",)
     laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
     guards: dict[str, Guard] = field(default_factory=dict)
+    python: bool = False  # its discrete variables are set by plain Python, see controller.py
 
     @property
     def arguments(self) -> set[str]:
@@ -162,8 +165,12 @@ def _collect(cls: type) -> Declaration:
         laws.update(dict.fromkeys(marked.zones, marked.law))
     if "law" in members and zones is None:
         laws["always"] = members["law"]
+    effects = of(Effect)
+    parameters = {name: one for name, one in of(PARAMETER_KINDS).items() if name not in effects}
+    if effects:  # written as a map of their own
+        parameters["effects"] = Block(effects, "What to leave out.")
     return Declaration(
-        ports=of(Port), parameters=of(PARAMETER_KINDS), inputs=of(Input), outputs=of(Output), states=of(State),
+        effects=effects, ports=of(Port), parameters=parameters, inputs=of(Input), outputs=of(Output), states=of(State),
         unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived),
         zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
     )  # fmt: skip
@@ -174,6 +181,7 @@ def _check(cls: type[Declared]) -> None:
     has = cls.declaration
     _check_units(cls)
     _check_named_numbers(cls)
+    _check_limits(cls)
     if issubclass(cls, Composite):
         _demand(cls, hasattr(cls, "expand"), "a Composite needs an expand(p) method")
         return
@@ -218,7 +226,7 @@ def _check_units(cls: type[Declared]) -> None:
 def _check_named_numbers(cls: type[Declared]) -> None:
     """Names of parameters; and starts and defaults that are given by such a name."""
     has = cls.declaration
-    known = {*has.parameters, *has.derived}
+    known = {*has.parameters, *has.derived, *has.effects} - ({"effects"} if has.effects else set())
     for name in RESERVED & known:
         _demand(cls, False, f"a parameter cannot be called {name!r}; p.{name} has a meaning of its own")
     starting: dict[str, State | Discrete] = {**has.states, **has.discrete}
@@ -228,6 +236,21 @@ def _check_named_numbers(cls: type[Declared]) -> None:
     for name, read in has.inputs.items():
         named = not isinstance(read.default, str) or read.default in known
         _demand(cls, named, f"{name!r} is {read.default!r} when nothing is connected, which is no parameter")
+
+
+def _check_limits(cls: type[Declared]) -> None:
+    """A limiting model can stand where the class stands, with what the class was given."""
+    has = cls.declaration
+    for name, effect in has.effects.items():
+        if effect.off is None:
+            continue
+        other: Declaration = effect.off.declaration  # type: ignore[attr-defined]
+        for kind in ("ports", "inputs", "outputs"):
+            mine, its = set(getattr(has, kind)), set(getattr(other, kind))
+            what = f"{name!r} off is {effect.off.__name__}, whose {kind} differ: {sorted(mine ^ its)}"
+            _demand(cls, mine == its, what)
+        more = {*other.parameters, *other.effects} - {*has.parameters, *has.effects}
+        _demand(cls, not more, f"{name!r} off is {effect.off.__name__}, which wants {sorted(more)} besides")
 
 
 def _check_arguments(cls: type, function: Callable[..., Any], allowed: Iterable[str]) -> None:
@@ -269,6 +292,9 @@ def terms_of(cls: type[Declared], said: Any) -> dict[str, Any]:
 
 
 def _passive(cls: type[Declared]) -> set[str]:
-    """Ports whose flow is settled elsewhere: prescribed motion takes whatever comes, ties pass it on."""
+    """Ports whose flow is settled elsewhere: prescribed motion takes whatever comes, ties pass it on.
+
+    A controller in plain Python only looks at its ports.
+    """
     settled = set(cast(Any, cls).prescribes()) if hasattr(cls, "prescribes") else set()
-    return settled | (set(cls.declaration.ports) if hasattr(cls, "ties") else set())
+    return settled | (set(cls.declaration.ports) if hasattr(cls, "ties") or cls.declaration.python else set())

@@ -103,12 +103,15 @@ class Output:
 
 @dataclass(frozen=True)
 class State:
-    """An unknown of the component's own with a rate. `start` is a number or a parameter's name."""
+    """An unknown of the component's own with a rate. `start` is a number or a parameter's name.
+
+    `nominal` is a size of it that matters; the accuracy is relative to that. Without, the unit decides.
+    """
 
     unit: str
     doc: str = ""
     start: str | float = 0.0
-    nominal: float = 1.0
+    nominal: float | None = None
 
 
 @dataclass(frozen=True)
@@ -117,7 +120,7 @@ class Unknown:
 
     unit: str
     doc: str = ""
-    nominal: float = 1.0
+    nominal: float | None = None
 
 
 @dataclass(frozen=True)
@@ -161,6 +164,26 @@ class Choice:
     options: tuple[str, ...]
     doc: str = ""
     default: Any = REQUIRED
+
+
+SWITCH = ("on", "off")
+
+
+@dataclass(frozen=True)
+class Effect(Choice):
+    """Physics that may be left out: `p.name` is "on" or "off", each traced and compiled apart.
+
+    A composite makes no children for what is off; a law has no term for it. Where an unknown or a zone is to
+    go, `off` names the limiting model, a class with the same ports and signals and with parameters of the same
+    names: it takes the place of the component. How a netlist says it is in `effects.py`.
+    """
+
+    off: type | None = None
+
+    def __init__(self, doc: str = "", default: str = "on", *, off: type | None = None) -> None:
+        """An effect that is on unless `default` says otherwise."""
+        super().__init__(SWITCH, doc, default)
+        object.__setattr__(self, "off", off)
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
-from fairlead.component.declare import PATH, Input, Output, Port
+from fairlead.component.declare import PATH, SWITCH, Input, Output, Port
 from fairlead.component.friction_block import sound
 from fairlead.component.parameters import read
-from fairlead.component.scene import FRAMEWORK_EFFECTS, SWITCH, Scene, is_head, is_switch
+from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, is_head
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
@@ -78,6 +78,7 @@ class Assembly:
     lines: dict[str, Line] = field(default_factory=dict)
     routings: list[tuple[str, str, Location]] = field(default_factory=list)  # the two ends of a `path` connection
     aliases: dict[str, PortRef] = field(default_factory=dict)  # outer name of an output or port -> the inner one
+    effects: dict[str, dict[str, str]] = field(default_factory=dict)  # component -> its effects, on or off
     broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
     excused: set[PortRef] = field(
         default_factory=set
@@ -122,7 +123,7 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
             assembly.broken.add(entry.name)
         else:
             faults += _expanded(assembly, entry.name, found, entry.where)
-    faults += _unknown_effects(assembly)
+    faults += _unknown_effects(assembly, types)
     for ends in netlist.connections:
         faults += _connect(assembly, ends)
     faults += _open_paths(assembly)
@@ -139,7 +140,7 @@ def _read(
         what = f"{name}.{key}: there is no {key} {shown(chosen.plain())}. {did_you_mean(str(chosen.plain()), words)}"
         faults.append(Fault(chosen.where, what.rstrip(), f"There are {listing(words)}."))
         return None
-    values, found = read(member, {**scene.defaults(kind, given), **given}, name, where, scene.folder)
+    values, found = read(member, scene.complete(kind, given), name, where, scene.folder)
     faults += found
     return None if found else values
 
@@ -156,6 +157,8 @@ def _expanded(assembly: Assembly, path: str, values: Values, where: Location) ->
 
 def _place(assembly: Assembly, path: str, values: Values, where: Location) -> None:
     """Add a leaf, or expand a composite into its children, however deep."""
+    if values.effects:
+        assembly.effects[path] = values.effects
     if not issubclass(values.type, Composite):
         assembly.add(path, values, where)
         return
@@ -278,11 +281,11 @@ def _no_such(assembly: Assembly, end: EndPoint, owner: str, port: str) -> Fault:
                  "" if near else f"There are {listing(assembly.netlist.components)}.")  # fmt: skip
 
 
-def _unknown_effects(assembly: Assembly) -> list[Fault]:
+def _unknown_effects(assembly: Assembly, types: Mapping[str, type[Declared]]) -> list[Fault]:
     """Effects that nothing in the scene knows, and values that are not on or off."""
-    values = [instance.values for instance in assembly.instances.values()]
-    values += [line.values for line in assembly.lines.values()]
-    declared = {n for v in values for n, d in v.type.declaration.parameters.items() if is_switch(d)}
+    named = [types[entry.type] for entry in assembly.netlist.components.values() if entry.type in types]
+    declared = {name for switches in assembly.effects.values() for name in switches}
+    declared |= {name for kind in named for name in kind.declaration.effects}  # of those too that could not be made
     known = sorted({*FRAMEWORK_EFFECTS, *declared})
     faults = []
     for name, value in assembly.netlist.effects.items():

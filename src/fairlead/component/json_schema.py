@@ -14,9 +14,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import Block, Part, Stations
+from fairlead.component.declare import SWITCH, Block, Part, Stations
 from fairlead.component.parameters import model_of
-from fairlead.component.scene import FRAMEWORK_EFFECTS, SWITCH, is_head
+from fairlead.component.scene import FRAMEWORK_EFFECTS, is_head
 from fairlead.netlist.schema import Document
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
@@ -45,7 +45,7 @@ def json_schema(types: Mapping[str, type[Declared]]) -> Schema:
     blocks = whole["properties"]
     _replace_values(blocks["components"], {"$ref": "#/definitions/component"})
     blocks["friction"] |= _scene_friction(types)
-    blocks["effects"] |= {"properties": {name: {"enum": [*SWITCH, True, False]} for name in FRAMEWORK_EFFECTS}}
+    blocks["effects"] |= {"properties": _scene_effects(types)}
     for block in blocks.values():  # `friction:` with nothing behind it is an empty block
         if block.get("type") == "object" and block is not blocks["run"]:
             block["type"] = ["object", "null"]
@@ -171,6 +171,14 @@ def _replace_values(block: Schema, by: Schema) -> None:
         block["additionalProperties"] = False
     else:
         block["additionalProperties"] = by
+
+
+def _scene_effects(types: Mapping[str, type[Declared]]) -> Schema:
+    """Every effect that some class knows; a composite in a user's file may have children with more."""
+    found = {name: effect.doc for kind in types.values() for name, effect in kind.declaration.effects.items()}
+    either: Schema = {"anyOf": [{"enum": [*SWITCH, True, False]}, EXPRESSION]}
+    named = {name: {**either, "description": doc} for name, doc in sorted(found.items())}
+    return {**dict.fromkeys(FRAMEWORK_EFFECTS, either), **named}
 
 
 def _scene_friction(types: Mapping[str, type[Declared]]) -> Schema:

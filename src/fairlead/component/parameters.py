@@ -24,6 +24,7 @@ from fairlead.component.declare import (
     Block,
     Choice,
     Count,
+    Effect,
     Name,
     Parameter,
     Part,
@@ -31,6 +32,7 @@ from fairlead.component.declare import (
     Table,
     Waveform,
 )  # fmt: skip
+from fairlead.component.effects import in_force, nested
 from fairlead.component.mistakes import explain
 from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
 from fairlead.component.values import Values
@@ -56,13 +58,13 @@ def read(
         tree = Value(dict(raw), where)
         return None, explain(kind, error.errors(include_url=False), tree, path)
     values = _values(kind, model)
-    return values, _contradictions(kind, values, raw, path, where)
+    return in_force(values), _contradictions(kind, values, raw, path, where)
 
 
 def make(kind: type[Declared], **given: Any) -> Values:
     """Values from numbers in SI and ready parts, tables and waves: for composites, tests and tools."""
-    model = model_of(kind).model_validate(given, context={"folder": pathlib.Path()})
-    return _values(kind, model)
+    model = model_of(kind).model_validate(nested(kind, given), context={"folder": pathlib.Path()})
+    return in_force(_values(kind, model))
 
 
 def model_of(kind: type[Declared]) -> type[BaseModel]:
@@ -111,6 +113,8 @@ def _field(declared: Any) -> tuple[Any, Any]:
         limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
         schema = {"type": ["number", "string"], **_schema_bounds(declared)}
         kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: si(v, u)), limits, _Schema(schema)]
+    elif isinstance(declared, Effect):
+        kind = Annotated[Literal["on", "off"], BeforeValidator(_switch)]
     elif isinstance(declared, Choice):
         kind = Literal[declared.options]
     elif isinstance(declared, Count):
@@ -175,6 +179,10 @@ def _named(value: Any) -> str:
     return value
 
 
+def _switch(value: Any) -> Any:
+    return {True: "on", False: "off"}[value] if isinstance(value, bool) else value
+
+
 def _whole(value: Any) -> Any:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
@@ -191,8 +199,12 @@ def _values(kind: type[Declared], model: BaseModel) -> Values:
         elif isinstance(value, BaseModel):
             value = _block(declared, value)
         given[name] = value
+    effects = given.pop("effects", {})
+    given |= effects
     prepare = getattr(kind, "prepare", None)
-    return Values(kind, prepare(given) if prepare else given)
+    values = Values(kind, prepare(given) if prepare else given)
+    values.effects = dict(effects)
+    return values
 
 
 def _part(family: Any, value: Any) -> Any:

@@ -8,14 +8,13 @@ from dataclasses import dataclass, field
 from typing import Any, TypeGuard
 
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import Choice
+from fairlead.component.declare import SWITCH
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
 from fairlead.errors import Fault, ModelError
 from fairlead.netlist.netlist import Value
 
 FRAMEWORK_EFFECTS = ("energy",)
-SWITCH = ("on", "off")
 
 
 @dataclass(frozen=True)
@@ -32,6 +31,7 @@ class Scene:
         Raises ModelError when settings of the scene contradict each other.
         """
         plain = {name: value.plain() for name, value in self.defaults(kind, given).items()}
+        plain |= {name: value.plain() for name, value in self.switched(kind, given).items() if name not in given}
         made = make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
         faults = []
         for name, what, way_out in getattr(made.type, "check", lambda _: ())(made):
@@ -53,8 +53,22 @@ class Scene:
         """Scene-wide settings that an instance of `kind` takes because it does not give them itself."""
         declared = self.member(kind, given).declaration.parameters
         wanted = {name: value for name, value in self.friction.items() if _is_family(kind) and name in declared}
-        wanted |= {n: v for n, v in self.effects.items() if is_switch(declared.get(n))}
         return {name: value for name, value in wanted.items() if name not in given}
+
+    def complete(self, kind: type[Declared], given: Mapping[str, Value]) -> dict[str, Value]:
+        """What a netlist gives to a component, and what the scene says of it besides."""
+        whole = {**self.defaults(kind, given), **given}
+        switched, own = self.switched(kind, given), given.get("effects")
+        if switched and (own is None or isinstance(own.content, dict)):
+            where = own or next(iter(switched.values()))
+            entries = {**switched, **(own.entries if own else {})}
+            whole["effects"] = Value(entries, where.where, where.key_where)
+        return whole
+
+    def switched(self, kind: type[Declared], given: Mapping[str, Any]) -> dict[str, Value]:
+        """Effects of `kind` that the scene switches; what is no switch is told elsewhere."""
+        declared = self.member(kind, given).declaration.effects
+        return {name: v for name, v in self.effects.items() if name in declared and v.plain() in (*SWITCH, True, False)}
 
 
 def is_head(kind: type[Declared]) -> TypeGuard[type[Family]]:
@@ -68,8 +82,3 @@ def _is_family(kind: type[Declared]) -> bool:
 
 def _key(kind: type[Declared]) -> str:
     return kind.key if issubclass(kind, Family) else ""
-
-
-def is_switch(declared: Any) -> bool:
-    """True for a parameter that turns an effect on or off."""
-    return isinstance(declared, Choice) and declared.options == SWITCH

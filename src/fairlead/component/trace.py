@@ -211,6 +211,8 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
             zone.ledger[key] = _power(value, law)
         else:
             zone.own[key] = _smooth(value, law)
+    for name in has.outputs.keys() & has.discrete.keys():  # what a controller in plain Python holds
+        zone.outputs[name] = symbol(f"p:#{name}")
     for line in LEDGER:
         method = getattr(variant.type, line, None)
         if method is not None and line not in zone.ledger:
@@ -283,6 +285,12 @@ def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
 def is_kinked(expression: sympy.Expr) -> bool:
     """True when an expression has a corner somewhere, so that its derivative is no use to a solver."""
     return bool(expression.atoms(*KINKED))
+
+
+def read_in_python(has: Declaration) -> list[str]:
+    """Keys of what a controller in plain Python may ask for: its inputs, and the motion of its ports."""
+    ports = [f"port:{name}:{kind}" for name, port in has.ports.items() for kind in "xv"[: len(port.domain.across)]]
+    return ["t", *(f"in:{name}" for name in has.inputs), *ports] if has.python else []
 
 
 def _smooth(value: Any, law: Callable[..., Any]) -> sympy.Expr:

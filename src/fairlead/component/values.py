@@ -46,6 +46,7 @@ class Values:
         """`given` holds SI floats, words, nested maps, Values of parts, tables and waves, by name."""
         self.type = type
         self.variant: Variant | None = None
+        self.effects: dict[str, str] = {}  # what is on and off, also when a limiting model has taken its place
         self.given = {name: _Group(value) if isinstance(value, Mapping) else value for name, value in given.items()}
 
     def __getattr__(self, name: str) -> Any:

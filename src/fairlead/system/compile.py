@@ -22,6 +22,7 @@ from fairlead.system.jacobian import jacobian
 from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
+from fairlead.system.plain_python import called_controllers
 from fairlead.system.ranks import signal_ranks
 from fairlead.system.shares import rows, shares
 from fairlead.system.switching import guards, machine_owners, machine_zones
@@ -87,6 +88,7 @@ def _system(
     start = flat.assembly.netlist.run.start
     memory |= switches | rows(blocks, shared, end) | samplers(blocks, start) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
+    controllers = called_controllers(blocks, numbering, memory)
     memory["context"] = context(blocks, numbering, program, memory)
     unknowns = numbering.unknowns
     return System(
@@ -112,4 +114,5 @@ def _system(
         machine_guards=machine_owners(blocks, len(machines)),
         signals=signals(flat, blocks, shared, numbering),
         memory=memory,
+        controllers=controllers,
     )

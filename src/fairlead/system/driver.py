@@ -66,13 +66,13 @@ def accelerate(ctx, t, y):
 def take_samples(ctx, t, y):
     """Give the discrete variables of all instances that are due at t their next values."""
     evaluate(ctx, t, y)
-    kernels, blocks, places = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SAMPLED])
+    kernels, blocks, places = i8(ctx[SAMPLE_KERNELS]), ctx[BLOCKS], i8(ctx[SAMPLED])
     z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
     period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
     for k in range(0, ctx[N_SAMPLED]):
         if begun[0] + count[k] * period[k] <= t:
             b, i = places[2 * k], places[2 * k + 1]
-            call_kernel(kernels[b], SAMPLE, i8(blocks + WORD * BLOCK * b), i, i + 1, z, zones, tables, z)
+            call_kernel(kernels[k], SAMPLE, i8(blocks + WORD * BLOCK * b), i, i + 1, z, zones, tables, z)
             count[k] += 1
 
 

@@ -20,7 +20,7 @@ import sympy
 from sympy.printing.pycode import PythonCodePrinter
 
 from fairlead.component.piecewise import DEGREE, STRIDE
-from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, symbol
+from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, read_in_python, symbol
 from fairlead.system import layout
 from fairlead.system.structure import Structure
 
@@ -57,7 +57,7 @@ class KernelText:
         ]
         self.targets = [f"port:{name}" for name in self._flowing()] + [f"own:{n}" for n in (*has.states, *has.unknowns)]
         self.outputs = list(has.outputs)
-        symbols = sorted({s.name for e in self._everything() for s in e.free_symbols})
+        symbols = sorted({s.name for e in self._everything() for s in e.free_symbols} | set(read_in_python(has)))
         self.inputs = [key for key in symbols if key.split(":")[0] in ("port", "own", "in", "t")]
         discrete = {f"p:#{name}" for name in has.discrete}
         self.parameters = [key[2:] for key in sorted({k for k in symbols if k.startswith("p:")} | discrete)]
@@ -250,6 +250,7 @@ class KernelText:
 
     def _structure(self) -> Structure:
         t = self.traced
+        has = t.variant.type.declaration
         return Structure(
             inputs=self.inputs, parameters=self.parameters, tables=t.tables, time_tables=t.time_tables,
             zones=list(t.zones), machines=self.machines, outputs=self.outputs, unfit=self.unfit,
@@ -259,7 +260,7 @@ class KernelText:
             guards={name: [_describe(g, self) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots,
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
-            period=next((sample.period for sample in t.variant.type.declaration.samples.values()), ""),
+            period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
         )  # fmt: skip
 

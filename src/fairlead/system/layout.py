@@ -96,4 +96,5 @@ SAMPLED = 49  # int64 (sampled, 2)     block, instance
 SAMPLE_PERIOD = 50  # float64 (sampled,)   s
 SAMPLE_COUNT = 51  # int64 (sampled,)     samples taken
 SAMPLE_START = 52  # float64 (1,)         time of the first sample
-CONTEXT = 53
+SAMPLE_KERNELS = 53  # int64 (sampled,)     addresses of what takes the samples: a kernel, or plain Python
+CONTEXT = 54

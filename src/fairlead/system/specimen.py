@@ -27,7 +27,9 @@ def traced_specimen(kind: type[Declared]) -> Traced:
 
 def specimen(kind: type[Declared], *, open_parts: bool) -> Variant:
     """Every word at its default; waveforms and tables are given, optional numbers are not."""
-    given = {name: _usual(name, declared, open_parts) for name, declared in kind.declaration.parameters.items()}
+    has = kind.declaration
+    given = {name: _usual(name, declared, open_parts) for name, declared in has.parameters.items() if name != "effects"}
+    given |= {name: effect.default for name, effect in has.effects.items()}
     prepare = getattr(kind, "prepare", None)
     return variant_of(Values(kind, prepare(given) if prepare else given))
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
 from fairlead.system.blocks import Block
+from fairlead.system.plain_python import CalledController
 from fairlead.system.unknowns import Numbering
 
 Floats = NDArray[np.float64]
@@ -63,6 +64,7 @@ class System:
     signals: list[OutputSignal]
     memory: dict[str, NDArray[Any]] = field(repr=False)
     recorded: list[OutputSignal] = field(default_factory=list)
+    controllers: list[CalledController] = field(default_factory=list, repr=False)
 
     @property
     def n(self) -> int:

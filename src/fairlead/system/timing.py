@@ -49,15 +49,17 @@ def start_pieces(blocks: Sequence[Block], zones: Integers, start: float) -> None
 
 def samplers(blocks: Sequence[Block], start: float) -> Memory:
     """Instances with sample times, in the order of the blocks; the first sample is at the start."""
-    sampled, periods = [], []
+    sampled, periods, kernels = [], [], []
     for b, block in enumerate(blocks):
         period = block.kernel.structure.period
         if period:
             sampled += [(b, i) for i in range(block.count)]
             periods += [float(getattr(instance.values, period)) for instance in block.instances]
+            kernels += [block.kernel.address] * block.count
     return {
         "sampled": np.array(sampled, dtype=np.int64).reshape(-1, 2),
         "sample_period": np.array(periods, dtype=float),
         "sample_count": np.zeros(len(sampled), dtype=np.int64),
         "sample_start": np.array([start]),
+        "sample_kernels": np.array(kernels, dtype=np.int64),
     }

@@ -20,10 +20,12 @@ from fairlead.system.unknowns import Numbering, Unknown
 Floats = NDArray[np.float64]
 
 # Sizes that matter in a scene of handling equipment, by unit; the accuracy is relative to these.
-NOMINAL = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "rad": 1e-2, "rad/s": 1.0, "N*m": 10.0, "Pa": 1e5, "V": 1.0, "A": 1.0}
+NOMINAL = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "rad": 1e-2, "rad/s": 1.0, "N*m": 10.0, "Pa": 1e5, "V": 1.0, "A": 1.0,
+           "m^3/s": 1e-5, "m^3": 1e-6}  # fmt: skip
 CREEP_SHARE = 0.1  # weight of a speed at a binding contact, in creeps
 # What a guard may exceed zero by at an accepted point: rounding of quantities of its unit, no more.
-GUARD_ROUNDING = {"m/s": 1e-10, "rad/s": 1e-9, "m": 1e-10, "rad": 1e-9, "N": 1e-7, "N*m": 1e-7, "Pa": 1e-2}
+GUARD_ROUNDING = {"m/s": 1e-10, "rad/s": 1e-9, "m": 1e-10, "rad": 1e-9, "N": 1e-7, "N*m": 1e-7, "Pa": 1e-2,
+                  "V": 1e-9, "A": 1e-9, "m^3/s": 1e-14, "m^3": 1e-15}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ def weights(flat: FlatModel, numbering: Numbering, accuracy: float) -> Weights:
 
 def nominal(unknown: Unknown) -> float:
     """The size of an unknown that counts as 1."""
-    return NOMINAL.get(unknown.unit, 1.0)
+    return NOMINAL.get(unknown.unit, 1.0) if unknown.nominal is None else unknown.nominal
 
 
 def guard_tolerances(units: Sequence[str], cap: Floats) -> Floats:

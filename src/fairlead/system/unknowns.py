@@ -23,6 +23,7 @@ class Unknown:
     mass: float  # its diagonal entry of M, 0 when algebraic
     start: float
     kind: str  # position, rate, potential, state, multiplier, ledger
+    nominal: float | None = None  # a size that matters, where its component says one
 
 
 @dataclass
@@ -123,11 +124,11 @@ def _number_own(made: Numbering, instance: Instance) -> None:
     for name, state in has.states.items():
         start = number_given(instance.values, state.start)
         made.own[instance.path, name] = made.add(
-            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, start, "state")
+            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, start, "state", state.nominal)
         )
     for name, unknown in has.unknowns.items():
         made.own[instance.path, name] = made.add(
-            Unknown(f"{instance.path}.{name}", unknown.unit, False, 0.0, 0.0, "multiplier")
+            Unknown(f"{instance.path}.{name}", unknown.unit, False, 0.0, 0.0, "multiplier", unknown.nominal)
         )
 
 

@@ -43,7 +43,8 @@ class Check:
                 raise ContractError(f"{self.kind.__name__}: its law cannot be traced: {error}") from error
 
     def __str__(self) -> str:
-        words = ", ".join(str(word) for word in self.chosen.values())
+        effects = self.kind.declaration.effects
+        words = ", ".join(f"{name} {word}" if name in effects else str(word) for name, word in self.chosen.items())
         return f"{self.kind.__name__}[{words}] {self.name}" if words else f"{self.kind.__name__} {self.name}"
 
 

@@ -41,6 +41,8 @@ def families(kind: type[Declared]) -> Iterator[tuple[type[Declared], dict[str, A
         for name, d in declared.items():
             if isinstance(d, Choice):
                 yield from ((member, {name: option}) for option in d.options if option != d.default)
+        for name, effect in member.declaration.effects.items():
+            yield member, {name: "off" if effect.default == "on" else "on"}
 
 
 def _members(part: Part) -> dict[str, type[Family]]:
@@ -74,7 +76,7 @@ def _draw(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, A
         value = _value(declared, rng, chosen.get(name), optional)
         if value is not None:
             given[name] = value
-    return given
+    return given | {name: word for name, word in chosen.items() if name in kind.declaration.effects}
 
 
 def _value(declared: Any, rng: np.random.Generator, word: Any, optional: bool) -> Any:

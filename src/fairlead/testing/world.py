@@ -20,6 +20,9 @@ from fairlead.system import layout
 from fairlead.testing.rig import Rig
 
 AT_ZERO = 1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
+# A large potential by domain; what it is drawn up to, of either sign (a guard may wait for one below zero).
+POTENTIAL = {"hydraulic": 2e7, "electrical": 50.0}
+OWN = {"Pa": 2e7, "m^3/s": 1e-3, "m^3": 1e-3}  # the same for unknowns of a component's own, by unit
 PASSES = 60  # more switches than any component has zones
 STEP = 1e-30  # of a complex step; its square vanishes beside 1
 
@@ -82,14 +85,15 @@ class World:
                 if self.prescribed.get(name, "moves") is None:
                     values |= {f"port:{name}:{k}": 0.0 for k in "vaA"}
             else:
-                values[f"port:{name}:x"] = _around(rng, 10.0)
+                values[f"port:{name}:x"] = _around(rng, POTENTIAL.get(port.domain.name, 10.0))
             values[f"port:{name}:R"] = _around(rng, 10.0)
         for name, declared in has.inputs.items():
             rest = declared.default if alone and isinstance(declared.default, int | float) else None
             values[f"in:{name}"] = float(abs(_around(rng, 10.0))) if rest is None else float(rest)
             if declared.unit == "1":
                 values[f"in:{name}"] = min(values[f"in:{name}"], 1.0)
-        values |= {f"own:{name}": _around(rng, 1.0) for name in (*has.states, *has.unknowns)}
+        own: dict[str, Any] = {**has.states, **has.unknowns}
+        values |= {f"own:{name}": _around(rng, OWN.get(one.unit, 1.0)) for name, one in own.items()}
         values["t"] = float(rng.uniform(0, 4))
         loads = {name: _around(rng, 30.0) for name in self.bodies}
         return Instant(values, loads, tuple(0 for _ in range(self.structure.machines)))
