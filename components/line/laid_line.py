@@ -84,16 +84,16 @@ class _On:
         load, told = "", [one.name for one, _ in surface.devices]
         pressed = surface.pressed(self.line.values.weight)
         if pressed:
-            load = self.to.child(f"{name}_pressed[{i}]", PressedLoad, load=self.table(reach, *pressed), length=reach.length)
-            self.to.join(f"{load}.flange", f"{body}.flange")
+            load = self.pressed_load(f"{name}_pressed[{i}]", body, reach, pressed)
         for one in told:
             if one in squeezed:
                 load = squeezed[one]
         if surface.curved():
             kind = RoundLoad if surface.all_round else LateralLoad
-            load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, surface.curved(), self.line.layers, load)
-        inner = f"{self.line.inner}[{i}]"
-        masses = {"partner_mass_b": self.to.mass(inner)} if self.line.inner and i not in self.line.mesh.connectors else {}
+            curved, layers = surface.curved(), self.line.layers
+            load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, curved, layers, load)
+        two = self.line.inner and i not in self.line.mesh.connectors
+        masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
         self.to.contact(f"{name}[{i}]", f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
         self.meter(f"{name}[{i}]")
         total_of = self.route.machinery[surface.name].total if surface.name in self.route.machinery else ""
@@ -144,6 +144,12 @@ class _On:
             self.to.join(f"{more}.force", f"{load}.more")
         return load
 
+    def pressed_load(self, name: str, body: str, reach: Reach, windows: list[Window]) -> str:
+        """A load that does not come from tension."""
+        load = self.to.child(name, PressedLoad, load=self.table(reach, *windows), length=reach.length)
+        self.to.join(f"{load}.flange", f"{body}.flange")
+        return load
+
     def clamps(self, i: int, body: str, reach: Reach) -> dict[str, str]:
         """Load of every clamping device on a node, by its name."""
         made = {}
@@ -162,8 +168,7 @@ class _On:
             return next(iter(squeezed.values()), "")
         load = ""
         if tubes:
-            load = self.to.child(f"inner_pressed[{i}]", PressedLoad, load=self.table(reach, *tubes), length=reach.length)
-            self.to.join(f"{load}.flange", f"{body}.flange")
+            load = self.pressed_load(f"inner_pressed[{i}]", body, reach, tubes)
         for one, output in self.route.squeezing():
             window = self.table(reach, one.window())
             again = self.to.child(f"inner_clamp_{one.name}[{i}]", ClampLoad, window=window, length=reach.length)
@@ -218,10 +223,9 @@ class _On:
             s = one.station
             lumped = s.form == "lumped"
             beyond = s.beyond if lumped else 0.0
-            child = self.to.child(
-                "tail", TailEnd, tail=s.tail, drogue=0.5 * s.density * s.drogue, beyond=beyond, place=p.start + p.length,
-                per_length=s.per_length(p.diameter) if lumped else 0.0,
-            )  # fmt: skip
+            per_length, drogue = s.per_length(p.diameter) if lumped else 0.0, 0.5 * s.density * s.drogue
+            pull = {"tail": s.tail, "drogue": drogue, "per_length": per_length}
+            child = self.to.child("tail", TailEnd, **pull, beyond=beyond, place=p.start + p.length)
             self.to.join(f"{child}.node", f"{self.line.outer}[{last}].flange")
             self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
         for one in self.route.of_type("Winch"):

@@ -15,7 +15,6 @@ from fairlead.components.route.window import Window
 
 from fairlead.component.scene import Scene
 
-
 STANDING = "surface.flange"  # below the route: what does not move
 
 

@@ -17,7 +17,7 @@ class Tow(Component):
 
 
 def drag(area, flow):
-    """area |u| u [N] for a drag area with 1/2 rho in it [kg/m]; |u| is sqrt(u^2 + STILL^2)."""
+    """Area |u| u [N] for a drag area with 1/2 rho in it [kg/m]; |u| is sqrt(u^2 + STILL^2)."""
     return area * sqrt(flow**2 + STILL**2) * flow
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from fairlead.components.route.drum import Drum
-from fairlead.components.route.drum_layers import Layers
 from fairlead.components.rotation.inertia import Inertia
 from fairlead.components.rotation.rack import Rack
+from fairlead.components.route.drum import Drum
+from fairlead.components.route.drum_layers import Layers
 from fairlead.components.route.station import Machinery, Station
 
 from fairlead.component import Choice, Parameter
