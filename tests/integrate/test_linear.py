@@ -165,6 +165,16 @@ def test_the_matrix_of_the_consistent_point_is_factored_along_the_same_plan(seed
         np.testing.assert_allclose(x, np.linalg.solve(C, b), rtol=1e-6, atol=1e-8)
 
 
+@pytest.mark.parametrize("size", [0.0, 1e-300, 1e-209, 1e-190])
+def test_a_right_side_that_has_all_but_vanished_is_no_failure_of_the_factors(size):
+    """The solution is dropped below 1e-200, so that its residual is as large as the right side itself."""
+    problem, matrices = mechanical_network(np.random.default_rng(5), bodies=20, contacts=4)
+    J, M = matrices(np.ones(4), 1e3)
+    status, x = solve_with(memory_for(problem, planned(problem)), problem, J, M, 1e3, np.full(len(J), size))
+    assert status == FACTORED
+    assert np.abs(x).max() <= 1e3 * size
+
+
 def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
     rng = np.random.default_rng(7)
     problem, matrices = mechanical_network(rng, bodies=20, contacts=4)

@@ -15,6 +15,9 @@ GROWTH_LIMIT = 1e8
 NOTHING = 1e-200
 """Below this a number is zero. Along a chain of which one end rests the solution decays to numbers that
 processors handle a hundred times slower than others; none of them matters."""
+NO_SIZE = 1e-180
+"""A right-hand side smaller than this everywhere is no test of a factorisation: what `NOTHING` drops of its
+solution would count as an error (a chain that came to rest once ended a run as singular, with 1e-209)."""
 
 
 @compiled
@@ -135,4 +138,6 @@ def backward_error(m):
         if not error <= worst:
             worst = error
         largest = max(largest, size[k] * scale[k])
+    if largest <= NO_SIZE and worst <= NO_SIZE:
+        return 0.0
     return worst / largest if largest > 0.0 else worst
