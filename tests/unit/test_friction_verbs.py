@@ -1,6 +1,7 @@
 """`fairlead friction`, `compare` and `new friction`: what they print, draw and write."""
 
 import json
+import math
 import pathlib
 import re
 import shlex
@@ -12,6 +13,16 @@ from typer.testing import CliRunner
 
 from fairlead.cli import app
 
+SCENE = """
+schema: 1
+components:
+  ground: {type: Ground}
+  block: {type: Mass, mass: 1 kg}
+  pad: {type: Contact, method: my_law, normal_force: 10 N, curve: 0.5}
+  push: {type: ForceSource, force: {ramp: {to: 4 N, over: 1 s}}}
+connections: [[ground.flange, pad.a], [pad.b, block.flange, push.flange]]
+run: {stop: 2 s, accuracy: 1e-6}
+"""
 TUSTIN = "{curve: tustin, stiction: 0.5, coulomb: 0.3, velocity: 5 mm/s}"
 
 
@@ -87,14 +98,20 @@ def test_a_new_law_is_short_keeps_the_contract_unedited_and_runs(answer, tmp_pat
     assert len(file.read_text(encoding="utf-8").splitlines()) < 30
     # In a process of its own: a law once loaded is a member of the family for as long as Python runs.
     script = """
-import fairlead
-from fairlead.component.registry import load_library
-from fairlead.testing import contract
-contract(load_library("my_law.py").MyLaw)
-model = fairlead.load("block_and_spring", set={"method": "my_law", "run.stop": "1 s"}, libraries=["my_law.py"])
-assert model.run(out="run").status == "finished"
+from my_law import MyLaw
+from fairlead.testing import checks, contract
+curves = {check.chosen.get("curve") for check in checks(MyLaw)}
+assert {"coulomb", "viscous", "stribeck", "tustin", "hump", "table"} <= curves, curves
+contract(MyLaw)
 """
     subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=600)
+    (tmp_path / "scene.yaml").write_text(SCENE, encoding="utf-8")
+    command = [sys.executable, "-m", "fairlead", "run", "scene.yaml", "--library", "my_law.py", "--json"]
+    said = subprocess.run(command, cwd=tmp_path, check=True, timeout=600, capture_output=True, text=True).stdout
+    outcome = json.loads(said)
+    assert outcome["status"] == "finished"
+    # Held at 0.8 of its level it creeps at creep*atanh(0.8), which is what it was told to report.
+    assert outcome["worst_creep"]["value"] == pytest.approx(1e-4 * math.atanh(0.8) * (1 - 0.8**8), rel=1e-3)
 
 
 def test_new_refuses_what_is_there_and_what_is_no_name(answer, tmp_path):

@@ -173,12 +173,13 @@ def _stays(p: Values, zone: str, slip: float, friction: float, normal: float, pu
 def _arguments(p: Values, zone: str, slip: float, normal: float, push: float, own: dict[str, float]) -> dict[str, Any]:
     """Arguments of a law: the surface at rest, the body of 1 kg at `slip` with acceleration `push`."""
     has = p.type.declaration
-    return {
+    given = {
         **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0),
         "p": p, "t": 0.0, "zone": zone, "normal": normal,
         "a": SimpleNamespace(x=0.0, v=0.0, a=0.0, inverse_mass=0.0),
         "b": SimpleNamespace(x=0.0, v=slip, a=push, inverse_mass=1.0), **own,
     }  # fmt: skip
+    return given | {name: _called(shared.function, given) for name, shared in has.shared.items()}
 
 
 def _called(function: Any, arguments: dict[str, Any]) -> Any:

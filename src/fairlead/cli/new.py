@@ -20,21 +20,20 @@ class {kind}(Contact):
     """T = N mu(|v|) tanh(v/creep): make it yours."""
 
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
-    zones = Zones("on", "off")
+    zones = Zones("on", "off")  # what happens in zone "off", and what leads there, every contact knows
 
     @zone("on")
-    def on(p, a, b, normal):
+    def on(p, a, b, grip):
+        """Friction against the slip v; `grip` is the normal force, with what the curve says of load and warmth."""
         v = b.v - a.v
-        friction = normal * p.curve.coefficient(sqrt(v**2 + p.creep**2)) * tanh(v / p.creep)
+        friction = grip * p.curve.coefficient(sqrt(v**2 + p.creep**2)) * tanh(v / p.creep)
         return Law(a=-friction, b=+friction, slip=v, friction=friction, dissipated=friction * v,
                    creep_rate=v * (1 - tanh(v / p.creep) ** 8))  # slow slip is creep
 
-    @zone("off")
-    def off(p, a, b):
-        return Law(a=0, b=0, slip=b.v - a.v)
-
-    lifts = guard("on", to="off", unit="N")(lambda p, normal: p.lift - normal)
-    lands = guard("off", to="on", unit="N")(lambda p, normal: normal - 2 * p.lift)
+    @guard("off", to="on", unit="N")
+    def lands(p, normal):
+        """Pressed again."""
+        return normal - 2 * p.lift
 '''
 
 

@@ -31,6 +31,7 @@ from fairlead.component.declare import (
     guard,
     hold,
     sampled,
+    shared,
     zone,
 )  # fmt: skip
 from fairlead.component.functions import (
@@ -52,6 +53,6 @@ __all__ = [
     "Block", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect", "Electrical",
     "Expansion", "Family", "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path", "Rotational",
     "State", "Stations", "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan", "clip", "cos",
-    "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "least", "log", "pi", "sampled", "sin",
-    "sqrt", "tanh", "zone",
+    "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "least", "log", "pi", "sampled", "shared",
+    "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

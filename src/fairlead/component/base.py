@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, cast
 
 from fairlead.component.declare import (
@@ -37,6 +37,7 @@ from fairlead.component.declare import (
     Part,
     Port,
     Sampled,
+    Shared,
     State,
     Stations,
     Table,
@@ -70,6 +71,7 @@ class Declaration:
     discrete: dict[str, Discrete] = field(default_factory=dict)
     samples: dict[str, Sampled] = field(default_factory=dict)
     derived: dict[str, Derived] = field(default_factory=dict)
+    shared: dict[str, Shared] = field(default_factory=dict)
     effects: dict[str, Effect] = field(default_factory=dict)
     zones: tuple[str, ...] = ("always",)
     laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
@@ -79,6 +81,11 @@ class Declaration:
     @property
     def arguments(self) -> set[str]:
         """Names a law may ask for."""
+        return {*self.given, *self.shared}
+
+    @property
+    def given(self) -> set[str]:
+        """Names a shared expression may ask for."""
         return {"p", "t", "zone", *self.ports, *self.inputs, *self.states, *self.unknowns, *self.discrete}
 
 
@@ -160,6 +167,7 @@ def _collect(cls: type) -> Declaration:
         return {name: value for name, value in members.items() if isinstance(value, kind)}
 
     zones = next((value for value in reversed(list(members.values())) if isinstance(value, Zones)), None)
+    guards = {name: _everywhere(mark, zones or ()) for name, mark in of(Guard).items()}
     laws: dict[str, Callable[..., Any]] = {}
     for marked in of(ZoneLaw).values():
         laws.update(dict.fromkeys(marked.zones, marked.law))
@@ -172,8 +180,13 @@ def _collect(cls: type) -> Declaration:
     return Declaration(
         effects=effects, ports=of(Port), parameters=parameters, inputs=of(Input), outputs=of(Output), states=of(State),
         unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived),
-        zones=tuple(zones or ("always",)), laws=laws, guards=of(Guard),
+        shared=of(Shared), zones=tuple(zones or ("always",)), laws=laws, guards=guards,
     )  # fmt: skip
+
+
+def _everywhere(mark: Guard, zones: tuple[str, ...]) -> Guard:
+    """The guard with its zones by name where it says `*`: all but the one it leads to."""
+    return replace(mark, zones=tuple(zone for zone in zones if zone != mark.to)) if mark.zones == ("*",) else mark
 
 
 def _check(cls: type[Declared]) -> None:
@@ -189,6 +202,8 @@ def _check(cls: type[Declared]) -> None:
         return
     for name in has.zones:
         _demand(cls, name in has.laws, f"zone {name!r} has no law")
+    for expression in has.shared.values():
+        _check_arguments(cls, expression.function, has.given)
     for name, law in has.laws.items():
         _demand(cls, name in has.zones, f"a law is declared for {name!r}, which is not in zones {has.zones}")
         _check_arguments(cls, law, has.arguments)

@@ -215,10 +215,14 @@ class Part:
 
 @dataclass(frozen=True)
 class Block:
-    """A group of parameters written as a map in the netlist: `hose: {mass: 1.6 kg/m, ...}`."""
+    """A group of parameters written as a map in the netlist: `hose: {mass: 1.6 kg/m, ...}`.
+
+    With a default of None the whole block may be left out. A block is never seen by a law.
+    """
 
     parameters: Mapping[str, Parameter]
     doc: str = ""
+    default: Any = REQUIRED
 
 
 @dataclass(frozen=True)
@@ -278,6 +282,13 @@ class Guard:
 
 
 @dataclass(frozen=True)
+class Shared:
+    """An expression under a name that laws and guards may ask for, such as the normal force that counts."""
+
+    function: Callable[..., Any]
+
+
+@dataclass(frozen=True)
 class Derived:
     """A number, or a Wave, computed from the parameters when an instance is made; plain Python, not traced."""
 
@@ -291,8 +302,16 @@ def zone(*names: str) -> Callable[[Callable[..., Any]], Any]:
 
 
 def guard(*zones: str, to: str, unit: str) -> Callable[[Callable[..., Any]], Any]:
-    """Mark a function as a guard of `zones` that leads to `to`; `unit` scales its tolerance."""
+    """Mark a function as a guard of `zones` that leads to `to`; `unit` scales its tolerance.
+
+    `guard("*", to="off", ...)` leads there from every other zone.
+    """
     return lambda function: Guard(zones, to, unit, function)
+
+
+def shared(function: Callable[..., Any]) -> Any:
+    """Mark a method of ports, inputs and states as an expression that laws and guards ask for by its name."""
+    return Shared(function)
 
 
 def sampled(*, every: str) -> Callable[[Callable[..., Any]], Any]:

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from fairlead.component.declare import Derived, Guard, Sampled, ZoneLaw
+from fairlead.component.declare import Derived, Guard, Sampled, Shared, ZoneLaw
 from fairlead.component.values import Variant
 
 
@@ -86,7 +86,7 @@ def _wrapped(thing: Any) -> list[Any]:
         return [thing.__func__]
     if isinstance(thing, property):
         return [thing.fget]
-    return [thing.function] if isinstance(thing, Derived) else []
+    return [thing.function] if isinstance(thing, Derived | Shared) else []
 
 
 def _matters(name: str, member: Any) -> bool:

@@ -126,7 +126,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
     elif isinstance(declared, Block):
         inner: dict[str, Any] = {name: _field(d) for name, d in declared.parameters.items()}
         kind = create_model("Block", __config__=STRICT, **inner)
-        if all(not model_field.is_required() for model_field in kind.model_fields.values()):
+        if default is ... and all(not field.is_required() for field in kind.model_fields.values()):
             default = Field(default_factory=kind)
     elif isinstance(declared, Stations):
         kind = list[family_type(declared.family)]  # type: ignore[misc]  # a type made at run time

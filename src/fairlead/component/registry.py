@@ -26,7 +26,7 @@ def known_types(libraries: Iterable[str] = ()) -> dict[str, type[Declared]]:
     A plug-in that fails to import is reported with its name and left out. A library given by path
     that cannot be loaded raises ModelError, since the user asked for it.
     """
-    types = dict(_bundled())
+    types = dict(bundled())
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
         try:
             types.update(_types_in(point.load()))
@@ -38,7 +38,8 @@ def known_types(libraries: Iterable[str] = ()) -> dict[str, type[Declared]]:
 
 
 @functools.cache
-def _bundled() -> dict[str, type[Declared]]:
+def bundled() -> dict[str, type[Declared]]:
+    """The types of the bundled library; from then on its families have all their members."""
     package = importlib.import_module("fairlead.components")
     types: dict[str, type[Declared]] = {}
     for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):

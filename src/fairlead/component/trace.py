@@ -226,7 +226,7 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
 
 
 def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, sympy.Expr]) -> dict[str, Any]:
-    return {
+    given = {
         "p": _Recorder(variant, "", reads),
         "t": symbol("t"),
         "zone": zone,
@@ -235,6 +235,7 @@ def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, s
         **{name: symbol(f"own:{name}") for name in (*has.states, *has.unknowns)},
         **{name: symbol(f"p:#{name}") for name in has.discrete},
     }
+    return given | {name: _run(shared.function, given) for name, shared in has.shared.items()}
 
 
 def _terms(variant: Variant, law: Callable[..., Any], arguments: dict[str, Any]) -> Iterator[tuple[str, Any]]:

@@ -123,10 +123,10 @@ def _allowed(declared: Any) -> str:
 
 def _default(declared: Any) -> str:
     default = getattr(declared, "default", None)
+    if isinstance(declared, Block) and default is REQUIRED:
+        return "required" if any(d.default is REQUIRED for d in declared.parameters.values()) else ""
     if default is REQUIRED or isinstance(declared, Stations):
         return "required"
-    if isinstance(declared, Block):
-        return "required" if any(d.default is REQUIRED for d in declared.parameters.values()) else ""
     if default is None:
         return "may be left out"
     return f"= {default:g}" if isinstance(default, float) else f"= {default}"

@@ -36,7 +36,9 @@ def specimen(kind: type[Declared], *, open_parts: bool) -> Variant:
 
 def _usual(name: str, declared: Any, open_parts: bool) -> Any:
     if isinstance(declared, Part):
-        return Values(_any_member(name, declared.family) if open_parts else _first(declared.family), {})
+        member = _first(declared.family)
+        absent = {n: None for n, d in member.declaration.parameters.items() if getattr(d, "default", REQUIRED) is None}
+        return Values(_any_member(name, declared.family) if open_parts else member, absent)
     if isinstance(declared, Waveform):
         return steady(0.0)
     if isinstance(declared, Table):

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.base import Composite, Declared
+from fairlead.component.registry import bundled
 from fairlead.component.trace import TraceError
 from fairlead.testing.properties import PROPERTIES
 from fairlead.testing.samples import families, sample
@@ -55,6 +56,7 @@ def checks(kind: type[Declared], **given: Any) -> list[Check]:
     """
     if issubclass(kind, Composite):
         return []
+    bundled()  # or a law would be asked with no curve at all
     kinds = [(member, {**words, **given}) for member, words in families(kind)]
     return [Check(name, member, chosen) for member, chosen in kinds for name in PROPERTIES]
 

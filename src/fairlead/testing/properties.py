@@ -285,6 +285,9 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         return SimpleNamespace(**said, inverse_mass=1 / world.masses.get(name, 1.0), **{domain.through[0]: port["R"]})
     known = {"p": world.of, "t": values["t"], "zone": world.zone(at)}
     known |= {name: parameter(world.of, f"#{name}") for name in has.discrete}
+    if name in has.shared:
+        function = has.shared[name].function
+        return function(**{each: _argument(world, at, each) for each in _names(function)})
     return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
 
 

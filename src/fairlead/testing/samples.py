@@ -17,7 +17,7 @@ from fairlead.component.values import Values
 # A usual size of a quantity by its unit; anything else is around 1.
 USUAL = {
     "m": 0.1, "m/s": 0.1, "N": 10.0, "N/m": 1e3, "N*s/m": 10.0, "kg": 1.0, "kg/m": 2.0, "Pa": 1e6, "m^3/s": 1e-4,
-    "V": 10.0, "W": 10.0, "kg*m^2": 0.1, "N*m": 5.0, "rad/s": 1.0,
+    "V": 10.0, "W": 10.0, "kg*m^2": 0.1, "N*m": 5.0, "rad/s": 1.0, "K": 300.0, "1/K": 1e-3,
 }  # fmt: skip
 TRIES = 300  # draws until the class's own `check` finds no contradiction
 POINTS = 5  # of a random table
@@ -91,13 +91,15 @@ def _value(declared: Any, rng: np.random.Generator, word: Any, optional: bool) -
         member = members[word or next(iter(members))]
         return sample(member, rng, {}, optional)
     if isinstance(declared, Block):
+        if declared.default is None and not optional:
+            return None
         return {
             name: value
             for name, d in declared.parameters.items()
             if (value := _value(d, rng, None, optional)) is not None
         }
     if isinstance(declared, Table):
-        return _table(declared, rng)
+        return _table(declared, rng) if declared.default is _REQUIRED else None
     if isinstance(declared, Waveform):
         return _wave(declared, rng) if declared.default is _REQUIRED or rng.random() < 0.5 else None
     return None

@@ -18,6 +18,7 @@ from fairlead.component.base import Declared
 from fairlead.component.values import Values
 from fairlead.system import layout
 from fairlead.testing.rig import Rig
+from fairlead.testing.samples import USUAL
 
 AT_ZERO = 1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
 # A large potential by domain; what it is drawn up to, of either sign (a guard may wait for one below zero).
@@ -89,7 +90,8 @@ class World:
             values[f"port:{name}:R"] = _around(rng, 10.0)
         for name, declared in has.inputs.items():
             rest = declared.default if alone and isinstance(declared.default, int | float) else None
-            values[f"in:{name}"] = float(abs(_around(rng, 10.0))) if rest is None else float(rest)
+            most = USUAL.get(declared.unit, 10.0)
+            values[f"in:{name}"] = float(abs(_around(rng, most))) if rest is None else float(rest)
             if declared.unit == "1":
                 values[f"in:{name}"] = min(values[f"in:{name}"], 1.0)
         own: dict[str, Any] = {**has.states, **has.unknowns}
