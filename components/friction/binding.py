@@ -6,10 +6,19 @@ the applied force is below stiction; so the force never jumps when the slip chan
 contacts stay cheap. The price is creep: a stuck contact under load af slips at about creep * af/F_s.
 """
 
-from fairlead.components.friction.binding_law import BOUND, IN_CONTACT, applied_force, direction, friction_in
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.binding_law import (
+    BOUND,
+    IN_CONTACT,
+    applied_force,
+    border,
+    direction,
+    friction_in,
+    rest,
+)  # fmt: skip
+from fairlead.components.friction.contact import Contact, opposing
+from fairlead.components.friction.curve import mu, mu_s
 
-from fairlead.component import Choice, Input, Law, Output, Parameter, Zones, derived, guard, zone
+from fairlead.component import Choice, Input, Output, Parameter, Zones, derived, guard, zone
 
 BACK = 0.999999  # share of the plateau's end at which a ramp leads back to it; less would let the force jump
 FORMS = {
@@ -81,71 +90,73 @@ class Binding(Contact):
     @derived
     def mu_n(p):
         """Sliding coefficient at v_n."""
-        return p.curve.coefficient(p.v_n)
+        return mu(p.curve, p.v_n, +1)
+
+    @derived
+    def mu_n_backward(p):
+        """The same for backward slip."""
+        return mu(p.curve, p.v_n, -1)
 
     @derived
     def mu_s(p):
         """Coefficient of stiction."""
-        return p.curve.breakaway()
+        return mu_s(p.curve, +1)
+
+    @derived
+    def mu_s_backward(p):
+        """The same for backward slip."""
+        return mu_s(p.curve, -1)
 
     @derived
     def border(p):
         """Slip speed where the plateau ends [m/s]: at v_m, or where the cap is reached if that comes first."""
-        steep = p.mu_s / p.creep + p.mu_n / p.v_n
-        return min(p.v_m, p.mu_s / steep) if p.cap == "on" and p.mu_s > 0 else p.v_m
+        return plateau_end(p, p.mu_s, p.mu_n)
+
+    @derived
+    def border_backward(p):
+        """The same for backward slip."""
+        return plateau_end(p, p.mu_s_backward, p.mu_n_backward)
 
     @zone(*IN_CONTACT)
-    def touching(p, a, b, normal, zone):
+    def touching(p, a, b, grip, zone):
         """The force of the zone; what counts as creep is the slip on the plateau, where the contact sticks."""
         slip, bound = b.v - a.v, 1 if zone in BOUND else 0
-        friction = friction_in(p, zone, slip, normal)
         creep = slip if zone == "plateau" else 0
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, bound=bound, creep_rate=creep,
-                   dissipated=friction * slip)  # fmt: skip
-
-    @zone("off")
-    def off(p, a, b):
-        """No force passes."""
-        return Law(a=0, b=0, slip=b.v - a.v)
-
-    @guard(*IN_CONTACT, to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
+        return opposing(slip, friction_in(p, zone, slip, grip), bound=bound, creep_rate=creep)
 
     @guard("plateau", "ramp_forward", to="break_forward", unit="N")
-    def breaks_forward(p, a, b, normal, bound_a, bound_b, zone):
+    def breaks_forward(p, a, b, grip, bound_a, bound_b, zone):
         """The applied force passes stiction."""
-        return applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s if p.latch == "on" else -1
+        return applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, +1) if p.latch == "on" else -1
 
     @guard("plateau", "ramp_backward", to="break_backward", unit="N")
-    def breaks_backward(p, a, b, normal, bound_a, bound_b, zone):
+    def breaks_backward(p, a, b, grip, bound_a, bound_b, zone):
         """The same the other way."""
-        return -applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s if p.latch == "on" else -1
+        return -applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, -1) if p.latch == "on" else -1
 
     @guard(*BOUND, to="transit", unit="N")
-    def lets_go(p, a, b, normal, bound_a, bound_b, zone):
+    def lets_go(p, a, b, grip, bound_a, bound_b, zone):
         """Without the latch the contact goes through zero slip instead.
 
         With it a ramp needs no way out: capped, it only leads back to the plateau, which breaks away in the
         direction of the load.
         """
-        return abs(applied_force(p, zone, a, b, normal, bound_a, bound_b)) - normal * p.mu_s if p.latch == "off" else -1
+        return -_spare(p, zone, a, b, grip, bound_a, bound_b, hysteresis=0) if p.latch == "off" else -1
 
     @guard("plateau", to="ramp_forward", unit="m/s")
     def climbs_forward(p, a, b):
         """The plateau ends."""
-        return b.v - a.v - p.border
+        return b.v - a.v - border(p, +1)
 
     @guard("plateau", to="ramp_backward", unit="m/s")
     def climbs_backward(p, a, b):
         """The same the other way."""
-        return a.v - b.v - p.border
+        return a.v - b.v - border(p, -1)
 
     @guard("ramp_forward", "ramp_backward", to="plateau", unit="m/s")
     def settles(p, a, b, zone):
         """Back on the plateau; a hair below its end, or rounding sends a contact that rests there to and fro."""
-        return BACK * p.border - direction(zone) * (b.v - a.v)
+        return BACK * border(p, direction(zone)) - direction(zone) * (b.v - a.v)
 
     @guard("ramp_forward", "transit", "break_forward", "break_backward", to="slide_forward", unit="m/s")
     def slides_forward(p, a, b):
@@ -158,46 +169,49 @@ class Binding(Contact):
         return a.v - b.v - p.v_n
 
     @guard("slide_forward", to="ramp_forward", unit="m/s")
-    def caught_forward(p, a, b, normal, bound_a, bound_b, zone):
+    def caught_forward(p, a, b, grip, bound_a, bound_b, zone):
         """Slow, and the load is one the contact can hold."""
-        return p.v_n - (b.v - a.v), _spare(p, zone, a, b, normal, bound_a, bound_b)
+        return p.v_n - (b.v - a.v), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("slide_backward", to="ramp_backward", unit="m/s")
-    def caught_backward(p, a, b, normal, bound_a, bound_b, zone):
+    def caught_backward(p, a, b, grip, bound_a, bound_b, zone):
         """The same the other way."""
-        return p.v_n + (b.v - a.v), _spare(p, zone, a, b, normal, bound_a, bound_b)
+        return p.v_n + (b.v - a.v), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("slide_forward", "slide_backward", to="transit", unit="m/s")
-    def reverses(p, a, b, normal, bound_a, bound_b, zone):
+    def reverses(p, a, b, grip, bound_a, bound_b, zone):
         """Slow, and driven on through zero slip."""
         slow = p.v_n - direction(zone) * (b.v - a.v)
-        return slow, -_spare(p, zone, a, b, normal, bound_a, bound_b)
+        return slow, -_spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("transit", to="plateau", unit="m/s")
-    def binds(p, a, b, normal, bound_a, bound_b, zone):
+    def binds(p, a, b, grip, bound_a, bound_b, zone):
         """Almost no slip, and a load the contact can hold."""
-        return p.border - abs(b.v - a.v), _spare(p, zone, a, b, normal, bound_a, bound_b)
+        slip = b.v - a.v
+        slow = (border(p, +1) - slip, border(p, -1) + slip)
+        return *slow, _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("transit", to="ramp_forward", unit="m/s")
-    def binds_forward(p, a, b, normal, bound_a, bound_b, zone):
+    def binds_forward(p, a, b, grip, bound_a, bound_b, zone):
         """A load the contact can hold, above the plateau."""
-        return b.v - a.v - p.border, _spare(p, zone, a, b, normal, bound_a, bound_b)
+        return b.v - a.v - border(p, +1), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("transit", to="ramp_backward", unit="m/s")
-    def binds_backward(p, a, b, normal, bound_a, bound_b, zone):
+    def binds_backward(p, a, b, grip, bound_a, bound_b, zone):
         """The same the other way."""
-        return a.v - b.v - p.border, _spare(p, zone, a, b, normal, bound_a, bound_b)
+        return a.v - b.v - border(p, -1), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("break_forward", "break_backward", to="plateau", unit="m/s")
-    def gives_up(p, a, b, normal, bound_a, bound_b, zone):
+    def gives_up(p, a, b, grip, bound_a, bound_b, zone):
         """The break-away came to nothing."""
-        slow = p.border / 2 - direction(zone) * (b.v - a.v)
-        return slow, _spare(p, zone, a, b, normal, bound_a, bound_b)
+        slow = border(p, direction(zone)) / 2 - direction(zone) * (b.v - a.v)
+        return slow, _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("break_forward", "break_backward", to="transit", unit="N")
-    def turns(p, a, b, normal, bound_a, bound_b, zone):
+    def turns(p, a, b, grip, bound_a, bound_b, zone):
         """Driven hard the other way."""
-        return -direction(zone) * applied_force(p, zone, a, b, normal, bound_a, bound_b) - normal * p.mu_s
+        d = direction(zone)
+        return -d * applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, -d)
 
     @guard("off", to="slide_forward", unit="m/s")
     def lands_forward(p, a, b, normal):
@@ -214,7 +228,22 @@ class Binding(Contact):
         """Pressed again, slow."""
         return normal - 2 * p.lift, p.v_n - abs(b.v - a.v)
 
+    def narrowest(p):
+        """v_n."""
+        return p.v_n
 
-def _spare(p, zone, a, b, normal, bound_a, bound_b):
-    """How far the applied force is below what binds again, (1 - hysteresis) F_s - |af| [N]."""
-    return (1 - p.hysteresis) * normal * p.mu_s - abs(applied_force(p, zone, a, b, normal, bound_a, bound_b))
+
+def plateau_end(p, mu_s, mu_n):
+    """Slip speed where the plateau ends [m/s] in the direction that has these coefficients."""
+    steep = mu_s / p.creep + mu_n / p.v_n
+    return min(p.v_m, mu_s / steep) if p.cap == "on" and mu_s > 0 else p.v_m
+
+
+def _spare(p, zone, a, b, grip, bound_a, bound_b, hysteresis=None):
+    """How far the applied force is below what binds again, (1 - hysteresis) F_s - |af| [N]; the less of both ways."""
+    share = 1 - (p.hysteresis if hysteresis is None else hysteresis)
+    applied = applied_force(p, zone, a, b, grip, bound_a, bound_b)
+    if p.curve.backward is None:
+        return share * grip * p.mu_s - abs(applied)
+    forward, backward = share * grip * rest(p, +1) - applied, share * grip * rest(p, -1) + applied
+    return (forward + backward - abs(forward - backward)) / 2

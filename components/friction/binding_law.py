@@ -1,35 +1,85 @@
 """The binding law as formulas: the force in each zone, and the force applied to the contact.
 
-S is the sliding part, f the viscous coefficient; N the normal force, v the slip speed; F_s = N mu_s.
-`v_m < v_n` are the slip speeds between which f falls from f_m = F_s/creep to nothing.
+S is the sliding part, f the viscous coefficient; N the normal force that counts, v the slip speed; F_s = N mu_s.
+`v_m < v_n` are the slip speeds between which f falls from f_m = F_s/creep to nothing. d = +-1 is the direction that a
+zone stands for.
 """
 
+from collections.abc import Callable
 from typing import Any
 
-BOUND = ("plateau", "ramp_forward", "ramp_backward")
-IN_CONTACT = (*BOUND, "slide_forward", "slide_backward", "transit", "break_forward", "break_backward")
+from fairlead.components.friction.curve import mu
+
+
+def rest(p: Any, d: Any) -> Any:
+    """mu_s in direction d; in between where a zone has both."""
+    return p.mu_s if p.curve.backward is None else _between(p.mu_s, p.mu_s_backward, d)
+
+
+def edge(p: Any, d: Any) -> Any:
+    """mu(v_n) in direction d; in between where a zone has both."""
+    return p.mu_n if p.curve.backward is None else _between(p.mu_n, p.mu_n_backward, d)
+
+
+def border(p: Any, d: int) -> Any:
+    """Slip speed where the plateau ends in direction d."""
+    return p.border if p.curve.backward is None or d == 1 else p.border_backward
+
+
+def _between(forward: Any, backward: Any, d: Any) -> Any:
+    if d == 1 or d == -1:
+        return forward if d == 1 else backward
+    return forward * (1 + d) / 2 + backward * (1 - d) / 2
+
+
+def plateau(p: Any, d: int, slip: Any, grip: Any) -> Any:
+    """The viscous part with f = f_m, and S on its line through zero."""
+    side = slip / p.border
+    return grip * (rest(p, side) / p.creep + edge(p, side) / p.v_n) * slip
+
+
+def ramp(p: Any, d: int, slip: Any, grip: Any) -> Any:
+    """The viscous part falls to nothing; with the cap F_s, since the ramp is above it everywhere (physics 1.4)."""
+    if p.cap == "on":
+        return d * grip * rest(p, d)
+    coefficient = rest(p, d) / p.creep * (p.v_n - d * slip) / (p.v_n - p.v_m)
+    return grip * (coefficient + edge(p, d) / p.v_n) * slip
+
+
+def slide(p: Any, d: int, slip: Any, grip: Any) -> Any:
+    """The curve."""
+    return d * grip * mu(p.curve, d * slip, d) + p.viscous * slip
+
+
+def latched(p: Any, d: int, slip: Any, grip: Any) -> Any:
+    """The curve at v_n, however slow the slip still is."""
+    return d * grip * edge(p, d) + p.viscous * slip
+
+
+def transit(p: Any, d: int, slip: Any, grip: Any) -> Any:
+    """S alone, on its line through zero."""
+    return grip * edge(p, slip / p.v_n) / p.v_n * slip + p.viscous * slip
+
+
+LAWS: dict[str, tuple[Callable[..., Any], int]] = {
+    "plateau": (plateau, +1), "ramp_forward": (ramp, +1), "ramp_backward": (ramp, -1), "slide_forward": (slide, +1),
+    "slide_backward": (slide, -1), "transit": (transit, +1), "break_forward": (latched, +1),
+    "break_backward": (latched, -1),
+}  # fmt: skip
+"""The law of every zone in contact, and its direction."""
+IN_CONTACT = tuple(LAWS)
+BOUND = tuple(zone for zone, (law, _) in LAWS.items() if law in (plateau, ramp))
 
 
 def direction(zone: str) -> int:
     """+1 in a forward zone, -1 in a backward one."""
-    return -1 if zone.endswith("backward") else +1
+    return LAWS[zone][1]
 
 
-def friction_in(p: Any, zone: str, slip: Any, normal: Any) -> Any:
+def friction_in(p: Any, zone: str, slip: Any, grip: Any) -> Any:
     """Friction T [N] in a zone, smooth in slip and normal force."""
-    d = direction(zone)
-    if zone == "plateau":
-        return normal * (p.mu_s / p.creep + p.mu_n / p.v_n) * slip
-    if zone in BOUND and p.cap == "on":  # the ramp is above F_s everywhere (docs/physics.md 1.4)
-        return d * normal * p.mu_s
-    if zone in BOUND:
-        coefficient = p.mu_s / p.creep * (p.v_n - d * slip) / (p.v_n - p.v_m)
-        return normal * (coefficient + p.mu_n / p.v_n) * slip
-    if zone.startswith("slide"):
-        return d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
-    if zone.startswith("break"):
-        return d * normal * p.mu_n + p.viscous * slip
-    return normal * p.mu_n / p.v_n * slip + p.viscous * slip  # transit
+    law, d = LAWS[zone]
+    return law(p, d, slip, grip)
 
 
 def effective_mass(p: Any, zone: str, a: Any, b: Any, bound_a: Any, bound_b: Any) -> Any:
@@ -48,7 +98,7 @@ def effective_mass(p: Any, zone: str, a: Any, b: Any, bound_a: Any, bound_b: Any
     return 1 / (inverse_a + inverse_b)
 
 
-def applied_force(p: Any, zone: str, a: Any, b: Any, normal: Any, bound_a: Any, bound_b: Any) -> Any:
+def applied_force(p: Any, zone: str, a: Any, b: Any, grip: Any, bound_a: Any, bound_b: Any) -> Any:
     """The force that the contact would have to carry to hold [N], af = T + M a_rel."""
     mass = effective_mass(p, zone, a, b, bound_a, bound_b)
-    return friction_in(p, zone, b.v - a.v, normal) + mass * (b.a - a.a)
+    return friction_in(p, zone, b.v - a.v, grip) + mass * (b.a - a.a)

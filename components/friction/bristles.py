@@ -1,6 +1,7 @@
 """What the laws with a bristle have in common: one average deflection z, and the numbers that go with it."""
 
 from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.curve import mu
 
 from fairlead.component import Law, Output, Parameter, State, derived, guard, tanh, zone
 
@@ -42,11 +43,6 @@ class Bristles(Contact, abstract=True):
 class OneWay(Bristles, abstract=True):
     """Bristles with a zone for each direction of slip, in which |v| is smooth."""
 
-    @guard("forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
-
     @guard("off", to="forward", unit="N")
     def lands(p, normal):
         """Pressed again; the direction is found at once."""
@@ -63,17 +59,17 @@ class OneWay(Bristles, abstract=True):
         return b.v - a.v - STILL
 
 
-def sliding_deflection(p, speed):
-    """Deflection [m] of the bristles in steady sliding at a slip speed: N mu(v)/s0."""
-    return p.curve.coefficient(speed) / p.ratio
+def sliding_deflection(p, speed, d):
+    """Deflection [m] of the bristles in steady sliding at a slip speed in direction d: N mu(v)/s0."""
+    return mu(p.curve, speed, d) / p.ratio
 
 
-def bent(p, a, b, z, normal, rate, damping):
+def bent(p, a, b, z, grip, rate, damping):
     """The law of bristles bent by z, growing at `rate` = z'.
 
     T = s0 (z + damping z') + viscous v;  stored s0 z^2/2.  Of the power T v, what bends the bristles is stored.
     """
-    slip, stiffness = b.v - a.v, normal * p.ratio
+    slip, stiffness = b.v - a.v, grip * p.ratio
     friction = stiffness * (z + damping * rate) + p.viscous * slip
     creeping = (slip - rate) * (1 - tanh(SHARPNESS * ((slip / p.stick_speed) ** 2 - 1))) / 2
     lost = stiffness * z * (slip - rate) + stiffness * damping * rate * slip + p.viscous * slip**2

@@ -1,15 +1,28 @@
 """The sliding contact: one component for every treatment of friction."""
 
-from fairlead.components.friction.curve import Curve
+from fairlead.components.friction.curve import Curve, load_factor, mu, temperature_factor
 
-from fairlead.component import Component, Family, Input, Output, Parameter, Part, Translational
+from fairlead.component import (
+    Component,
+    Effect,
+    Family,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    Translational,
+    guard,
+    shared,
+    zone,
+)  # fmt: skip
 
 
 class Contact(Family, Component, abstract=True):
     """Dry friction between two bodies, `a` the surface and `b` the body that slips on it.
 
     Slip is v = b.v - a.v; the friction T opposes it: force -T on b, +T on a. `method` chooses how
-    sticking is treated, `curve` how sliding friction depends on speed.
+    sticking is treated, `curve` how sliding friction depends on speed, load and temperature.
     """
 
     key = "method"
@@ -20,7 +33,58 @@ class Contact(Family, Component, abstract=True):
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     viscous = Parameter("N*s/m", "Viscous friction beside the dry one, while sliding.", default=0.0, least=0)
     lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
+    load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
+    temperature_dependence = Effect("The curve's softening; off: friction does not depend on temperature.")
+    ambient = Parameter("K", "Temperature when the input is not connected.", default=293.15, above=0)
     normal = Input("N", "Normal force.", default="normal_force")
+    temperature = Input("K", "Temperature of the surfaces.", default="ambient")
     slip = Output("m/s", "Slip speed of b over a.")
     friction = Output("N", "Friction T, positive when it opposes positive slip.")
     creep_rate = Output("m/s", "Slip speed while the contact should stick, else zero.")
+
+    @shared
+    def grip(p, normal, temperature):
+        """The normal force that counts [N]: with the factors for load and temperature that the curve gives."""
+        load = load_factor(p.curve, normal, p.lift) if p.load_dependence == "on" else 1
+        warmth = temperature_factor(p.curve, temperature) if p.temperature_dependence == "on" else 1
+        return normal * load * warmth
+
+    @zone("off")
+    def off(p, a, b):
+        """No force passes."""
+        return Law(a=0, b=0, slip=b.v - a.v)
+
+    @guard("*", to="off", unit="N")
+    def lifts(p, normal):
+        """Nothing presses any more; declared first, because it settles the matter."""
+        return p.lift - normal
+
+    def narrowest(p):
+        """Slip speed [m/s] from which on friction is that of sliding; None when sticking needs no such band."""
+        return None
+
+
+def direction(zone):
+    """+1 in a zone for forward slip, -1 in one for backward; names of zones end in these words."""
+    return -1 if zone.endswith("backward") else 1
+
+
+def sliding_friction(p, zone, slip, grip):
+    """Friction [N] of a zone in which the contact slides: the curve, against the slip."""
+    d = direction(zone)
+    return d * grip * mu(p.curve, d * slip, d) + p.viscous * slip
+
+
+def opposing(slip, friction, **more):
+    """The law of a friction that takes all its power out of the mechanism."""
+    return Law(a=-friction, b=+friction, slip=slip, friction=friction, dissipated=friction * slip, **more)
+
+
+class Sliding(Contact, abstract=True):
+    """A contact with a zone for each direction of sliding."""
+
+    @zone("forward", "backward")
+    def sliding(p, a, b, grip, zone):
+        """The curve gives the force, against the slip."""
+        slip = b.v - a.v
+        return opposing(slip, sliding_friction(p, zone, slip, grip))

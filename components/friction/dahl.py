@@ -1,6 +1,7 @@
 """Dahl's law: friction is a stress that grows with displacement and saturates."""
 
 from fairlead.components.friction.bristles import OneWay, bent, sliding_deflection
+from fairlead.components.friction.contact import direction
 
 from fairlead.component import Zones, zone
 
@@ -23,8 +24,8 @@ class Dahl(OneWay):
     zones = Zones("forward", "backward", "off")
 
     @zone("forward", "backward")
-    def bends(p, a, b, z, normal, zone):
+    def bends(p, a, b, z, grip, zone):
         """The bristles bend with the slip, less and less as they near their sliding deflection."""
-        d, slip = (1 if zone == "forward" else -1), b.v - a.v
-        share = z / sliding_deflection(p, d * slip)
-        return bent(p, a, b, z, normal, slip * (1 - d * share), damping=0)
+        d, slip = direction(zone), b.v - a.v
+        share = z / sliding_deflection(p, d * slip, d)
+        return bent(p, a, b, z, grip, slip * (1 - d * share), damping=0)

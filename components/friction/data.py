@@ -1,6 +1,6 @@
 """Friction coefficient measured over slip speed."""
 
-from fairlead.components.friction.curve import Curve
+from fairlead.components.friction.curve import Curve, points_make_sense
 
 from fairlead.component import Table, derived
 
@@ -8,7 +8,8 @@ from fairlead.component import Table, derived
 class Data(Curve):
     """mu(v) from points: straight lines (one zone per interval) or a monotone cubic; constant beyond the last.
 
-    The first point must be at zero speed; its value is the coefficient to start sliding.
+    The first point must be at zero speed; its value is the coefficient to start sliding. Points may stand in a file
+    of two columns beside the netlist: `points: {file: measured.csv, kind: cubic}`.
     """
 
     word = "table"
@@ -34,7 +35,5 @@ class Data(Curve):
 
     def check(p):
         """Speeds from zero on, no negative coefficient."""
-        if p.points.rows[0, 1] != 0.0:
-            yield "points", f"the first speed is {p.points.rows[0, 1]:g} m/s", "Begin the table at 0 m/s."
-        if (p.points.rows[:, 3] < 0).any():
-            yield "points", "a coefficient is negative", "A negative coefficient would drive the slip."
+        yield from Curve.check(p)
+        yield from points_make_sense("points", p.points)

@@ -1,6 +1,7 @@
 """The elastoplastic law: LuGre bristles that are purely elastic up to a part of their break-away deflection."""
 
 from fairlead.components.friction.bristles import STILL, Bristles, bent, sliding_deflection
+from fairlead.components.friction.contact import direction
 
 from fairlead.component import Parameter, Zones, guard, pi, sin, zone
 
@@ -35,30 +36,25 @@ class Elastoplastic(Bristles):
     zones = Zones("elastic", "blend_forward", "blend_backward", "forward", "backward", "off")
 
     @zone("elastic")
-    def elastic(p, a, b, z, normal):
+    def elastic(p, a, b, z, grip):
         """A spring with a damper; nothing of the slip is lost."""
-        return bent(p, a, b, z, normal, b.v - a.v, damping=p.relaxation)
+        return bent(p, a, b, z, grip, b.v - a.v, damping=p.relaxation)
 
     @zone("blend_forward", "blend_backward")
-    def blends(p, a, b, z, normal, zone):
+    def blends(p, a, b, z, grip, zone):
         """Plastic in part."""
-        d, slip = _direction(zone), b.v - a.v
-        share = z / sliding_deflection(p, d * slip)
+        d, slip = direction(zone), b.v - a.v
+        share = z / sliding_deflection(p, d * slip, d)
         middle, width = (1 + p.elastic_share) / 2, 1 - p.elastic_share
         alpha = (1 + sin(pi * (d * share - middle) / width)) / 2
-        return bent(p, a, b, z, normal, slip * (1 - alpha * d * share), damping=p.relaxation)
+        return bent(p, a, b, z, grip, slip * (1 - alpha * d * share), damping=p.relaxation)
 
     @zone("forward", "backward")
-    def slides(p, a, b, z, normal, zone):
+    def slides(p, a, b, z, grip, zone):
         """Fully plastic."""
-        d, slip = _direction(zone), b.v - a.v
-        share = z / sliding_deflection(p, d * slip)
-        return bent(p, a, b, z, normal, slip * (1 - d * share), damping=p.relaxation)
-
-    @guard("elastic", "blend_forward", "blend_backward", "forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
+        d, slip = direction(zone), b.v - a.v
+        share = z / sliding_deflection(p, d * slip, d)
+        return bent(p, a, b, z, grip, slip * (1 - d * share), damping=p.relaxation)
 
     @guard("off", to="elastic", unit="N")
     def lands(p, normal):
@@ -68,50 +64,48 @@ class Elastoplastic(Bristles):
     @guard("elastic", to="blend_forward", unit="m/s")
     def yields_forward(p, a, b, z, zone):
         """Loaded forward beyond the elastic part."""
-        return b.v - a.v - STILL, (z - p.elastic_share * _sliding(p, a, b, zone)) / p.presliding
+        return b.v - a.v - STILL, _beyond(p, zone, b.v - a.v, z, +1, p.elastic_share)
 
     @guard("elastic", to="blend_backward", unit="m/s")
     def yields_backward(p, a, b, z, zone):
         """The same the other way."""
-        return a.v - b.v - STILL, (-z - p.elastic_share * _sliding(p, a, b, zone)) / p.presliding
+        return a.v - b.v - STILL, _beyond(p, zone, b.v - a.v, z, -1, p.elastic_share)
 
     @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="m/s")
     def unloads(p, a, b, zone):
         """The slip has changed its direction."""
-        return -_direction(zone) * (b.v - a.v) - STILL
+        return -direction(zone) * (b.v - a.v) - STILL
 
     @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="1")
     def recovers(p, a, b, z, zone):
         """The sliding deflection has grown away from the bristles, or they have straightened."""
-        return (0.99 * p.elastic_share * _sliding(p, a, b, zone) - _direction(zone) * z) / p.presliding
+        return -_beyond(p, zone, b.v - a.v, z, direction(zone), 0.99 * p.elastic_share)
 
     @guard("blend_forward", to="forward", unit="1")
     def slides_forward(p, a, b, z, zone):
         """Bent beyond the sliding deflection."""
-        return (z - (1 + MARGIN) * _sliding(p, a, b, zone)) / p.presliding
+        return _beyond(p, zone, b.v - a.v, z, +1, 1 + MARGIN)
 
     @guard("blend_backward", to="backward", unit="1")
     def slides_backward(p, a, b, z, zone):
         """The same the other way."""
-        return (-z - (1 + MARGIN) * _sliding(p, a, b, zone)) / p.presliding
+        return _beyond(p, zone, b.v - a.v, z, -1, 1 + MARGIN)
 
     @guard("forward", to="blend_forward", unit="1")
     def lags_forward(p, a, b, z, zone):
         """Bent less than the sliding deflection."""
-        return ((1 - MARGIN) * _sliding(p, a, b, zone) - z) / p.presliding
+        return -_beyond(p, zone, b.v - a.v, z, +1, 1 - MARGIN)
 
     @guard("backward", to="blend_backward", unit="1")
     def lags_backward(p, a, b, z, zone):
         """The same the other way."""
-        return ((1 - MARGIN) * _sliding(p, a, b, zone) + z) / p.presliding
+        return -_beyond(p, zone, b.v - a.v, z, -1, 1 - MARGIN)
 
 
-def _direction(zone):
-    """+1 in a forward zone, -1 in a backward one."""
-    return -1 if zone.endswith("backward") else 1
+def _beyond(p, zone, slip, z, d, share):
+    """How far z is, in direction d, beyond a share of the sliding deflection at this slip; over `presliding`.
 
-
-def _sliding(p, a, b, zone):
-    """Sliding deflection at the present slip speed, for guards [m]; only `elastic` has slip of either sign."""
-    slip = b.v - a.v
-    return sliding_deflection(p, abs(slip) if zone == "elastic" else _direction(zone) * slip)
+    Only `elastic` has slip of either sign; elsewhere the law reads the curve at the same speed.
+    """
+    speed = abs(slip) if zone == "elastic" else direction(zone) * slip
+    return (d * z - share * sliding_deflection(p, speed, d)) / p.presliding

@@ -1,11 +1,12 @@
 """Exact hold: while the contact sticks its force is an unknown and the slip is zero."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.curve import mu_s
+from fairlead.components.friction.rigid import Rigid
 
-from fairlead.component import Law, Output, Parameter, Unknown, Zones, guard, hold, zone
+from fairlead.component import Law, Parameter, Zones, guard, hold, zone
 
 
-class Hold(Contact):
+class Hold(Rigid):
     """Set-valued friction, the reference for every other treatment.
 
     held:      slip = 0, T = whatever holds, |T| <= N mu_s
@@ -17,9 +18,7 @@ class Hold(Contact):
     """
 
     word = "hold"
-    force = Unknown("N", "Friction T.")
     stick_speed = Parameter("m/s", "A contact that lands with less slip than this sticks.", default=1e-6, above=0)
-    bound = Output("1", "1 while the contact holds.")
     zones = Zones("held", "forward", "backward", "off")
 
     @zone("held")
@@ -28,24 +27,6 @@ class Hold(Contact):
         slip = b.v - a.v
         return Law(a=-force, b=+force, force=hold(slip, within=p.stick_speed), slip=slip, friction=force,
                    creep_rate=slip, bound=1, dissipated=force * slip)  # fmt: skip
-
-    @zone("forward", "backward")
-    def sliding(p, a, b, force, normal, zone):
-        """The curve gives the force, against the slip."""
-        d = 1 if zone == "forward" else -1
-        slip = b.v - a.v
-        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
-        return Law(a=-force, b=+force, force=force - friction, slip=slip, friction=force, dissipated=force * slip)
-
-    @zone("off")
-    def off(p, a, b, force):
-        """No force passes."""
-        return Law(a=0, b=0, force=force, slip=b.v - a.v)
-
-    @guard("held", "forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
 
     @guard("held", to="forward", unit="m/s")
     def torn_forward(p, a, b):
@@ -58,14 +39,14 @@ class Hold(Contact):
         return a.v - b.v - p.stick_speed
 
     @guard("held", to="forward", unit="N")
-    def breaks_forward(p, force, normal):
+    def breaks_forward(p, force, grip):
         """The force needed is more than stiction."""
-        return force - normal * p.curve.breakaway()
+        return force - grip * mu_s(p.curve, +1)
 
     @guard("held", to="backward", unit="N")
-    def breaks_backward(p, force, normal):
+    def breaks_backward(p, force, grip):
         """The same the other way."""
-        return -force - normal * p.curve.breakaway()
+        return -force - grip * mu_s(p.curve, -1)
 
     @guard("forward", to="held", unit="m/s")
     def stops_forward(p, a, b):

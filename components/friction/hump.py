@@ -46,6 +46,7 @@ class Hump(Curve):
 
     def check(p):
         """The peak is the highest of the three levels."""
+        yield from Curve.check(p)
         if p.peak <= max(p.stiction, p.coulomb):
             yield (
                 "peak",

@@ -1,11 +1,13 @@
 """Karnopp's law: below a small slip speed a contact counts as stuck, and its slip is taken to be zero."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import direction
+from fairlead.components.friction.curve import mu_s
+from fairlead.components.friction.rigid import Rigid, settled
 
-from fairlead.component import Law, Output, Parameter, Unknown, Zones, guard, hold, zone
+from fairlead.component import Law, Parameter, Zones, guard, hold, zone
 
 
-class Karnopp(Contact):
+class Karnopp(Rigid):
     """Inside the band |v| < band the contact carries what is applied, up to F_s = N mu_s; outside it slides.
 
     stuck      |v| < band, |af| <= F_s      slip = 0, T = af
@@ -23,9 +25,7 @@ class Karnopp(Contact):
     Sys. Meas. Control 107, 100, DOI 10.1115/1.3140698.
     """
 
-    force = Unknown("N", "Friction T.")
     band = Parameter("m/s", "Slip speed below which the contact counts as stuck.", default=1e-4, above=0)
-    bound = Output("1", "1 while the contact is stuck.")
     zones = Zones("stuck", "breaking_forward", "breaking_backward", "forward", "backward", "off")
 
     @zone("stuck")
@@ -36,29 +36,10 @@ class Karnopp(Contact):
                    bound=1, dissipated=force * slip)  # fmt: skip
 
     @zone("breaking_forward", "breaking_backward")
-    def breaking(p, a, b, force, normal, zone):
+    def breaking(p, a, b, force, grip, zone):
         """More is applied than stiction: friction stays at its limit until the slip leaves the band."""
-        friction = normal * p.curve.breakaway() * (1 if zone == "breaking_forward" else -1)
-        slip = b.v - a.v
-        return Law(a=-force, b=+force, force=force - friction, slip=slip, friction=force, dissipated=force * slip)
-
-    @zone("forward", "backward")
-    def sliding(p, a, b, force, normal, zone):
-        """The curve gives the force, against the slip."""
-        d = 1 if zone == "forward" else -1
-        slip = b.v - a.v
-        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
-        return Law(a=-force, b=+force, force=force - friction, slip=slip, friction=force, dissipated=force * slip)
-
-    @zone("off")
-    def off(p, a, b, force):
-        """No force passes."""
-        return Law(a=0, b=0, force=force, slip=b.v - a.v)
-
-    @guard("stuck", "breaking_forward", "breaking_backward", "forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
+        d = direction(zone)
+        return settled(b.v - a.v, force, d * grip * mu_s(p.curve, d))
 
     @guard("stuck", "breaking_forward", "breaking_backward", to="forward", unit="m/s")
     def leaves_forward(p, a, b):
@@ -71,14 +52,14 @@ class Karnopp(Contact):
         return a.v - b.v - p.band
 
     @guard("stuck", to="breaking_forward", unit="N")
-    def breaks_forward(p, force, normal):
+    def breaks_forward(p, force, grip):
         """The force needed is more than stiction."""
-        return force - normal * p.curve.breakaway()
+        return force - grip * mu_s(p.curve, +1)
 
     @guard("stuck", to="breaking_backward", unit="N")
-    def breaks_backward(p, force, normal):
+    def breaks_backward(p, force, grip):
         """The same the other way."""
-        return -force - normal * p.curve.breakaway()
+        return -force - grip * mu_s(p.curve, -1)
 
     @guard("breaking_forward", to="stuck", unit="m/s")
     def gives_up_forward(p, a, b):
@@ -104,3 +85,7 @@ class Karnopp(Contact):
     def lands(p, normal):
         """Pressed again; if it slips, it leaves `stuck` at once."""
         return normal - 2 * p.lift
+
+    def narrowest(p):
+        """The band."""
+        return p.band

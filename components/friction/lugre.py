@@ -1,6 +1,7 @@
 """The LuGre law: bristles with damping, and a sliding curve that gives stiction and the Stribeck effect."""
 
 from fairlead.components.friction.bristles import OneWay, bent, sliding_deflection
+from fairlead.components.friction.contact import direction
 
 from fairlead.component import Parameter, Zones, zone
 
@@ -31,8 +32,8 @@ class LuGre(OneWay):
     zones = Zones("forward", "backward", "off")
 
     @zone("forward", "backward")
-    def bends(p, a, b, z, normal, zone):
+    def bends(p, a, b, z, grip, zone):
         """The bristles bend with the slip and slip off as they near their sliding deflection."""
-        d, slip = (1 if zone == "forward" else -1), b.v - a.v
-        share = z / sliding_deflection(p, d * slip)
-        return bent(p, a, b, z, normal, slip * (1 - d * share), damping=p.relaxation)
+        d, slip = direction(zone), b.v - a.v
+        share = z / sliding_deflection(p, d * slip, d)
+        return bent(p, a, b, z, grip, slip * (1 - d * share), damping=p.relaxation)

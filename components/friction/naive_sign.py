@@ -1,11 +1,13 @@
 """The naive law of the textbook: friction is the sign of the slip. It fails where it should stick, and says so."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import opposing
+from fairlead.components.friction.curve import mu
+from fairlead.components.friction.one_formula import OneFormula
 
-from fairlead.component import Law, Parameter, Zones, guard, sqrt, tanh, zone
+from fairlead.component import Parameter, sqrt, tanh, zone
 
 
-class NaiveSign(Contact):
+class NaiveSign(OneFormula):
     """T = N mu(|v|) sgn(v) + viscous v, evaluated inside the step, sgn(0) = 0.
 
     on    N > 0
@@ -21,28 +23,16 @@ class NaiveSign(Contact):
     """
 
     width = Parameter("m/s", "Slip speed over which the sign changes; not to be resolved.", default=1e-15, above=0)
-    advice = "The sign of the slip jumps inside a step; use method hold, or binding where many contacts stick."
-    zones = Zones("on", "off")
+    advice = (
+        "method naive_sign lets the sign of the slip jump inside a step, which no step size follows; use method hold, "
+        "or binding where many contacts stick."
+    )
+    budget = {"max_steps": 100_000}
 
     @zone("on")
-    def on(p, a, b, normal):
+    def on(p, a, b, grip):
         """The sign of the slip, as written in every textbook."""
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.width**2)
-        friction = normal * p.curve.coefficient(speed) * tanh(slip / p.width) ** 3 + p.viscous * slip
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=0, dissipated=friction * slip)
-
-    @zone("off")
-    def off(p, a, b):
-        """No force passes."""
-        return Law(a=0, b=0, slip=b.v - a.v)
-
-    @guard("on", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more."""
-        return p.lift - normal
-
-    @guard("off", to="on", unit="N")
-    def lands(p, normal):
-        """Pressed again."""
-        return normal - 2 * p.lift
+        sign = tanh(slip / p.width) ** 3
+        return opposing(slip, grip * mu(p.curve, speed, sign) * sign + p.viscous * slip, creep_rate=0)

@@ -1,11 +1,11 @@
 """The naive two-zone law: the sign of the slip frozen within a step. It fails where it should stick, and says so."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import Sliding
 
-from fairlead.component import Law, Zones, guard, zone
+from fairlead.component import Zones, guard
 
 
-class NaiveZone(Contact):
+class NaiveZone(Sliding):
     """T = +N mu(|v|) in zone forward, -N mu(|v|) in zone backward, plus viscous v; the slip's sign decides.
 
     forward   v > 0     backward   v < 0     off   N = 0
@@ -13,31 +13,18 @@ class NaiveZone(Contact):
     Freezing the zone makes every step smooth, which cures the step-size collapse of the plain sign switch. But at
     rest neither zone is right: in `forward` the friction drives the block back, in `backward` it drives it on. So
     the zones do not settle, or switch at every step. There is no stiction: `curve` counts only while sliding.
-    What ends such a run is the bound on passes, the dwell or a budget (max_events), with this contact's name.
+    What ends such a run is the bound on passes, the dwell or a budget of steps and switches, with this contact's name.
     Use `hold` to stick exactly, `binding` for many contacts at once; both have a zone for being stuck.
     Source: the two-zone example in Tomlinson, Cooke and Cosserat (2003), DOI 10.1177/095965180321700207, which
     warns of it as well.
     """
 
-    advice = "The two-zone law has no zone for sticking; use method hold, or binding where many contacts stick."
+    advice = (
+        "method naive_zone has no zone for sticking, so at rest neither of its two is right; use method hold, or "
+        "binding where many contacts stick."
+    )
+    budget = {"max_steps": 100_000, "max_events": 50_000}
     zones = Zones("forward", "backward", "off")
-
-    @zone("forward", "backward")
-    def sliding(p, a, b, normal, zone):
-        """The curve gives the force, against the slip that the zone stands for."""
-        d, slip = (1 if zone == "forward" else -1), b.v - a.v
-        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=0, dissipated=friction * slip)
-
-    @zone("off")
-    def off(p, a, b):
-        """No force passes."""
-        return Law(a=0, b=0, slip=b.v - a.v)
-
-    @guard("forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
 
     @guard("off", to="forward", unit="N")
     def lands(p, normal):

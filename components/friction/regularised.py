@@ -2,15 +2,17 @@
 
 import math
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import opposing
+from fairlead.components.friction.curve import mu
+from fairlead.components.friction.one_formula import OneFormula
 
-from fairlead.component import Law, Parameter, Zones, atan, guard, pi, sqrt, tanh, zone
+from fairlead.component import Parameter, atan, pi, sqrt, tanh, zone
 
 MOST_COUNTED = 0.999  # share of the sliding level up to which slip counts as creep
 SHARPNESS = 20.0  # of the end of that count, beside 1; at 99 % of the level it is complete for every shape here
 
 
-class Regularised(Contact, abstract=True):
+class Regularised(OneFormula, abstract=True):
     """T = N mu(|v|) s(v/creep) + viscous v  with a shape s that goes through zero with slope about 1.
 
     |v| is rounded off at the creep speed, sqrt(v^2 + creep^2). There is no stiction: the largest force is
@@ -20,38 +22,25 @@ class Regularised(Contact, abstract=True):
     """
 
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
-    zones = Zones("on", "off")
 
     @zone("on")
-    def on(p, a, b, normal):
+    def on(p, a, b, grip):
         """One formula for all speeds; slip counts as creep while friction is below 99.9 % of its level."""
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.creep**2)
-        friction = normal * p.curve.coefficient(speed) * p.shape(slip / p.creep) + p.viscous * slip
+        share = p.shape(slip / p.creep)
+        friction = grip * mu(p.curve, speed, share) * share + p.viscous * slip
         beyond = (slip / (p.creep * p.reach())) ** 2 - 1
         creeping = slip * (1 - tanh(SHARPNESS * beyond)) / 2
-        return Law(
-            a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=creeping, dissipated=friction * slip
-        )
-
-    @zone("off")
-    def off(p, a, b):
-        """No force passes."""
-        return Law(a=0, b=0, slip=b.v - a.v)
-
-    @guard("on", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more."""
-        return p.lift - normal
-
-    @guard("off", to="on", unit="N")
-    def lands(p, normal):
-        """Pressed again."""
-        return normal - 2 * p.lift
+        return opposing(slip, friction, creep_rate=creeping)
 
     def reach(p):
         """Slip over creep at which the shape is 99.9 % of its level."""
         return p.inverse(MOST_COUNTED)
+
+    def narrowest(p):
+        """Where friction is 99 % of its level."""
+        return p.creep * p.inverse(0.99)
 
 
 class Smooth(Regularised):

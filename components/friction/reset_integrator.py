@@ -1,6 +1,8 @@
 """The reset integrator: slip is integrated into a deflection, and the integration stops at the break-away one."""
 
 from fairlead.components.friction.bristles import STILL, Bristles
+from fairlead.components.friction.contact import opposing, sliding_friction
+from fairlead.components.friction.curve import mu_s
 
 from fairlead.component import Law, Parameter, Zones, guard, zone
 
@@ -25,25 +27,19 @@ class ResetIntegrator(Bristles):
     zones = Zones("spring", "forward", "backward", "off")
 
     @zone("spring")
-    def spring(p, a, b, z, normal):
+    def spring(p, a, b, z, grip):
         """A spring with a damper."""
-        slip, stiffness = b.v - a.v, normal * p.ratio
+        slip, stiffness = b.v - a.v, grip * p.ratio
         friction = stiffness * (z + p.relaxation * slip)
         return Law(a=-friction, b=+friction, z=slip, slip=slip, friction=friction, deflection=z, creep_rate=0,
                    stored=stiffness * z**2 / 2, dissipated=stiffness * p.relaxation * slip**2)  # fmt: skip
 
     @zone("forward", "backward")
-    def slides(p, a, b, z, normal, zone):
+    def slides(p, a, b, z, grip, zone):
         """The curve gives the force; the spring stays as it is."""
-        d, slip = (1 if zone == "forward" else -1), b.v - a.v
-        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
-        return Law(a=-friction, b=+friction, z=0, slip=slip, friction=friction, deflection=z,
-                   stored=normal * p.ratio * z**2 / 2, dissipated=friction * slip)  # fmt: skip
-
-    @guard("spring", "forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
-        return p.lift - normal
+        slip = b.v - a.v
+        stored = grip * p.ratio * z**2 / 2
+        return opposing(slip, sliding_friction(p, zone, slip, grip), z=0, deflection=z, stored=stored)
 
     @guard("off", to="spring", unit="N")
     def lands(p, normal):
@@ -57,8 +53,8 @@ class ResetIntegrator(Bristles):
 
     @guard("spring", to="backward", unit="1")
     def breaks_backward(p, a, b, z):
-        """The same the other way."""
-        return -z / p.presliding - 1, (a.v - b.v) / STILL - 1
+        """The same the other way, where the coefficient from rest may be another."""
+        return -z / (mu_s(p.curve, -1) / p.ratio) - 1, (a.v - b.v) / STILL - 1
 
     @guard("forward", to="spring", unit="m/s")
     def catches_forward(p, a, b):

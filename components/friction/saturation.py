@@ -1,11 +1,12 @@
 """The saturated line: the sign of the slip is replaced by a straight line between two levels."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import Sliding, opposing
+from fairlead.components.friction.curve import mu
 
-from fairlead.component import Law, Parameter, Zones, guard, zone
+from fairlead.component import Parameter, Zones, guard, zone
 
 
-class Saturation(Contact):
+class Saturation(Sliding):
     """T = N mu(creep) v/creep + viscous v on the line, +-N mu(|v|) + viscous v outside it.
 
     line      |v| < creep
@@ -23,29 +24,11 @@ class Saturation(Contact):
     zones = Zones("line", "forward", "backward", "off")
 
     @zone("line")
-    def line(p, a, b, normal):
+    def line(p, a, b, grip):
         """Proportional to slip; all of it is creep."""
         slip = b.v - a.v
-        friction = (normal * p.curve.coefficient(p.creep) / p.creep + p.viscous) * slip
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, creep_rate=slip, dissipated=friction * slip)
-
-    @zone("forward", "backward")
-    def sliding(p, a, b, normal, zone):
-        """The curve gives the force, against the slip."""
-        d = 1 if zone == "forward" else -1
-        slip = b.v - a.v
-        friction = d * normal * p.curve.coefficient(d * slip) + p.viscous * slip
-        return Law(a=-friction, b=+friction, slip=slip, friction=friction, dissipated=friction * slip)
-
-    @zone("off")
-    def off(p, a, b):
-        """No force passes."""
-        return Law(a=0, b=0, slip=b.v - a.v)
-
-    @guard("line", "forward", "backward", to="off", unit="N")
-    def lifts(p, normal):
-        """Nothing presses any more."""
-        return p.lift - normal
+        slope = grip * mu(p.curve, p.creep, slip / p.creep) / p.creep
+        return opposing(slip, (slope + p.viscous) * slip, creep_rate=slip)
 
     @guard("off", to="line", unit="N")
     def lands(p, normal):
@@ -71,3 +54,7 @@ class Saturation(Contact):
     def slows_backward(p, a, b):
         """The same the other way."""
         return p.creep - (a.v - b.v)
+
+    def narrowest(p):
+        """The end of the line."""
+        return p.creep

@@ -18,6 +18,7 @@ class Falling(Curve, abstract=True):
 
     def check(p):
         """A curve that rises from rest is the hump."""
+        yield from Curve.check(p)
         if p.stiction < p.coulomb:
             yield (
                 "stiction", f"stiction {p.stiction:g} is below coulomb = {p.coulomb:g}",

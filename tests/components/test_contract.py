@@ -26,9 +26,14 @@ EVERY_CURVE, ENOUGH = ("binding", "hold", "tanh"), ("stribeck", "table")
 stick, not in how they read a curve, so two curves each must do."""
 
 
+FACTORS = {"load_dependence", "temperature_dependence"}
+
+
 def asked(check):
     """Whether a check is made here; `contract(kind)` makes them all."""
     curve = check.chosen.get("curve")
+    if set(check.chosen) & FACTORS:  # on the normal force, the same for all
+        return getattr(check.kind, "word", "hold") == "hold"
     return curve is None or check.kind.word in EVERY_CURVE or curve in ENOUGH
 
 
@@ -43,7 +48,7 @@ def test_registered_component_keeps(check):
 def test_every_member_of_the_contact_family_is_asked_with_every_curve():
     contact = known_types()["Contact"]
     asked = {(check.kind.word, check.chosen.get("curve")) for check in checks(contact)}
-    curves = {"coulomb", "stribeck", "tustin", "hump", "table"}
+    curves = {"coulomb", "viscous", "stribeck", "tustin", "hump", "table"}
     assert {(method, curve) for method in ("binding", "hold", "tanh") for curve in curves} <= asked
 
 
