@@ -19,6 +19,7 @@ from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
+from fairlead.analysis.remedy import budget, remedies
 from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
@@ -124,7 +125,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         on_grid = netlist.record.every is not None
         watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid)
         with interrupted_between_blocks(watch):
-            outcome = integrate(system, _engine_settings(netlist, settings), watch)
+            outcome = integrate(system, _engine_settings(netlist, settings, system), watch)
         outcome = _explained(outcome, system)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
@@ -160,13 +161,15 @@ def _engine(settings: RunSettings) -> tuple[Literal["rodas", "stepping", "ida"],
     return settings.engine, "chosen by run.engine"
 
 
-def _engine_settings(netlist: Netlist, settings: RunSettings) -> Run:
+def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) -> Run:
     method = "rodas5p" if settings.method == "auto" else settings.method
+    types = [instance.type for instance in system.flat.instances]
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
         engine=_engine(settings)[0],
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
-        max_steps=settings.max_steps, max_events=settings.max_events, max_wall=settings.max_wall,
+        max_steps=budget(types, "max_steps", settings.max_steps),
+        max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,
         dwell=settings.dwell, on_chatter=settings.chatter,
     )  # fmt: skip
 
@@ -184,8 +187,11 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
 def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> dict[str, Any]:
     counters = outcome.counters
     counts = {n: v for n, v in vars(counters).items() if isinstance(v, int)}
+    said = outcome.sentence
+    if _status(outcome) in ("failed", "budget"):
+        said = f"{said} {remedies(watch.system.flat.instances)}".rstrip()
     return {
-        "end_time": outcome.t, "sentence": outcome.sentence, "culprits": list(outcome.culprits),
+        "end_time": outcome.t, "sentence": said, "culprits": list(outcome.culprits),
         "chattering": list(outcome.chattering),
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,

@@ -330,16 +330,27 @@ def test_the_break_away_force_of_lugre_falls_with_the_rate_of_loading(simulate):
 # The naive ones
 
 
-def test_the_naive_zones_do_not_settle_at_rest_and_the_contact_is_named(simulate):
+def test_the_naive_zones_do_not_settle_at_rest_and_the_sentence_says_why_and_what_to_use(simulate):
     result = simulate(PULLED, method="naive_zone")
     assert result.status == "failed"
     assert "pad (forward <-> backward)" in result.run["sentence"]
+    assert "no zone for sticking" in result.run["sentence"]
+    assert "use method hold, or binding" in result.run["sentence"]
 
 
-def test_the_naive_sign_is_ended_by_its_budget_before_the_first_slip_is_over(simulate):
-    result = simulate(PULLED, method="naive_sign", **{"run.max_steps": 20_000})
-    assert result.status in ("budget", "failed")
-    assert result.run["end_time"] < 2.0
+def test_the_naive_sign_is_ended_by_a_budget_of_its_own_and_says_why_and_what_to_use(simulate):
+    result = simulate(PULLED, method="naive_sign")
+    assert result.status == "budget"
+    assert result.run["end_time"] < 2.0  # the first slip is not over
+    assert len(result.t) > 100  # and what was computed is there
+    assert "budget of 100000 steps" in result.run["sentence"]
+    assert "pad: method naive_sign lets the sign of the slip jump" in result.run["sentence"]
+    assert "use method hold, or binding" in result.run["sentence"]
+
+
+def test_a_budget_of_the_netlist_goes_before_that_of_a_naive_law(simulate):
+    result = simulate(PULLED, method="naive_sign", **{"run.max_steps": 2_000})
+    assert "budget of 2000 steps" in result.run["sentence"]
 
 
 @pytest.mark.parametrize("method", ["naive_sign", "naive_zone"])

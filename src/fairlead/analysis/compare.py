@@ -92,8 +92,7 @@ def _run(
         return None, str(error)
     if result.status == "finished":
         return result, ""
-    advice = {getattr(instance.type, "advice", "") for instance in model.assembly.instances.values()} - {""}
-    return result, " ".join([result.run["sentence"], *sorted(advice)])
+    return result, result.run["sentence"]
 
 
 def _row(label: str, result: Result | None, reason: str, reference: Result | None, signals: str) -> Row:
