@@ -15,7 +15,8 @@ from fairlead.components.friction.binding_law import (
     friction_in,
     rest,
 )  # fmt: skip
-from fairlead.components.friction.contact import Contact, opposing
+from fairlead.components.friction.contact import opposing
+from fairlead.components.friction.creeping import Creeping, with_creep
 from fairlead.components.friction.curve import mu, mu_s
 
 from fairlead.component import Choice, Input, Output, Parameter, Zones, derived, guard, zone
@@ -27,7 +28,7 @@ FORMS = {
 }
 
 
-class Binding(Contact):
+class Binding(Creeping):
     """T = S(v) + f v: a sliding part S and a viscous part f that is very large while the contact binds.
 
     plateau   |v| <= v_m, |af| <= F_s        f = F_s/creep,  S = N mu(v_n) v/v_n
@@ -49,7 +50,6 @@ class Binding(Contact):
         "settles naive": "It counts one of two bodies, so the load depends on the zone (docs/physics.md 1.6).",
     }
     form = Choice(("robust", "literal"), "The repaired law or the printed one.", default="robust")
-    creep = Parameter("m/s", "Slip speed at which the viscous part alone carries F_s.", default=1e-4, above=0)
     plateau_width = Parameter("1", "v_m over creep.", default=2.0, above=0)
     ramp_width = Parameter("1", "v_n over creep.", default=4.0, above=0)
     cap = Choice(("on", "off"), "Limit the bound force to F_s.", default=None)
@@ -66,10 +66,16 @@ class Binding(Contact):
     def prepare(given):
         """What is not set by itself follows from the form."""
         chosen = FORMS[given["form"]]
-        return {**given, **{name: value for name, value in chosen.items() if given[name] is None}}
+        return with_creep(Binding, {**given, **{n: value for n, value in chosen.items() if given[n] is None}})
+
+    def slope(given, creep):
+        """g0/N, the slope while bound over the normal force [s/m]."""
+        v_n, curve = given["ramp_width"] * creep, given["curve"]
+        return mu_s(curve, +1) / creep + mu(curve, v_n, +1) / v_n
 
     def check(p):
         """The ramp begins before it ends."""
+        yield from Creeping.check(p)
         if p.plateau_width >= p.ramp_width:
             yield (
                 "ramp_width",
@@ -229,8 +235,12 @@ class Binding(Contact):
         return normal - 2 * p.lift, p.v_n - abs(b.v - a.v)
 
     def narrowest(p):
-        """v_n."""
+        """The end of the ramp."""
         return p.v_n
+
+    def numbers(p, normal):
+        """What follows from the creep, as `fairlead friction` tells it."""
+        return ("f_m", normal * p.mu_s / p.creep, "N*s/m"), ("v_m", p.v_m, "m/s"), ("v_n", p.v_n, "m/s")
 
 
 def plateau_end(p, mu_s, mu_n):

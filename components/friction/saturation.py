@@ -1,12 +1,13 @@
 """The saturated line: the sign of the slip is replaced by a straight line between two levels."""
 
 from fairlead.components.friction.contact import Sliding, opposing
+from fairlead.components.friction.creeping import Creeping, with_creep
 from fairlead.components.friction.curve import mu
 
-from fairlead.component import Parameter, Zones, guard, zone
+from fairlead.component import Zones, guard, zone
 
 
-class Saturation(Sliding):
+class Saturation(Sliding, Creeping):
     """T = N mu(creep) v/creep + viscous v on the line, +-N mu(|v|) + viscous v outside it.
 
     line      |v| < creep
@@ -20,8 +21,15 @@ class Saturation(Sliding):
     Source: Karnopp (1985), ASME J. Dyn. Sys. Meas. Control 107, 100, names it as the common way around.
     """
 
-    creep = Parameter("m/s", "Slip speed where the line ends.", default=1e-4, above=0)
     zones = Zones("line", "forward", "backward", "off")
+
+    def prepare(given):
+        """The creep, which a leak may stand for."""
+        return with_creep(Saturation, given)
+
+    def slope(given, creep):
+        """Slope of the line over the normal force [s/m]."""
+        return mu(given["curve"], creep, +1) / creep
 
     @zone("line")
     def line(p, a, b, grip):

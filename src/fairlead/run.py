@@ -20,6 +20,7 @@ from fairlead.analysis.energy import Ledger
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
 from fairlead.analysis.remedy import budget, remedies
+from fairlead.analysis.widths import too_wide
 from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
@@ -181,6 +182,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "engine": _engine(settings)[0], "engine_reason": _engine(settings)[1],
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "unknowns": system.n, "machines": len(system.zones),
+        "remarks": [str(remark) for remark in too_wide(system.flat)],
     }  # fmt: skip
 
 

@@ -90,6 +90,7 @@ class Model:
         """
         from fairlead.analysis.names import unknown_signals
         from fairlead.analysis.recording import unreasonable
+        from fairlead.analysis.widths import too_wide
         from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
@@ -114,7 +115,7 @@ class Model:
                 faults += error.faults
         if faults:
             raise ModelError(_in_order(faults))
-        return []
+        return too_wide(self.flat)
 
     def describe(self, stage: str = "flatten") -> str:
         """What the model has become after a stage."""

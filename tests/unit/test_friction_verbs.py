@@ -43,6 +43,7 @@ def test_friction_of_a_scene_uses_its_numbers(answer, tmp_path):
     assert pad["contacts"] == "pad"
     assert pad["normal force"] == "10 N"
     assert pad["holding capacity"] == "5 N"  # robust binding is capped at stiction
+    assert (pad["f_m"], pad["v_m"], pad["v_n"]) == ("5e+04 N*s/m", "0.0002 m/s", "0.0004 m/s")
     assert (tmp_path / "results" / "friction.png").read_bytes().startswith(b"\x89PNG")
 
 

@@ -41,6 +41,7 @@ class Characteristic:
     slope: float | None = None  # at zero slip [N s/m]; None: rigid, or bristles
     stiffness: float | None = None  # of bristles [N/m]
     creep: tuple[float, ...] = ()  # at LOAD_SHARES of the capacity
+    numbers: tuple[tuple[str, float, str], ...] = ()  # name, value, unit of what the law derives from its settings
 
     def rows(self) -> list[tuple[str, str]]:
         """What is printed: (quantity, value with unit)."""
@@ -52,6 +53,7 @@ class Characteristic:
         return [
             ("normal force", f"{self.normal:.4g} N"), ("breakaway", f"{self.breakaway:.4g} N"),
             ("holding capacity", f"{self.capacity:.4g} N"), ("stiffness", stiffness), ("creep", creep),
+            *((name, f"{value:.4g} {unit}") for name, value, unit in self.numbers),
         ]  # fmt: skip
 
 
@@ -87,7 +89,9 @@ def _measured(
     p: Values, normal: float, breakaway: float, steady: dict[str, Any], driven: dict[str, Any], holds: bool
 ) -> Characteristic:
     label, rest = p.type.word, dict.fromkeys(LOAD_SHARES, 0.0)  # type: ignore[attr-defined]
-    common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven}
+    numbers = tuple(p.numbers(normal)) if hasattr(p.type, "numbers") else ()
+    common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven,
+              "numbers": numbers}  # fmt: skip
     if holds or p.type.declaration.states:
         ratio = getattr(p, "ratio", None)
         stiffness = None if holds or ratio is None else normal * ratio

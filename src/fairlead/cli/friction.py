@@ -10,6 +10,7 @@ from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, pa
 
 if TYPE_CHECKING:
     from fairlead.component.values import Values
+    from fairlead.errors import Fault
 
 
 def friction(
@@ -33,7 +34,8 @@ def friction(
 
     usual, records = si(normal, "N"), []
     out.mkdir(parents=True, exist_ok=True)
-    for number, (names, values) in enumerate(_contacts(subject, settings, libraries, method).items()):
+    contacts, remarks = _contacts(subject, settings, libraries, method)
+    for number, (names, values) in enumerate(contacts.items()):
         given = getattr(values, "normal_force", None)
         found = characteristic(values, usual if given is None else given)
         figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
@@ -45,15 +47,20 @@ def friction(
             for name, value in rows:
                 typer.echo(f"  {name:<18}{value}{note if name == 'normal force' else ''}")
             typer.echo(f"  wrote {figure}")
+    for remark in remarks:
+        typer.echo(f"warning: {remark}", err=True)
     if as_json:
         typer.echo(json.dumps(records, indent=2))
 
 
-def _contacts(subject: str, settings: list[str], libraries: list[str], method: str) -> dict[str, "Values"]:
-    """Contacts by name; equal ones share an entry, named by the first and how many follow."""
+def _contacts(
+    subject: str, settings: list[str], libraries: list[str], method: str
+) -> tuple[dict[str, "Values"], list["Fault"]]:
+    """Contacts by name, and remarks on them; equal ones share an entry, named by the first and how many follow."""
     if subject.startswith("{") or subject.replace(".", "", 1).isdigit():
-        return {subject: _of_curve(subject, libraries, method)}
+        return {subject: _of_curve(subject, libraries, method)}, []
     import fairlead
+    from fairlead.analysis.widths import too_wide
 
     model = fairlead.load(subject, set=parse_settings(settings), libraries=libraries)
     found: dict[str, list[Any]] = {}
@@ -62,10 +69,11 @@ def _contacts(subject: str, settings: list[str], libraries: list[str], method: s
         found.setdefault(repr(instance.values), []).append(instance)
     if not found:
         raise typer.BadParameter(f"{subject} has no contact.")
-    return {
+    named = {
         each[0].path + (f" and {len(each) - 1} more like it" if len(each) > 1 else ""): each[0].values
         for each in found.values()
     }
+    return named, too_wide(model.flat)
 
 
 def _of_curve(text: str, libraries: list[str], method: str) -> "Values":

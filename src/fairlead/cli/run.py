@@ -91,7 +91,9 @@ def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bo
 
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
-    """On standard error, with -q too: why a run ended early, contacts that chatter, limits broken."""
+    """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
+    for remark in outcome.get("remarks") or ():
+        typer.echo(f"warning: {remark}", err=True)
     if outcome["status"] != "finished":
         typer.echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
     if chattering := outcome.get("chattering"):

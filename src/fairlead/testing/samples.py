@@ -91,7 +91,7 @@ def _value(declared: Any, rng: np.random.Generator, word: Any, optional: bool) -
         member = members[word or next(iter(members))]
         return sample(member, rng, {}, optional)
     if isinstance(declared, Block):
-        if declared.default is None and not optional:
+        if declared.default is None:  # no law sees it; it says something in other words
             return None
         return {
             name: value
