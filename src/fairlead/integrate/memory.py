@@ -23,7 +23,7 @@ INTEGERS = (
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is
-    "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "worst", "n_fired", "passes",
+    "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "mended", "worst", "n_fired", "passes",
     "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
     # the core of W: which matrix is factored there, and whether its factors are good
     "core_kind", "core_valid",

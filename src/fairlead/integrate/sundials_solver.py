@@ -7,6 +7,10 @@ solvers of the package will not do. Measured with scikit-sundae 1.2 (SUNDIALS 7.
 1. Its sparse one (SuperLU_MT) loses 10 to 45 kB of memory per factorisation, and frees memory twice when an
    object is dropped that was started but has not factorised yet, which ends the process.
 2. Its dense and band ones take the Jacobian as a full array of Python, whatever its pattern.
+
+J and its factors are made afresh for every iteration of Newton, which then needs one: compiled, they cost less than
+a call of Python, and what an old J leaves in the solution keeps the order of IDA down. The transistor amplifier
+took 250 000 steps that way at an accuracy of 1e-6, and takes 4300.
 """
 
 from __future__ import annotations
@@ -81,8 +85,8 @@ class Solver:
         if self.n_guards > 0:
             options |= {"eventsfn": self._events(), "num_events": self.n_guards}
         self.object = self.package.IDA(
-            self._residual, linsolver="gmres", precond=self.package.IDAPrecond(self._prepare, self._solve),
-            jactimes=self.package.IDAJacTimes(None, self._multiply), **options,
+            self._residual, linsolver="gmres", precond=self.package.IDAPrecond(None, self._solve),
+            jactimes=self.package.IDAJacTimes(self._prepare, self._multiply), **options,
         )  # fmt: skip
         with _silence():
             self.object.init_step(t, y, rate)

@@ -29,6 +29,9 @@ from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
 from fairlead.integrate.settling import begin_settling
 
+STUBBORN = 6
+"""Rejections in a row that call for `mend_point`."""
+
 
 @compiled
 def attempt(m):
@@ -97,11 +100,29 @@ def reject(m, h, status):
         m.rejected_nan += 1
     m.h_next = step_after_rejection(m, h)
     m.retried += 1
+    if m.retried == STUBBORN and m.n_algebraic > 0 and m.mended == 0 and status != SINGULAR:
+        mend_point(m)
+        return GO_ON
     if m.adaptive == 1 and m.h_next >= smallest_step(m):
         return GO_ON
     if status == SINGULAR:
         return not_finite_here(m, SINGULAR_MATRIX)
     return STEP_FLOOR if isfinite(m.error) else not_finite_here(m, NOT_FINITE)
+
+
+@compiled
+def mend_point(m):
+    """Make the point consistent by a settlement that fires nothing, once until the next accepted step.
+
+    An algebraic unknown at the end of a step is right within the error of the step. Where it amplifies the
+    others that may be many weights: the next step then begins with a jump that no shorter step makes smaller.
+    """
+    m.mended = 1
+    m.companion = 1
+    m.n_fired = 0
+    write_row(m, m.t, m.at_y, BEFORE)
+    begin_settling(m)
+    m.phase = SETTLE
 
 
 @compiled
@@ -130,6 +151,7 @@ def accept(m, h, crossed):
             m.h_next = max(m.h_next, m.h_wanted)
     m.last_error = max(m.error, 1e-4)
     m.retried = 0
+    m.mended = 0
     m.crossed = 1 if crossed else 0
     if crossed and m.theta < 1.0:
         m.landing = 0
