@@ -22,6 +22,10 @@ from fairlead.components.friction.curve import mu, mu_s
 from fairlead.component import Choice, Input, Output, Parameter, Zones, derived, guard, zone
 
 BACK = 0.999999  # share of the plateau's end at which a ramp leads back to it; less would let the force jump
+LATCH = (
+    "The latch keeps the force of sliding while the slip is still creeping the other way; what that gives is less than "
+    "F_s times the creep (docs/physics.md 1.10)."
+)
 FORMS = {
     "robust": {"cap": "on", "latch": "on", "hysteresis": 0.1, "applied_force": "reduced"},
     "literal": {"cap": "off", "latch": "off", "hysteresis": 0.0, "applied_force": "aggregate"},
@@ -40,13 +44,14 @@ class Binding(Creeping):
 
     The applied force is what the contact would have to carry to hold, af = T + M a_rel. `form: robust`
     caps the bound force at F_s, latches a break-away, and binds again only below (1 - hysteresis) F_s;
-    `form: literal` does none of this, as printed. Each can be set by itself.
+    `form: literal` does none of this, as printed. Each can be set by itself. With `face` the viscous part falls with
+    the load too, from (1 - face) F_s to nothing at F_s: the creep grows before a break-away just below F_s.
     """
 
     word = "binding"
     exempt = {
-        "dissipates break_forward": "The latch keeps the force of sliding while the slip is still creeping back.",
-        "dissipates break_backward": "The same the other way; what it gives is less than F_s times the creep.",
+        "dissipates break_forward": LATCH,
+        "dissipates break_backward": LATCH,
         "settles naive": "It counts one of two bodies, so the load depends on the zone (docs/physics.md 1.6).",
     }
     form = Choice(("robust", "literal"), "The repaired law or the printed one.", default="robust")
@@ -56,6 +61,10 @@ class Binding(Creeping):
     latch = Choice(("on", "off"), "Keep the full sliding force from break-away on.", default=None)
     hysteresis = Parameter("1", "Bind only below (1 - hysteresis) F_s.", default=None, least=0, below=1)
     applied_force = Choice(("aggregate", "reduced", "naive"), "Which mass the applied force counts.", default=None)
+    face = Parameter(
+        "1", "Part of F_s over which f falls as the load nears F_s; it ends steeply when absent.", default=None,
+        above=0, below=1,
+    )  # fmt: skip
     partner_mass_a = Parameter("kg", "Mass that joins a while a's other contact is bound.", default=0.0, least=0)
     partner_mass_b = Parameter("kg", "Mass that joins b while b's other contact is bound.", default=0.0, least=0)
     bound_a = Input("1", "1 while the other contact of a is bound.", default=0.0)
@@ -245,8 +254,10 @@ class Binding(Creeping):
 
 def plateau_end(p, mu_s, mu_n):
     """Slip speed where the plateau ends [m/s] in the direction that has these coefficients."""
-    steep = mu_s / p.creep + mu_n / p.v_n
-    return min(p.v_m, mu_s / steep) if p.cap == "on" and mu_s > 0 else p.v_m
+    if mu_s == 0 or (p.cap == "off" and p.face is None):
+        return p.v_m
+    end = mu_s / (mu_s / p.creep + mu_n / p.v_n) * (1 if p.face is None else 1 - p.face)
+    return min(p.v_m, end)
 
 
 def _spare(p, zone, a, b, grip, bound_a, bound_b, hysteresis=None):

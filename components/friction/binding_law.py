@@ -39,7 +39,15 @@ def plateau(p: Any, d: int, slip: Any, grip: Any) -> Any:
 
 
 def ramp(p: Any, d: int, slip: Any, grip: Any) -> Any:
-    """The viscous part falls to nothing; with the cap F_s, since the ramp is above it everywhere (physics 1.4)."""
+    """The viscous part falls to nothing; with the cap F_s, since the ramp is above it everywhere (physics 1.4).
+
+    With sloping faces f = f_m (F_s - T)/(face F_s) falls with the force instead, which has the sum for T solved here:
+    from (1 - face) F_s where the plateau ends it rises to F_s, never beyond. The load that the prism's faces belong to
+    is T itself while a contact binds, since then nothing accelerates.
+    """
+    if p.face is not None:
+        v, soft = d * slip, p.face * p.creep
+        return d * grip * v * (edge(p, d) * soft / p.v_n + rest(p, d)) / (soft + v)
     if p.cap == "on":
         return d * grip * rest(p, d)
     coefficient = rest(p, d) / p.creep * (p.v_n - d * slip) / (p.v_n - p.v_m)

@@ -95,3 +95,25 @@ def test_the_spring_lets_the_block_go_at_stiction(bundled) -> None:
     result = bundled("block_and_spring", {"creep": "1e-4 m/s", "run.stop": "2 s"})
     assert result.at("spring.tension", result.events[0].t) == pytest.approx(5.0, abs=1e-4)
     assert result["pad.friction"].max() <= 5.0 * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.85, 0.95, 0.995])
+def test_sloping_faces_let_the_creep_grow_as_the_load_nears_stiction(simulate, share: float) -> None:
+    """From (1 - face) F_s on  T = F_s u (1 + face/b)/(face + u),  u = v/creep, b = v_n/creep = 4; below, T = g0 v."""
+    face, width = 0.1, 4.0
+    text = HELD_BLOCK.replace("creep}\"", "creep}\"\n        face: 0.1", 1).replace(
+        "{curve: stribeck, stiction: 0.5, coulomb: 0.3, velocity: 5 mm/s}", "0.5"
+    )
+    result = simulate(text, load=f"{share * 5} N")
+    steep, sloping = share / (1 + 1 / width), share * face / (1 + face / width - share)
+    exact = 1e-4 * (steep if share <= 1 - face else sloping)
+    assert result["pad.slip"][-1] == pytest.approx(exact, rel=1e-6)
+
+
+def test_sloping_faces_break_away_at_stiction_and_not_above(simulate) -> None:
+    text = HELD_BLOCK.replace("creep}\"", "creep}\"\n        face: 0.2", 1)
+    text = text.replace('force: "{load}"', "force: {ramp: {to: 6 N, over: 1 s}}")
+    result = simulate(text)
+    assert result["pad.friction"].max() <= 5.0 * (1 + 1e-9)
+    first = next(event for event in result.events if event.zone_to in ("slide_forward", "break_forward"))
+    assert 4.9 < result.at("push.applied", first.t) <= 5.0 + 1e-6
