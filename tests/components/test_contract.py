@@ -32,6 +32,8 @@ FACTORS = {"load_dependence", "temperature_dependence"}
 def asked(check):
     """Whether a check is made here; `contract(kind)` makes them all."""
     curve = check.chosen.get("curve")
+    if check.chosen.get("bonds"):  # asked with few bonds as it is
+        return False
     if set(check.chosen) & FACTORS:  # on the normal force, the same for all
         return getattr(check.kind, "word", "hold") == "hold"
     return curve is None or check.kind.word in EVERY_CURVE or curve in ENOUGH

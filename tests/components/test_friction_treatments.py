@@ -198,6 +198,7 @@ HOLDING = [
     ("dahl", {}, 0.0),
     ("lugre", {}, 0.0),
     ("elastoplastic", {}, 0.0),
+    ("bristle", {"viscous": "500 N*s/m"}, 0.0),  # or it rings
 ]
 
 
@@ -234,7 +235,7 @@ def test_elastoplastic_bristles_give_back_all_displacement_below_the_elastic_lim
 
 # Sliding
 
-SLIDING = [method for method, _, _ in HOLDING]
+SLIDING = [method for method, _, _ in HOLDING if method != "bristle"]  # its noise: test_bristle.py
 
 
 @pytest.mark.parametrize("method", SLIDING)

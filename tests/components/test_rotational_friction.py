@@ -84,8 +84,9 @@ def test_a_braked_shaft_stops_after_the_angle_of_the_closed_form(simulate, kind)
     assert abs(result["wheel.rate"][-1]) < 1e-9
 
 
-def test_a_shaft_takes_every_treatment_but_the_naive_ones():
-    members = {word for word in known_types()["Contact"].members if not word.startswith("naive")}
+def test_a_shaft_takes_every_treatment_but_those_that_are_there_to_be_looked_at():
+    shown = {"naive_sign", "naive_zone", "bristle"}
+    members = set(known_types()["Contact"].members) - shown
     assert set(METHODS) <= members
     missing = {
         word

@@ -30,9 +30,14 @@ class Sine:
 
 @dataclass(frozen=True)
 class PiecewisePolynomial:
-    """Pieces (k, 8) in the layout above, ordered, without gaps."""
+    """Pieces (k, 8) in the layout above, ordered, without gaps.
+
+    Pieces may overlap: each is then left at its own ends only, as with hysteresis. A run begins in piece `begin` and
+    finds the right one from there.
+    """
 
     rows: np.ndarray
+    begin: int = 0
 
     def piece_at(self, x: float) -> int:
         """The piece that holds x; at a border the right one."""

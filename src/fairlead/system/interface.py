@@ -89,7 +89,8 @@ def parameter_rows(parameters: Mapping[str, Any], indent: int = 2) -> list[str]:
 
 def derived_rows(has: Declaration, indent: int = 2) -> list[str]:
     """Numbers computed from the parameters, each with its sentence."""
-    return columns(((name, first_line(derived.function)) for name, derived in has.derived.items()), indent)
+    shown = {name: derived for name, derived in has.derived.items() if not name.startswith("_")}
+    return columns(((name, first_line(derived.function)) for name, derived in shown.items()), indent)
 
 
 def _variables(domain: Any) -> str:

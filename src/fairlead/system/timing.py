@@ -43,8 +43,8 @@ def time_places(blocks: Sequence[Block]) -> Integers:
 def start_pieces(blocks: Sequence[Block], zones: Integers, start: float) -> None:
     """Put what is given in time into the piece that holds at the start; tables of unknowns settle then."""
     for table in tables(blocks):
-        if table.timed:
-            zones[table.machine] = table.polynomial.piece_at(start)
+        polynomial = table.polynomial
+        zones[table.machine] = polynomial.piece_at(start) if table.timed else polynomial.begin
 
 
 def samplers(blocks: Sequence[Block], start: float) -> Memory:

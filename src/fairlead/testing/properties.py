@@ -77,7 +77,8 @@ def as_written(make: Maker, rng: np.random.Generator) -> None:
     """The kernel says what the author's own Python says with plain numbers."""
     for world, at in _settled(make, rng):
         has = world.kind.declaration
-        if any(isinstance(d, Table | Waveform) for d in has.parameters.values()):
+        tables = any(isinstance(d, Table | Waveform) for d in has.parameters.values())
+        if tables or any(d.wave for d in has.derived.values()):
             return  # a table of plain numbers looks its interval up, a traced one has it frozen
         law = has.laws[world.zone(at)]
         said = terms_of(world.kind, law(**{name: _argument(world, at, name) for name in _names(law)}))
@@ -254,9 +255,8 @@ def _in_pieces(world: World, at: Instant, rng: np.random.Generator) -> Instant:
     first = s.machines - len(s.tables)
     for k, name in enumerate(s.tables):
         table = world.rig.pieces[0][k]
-        zones[first + k] = (
-            table.piece_at(at.values["t"]) if name in s.time_tables else int(rng.integers(len(table.rows)))
-        )
+        usable = np.flatnonzero(np.isfinite(table.rows).all(axis=1))  # others end a run
+        zones[first + k] = table.piece_at(at.values["t"]) if name in s.time_tables else int(rng.choice(usable))
     return at.but(zones)
 
 

@@ -69,6 +69,7 @@ def sample(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, 
 
 def _draw(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool) -> dict[str, Any]:
     given: dict[str, Any] = {}
+    chosen = {**getattr(kind, "asked_with", {}), **chosen}
     for name, declared in kind.declaration.parameters.items():
         if name in chosen and not (isinstance(declared, Part) and isinstance(chosen[name], str)):
             given[name] = chosen[name]
