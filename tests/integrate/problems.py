@@ -49,6 +49,26 @@ def index_one_dae(**settings: Any) -> tuple[TextbookProblem, Any]:
     return textbook(exact(0.0), rhs, jacobian, algebraic=[1], **settings), exact
 
 
+def bent_dae(**settings: Any) -> tuple[TextbookProblem, Any]:
+    """y' = z, 0 = y^2 z + z^3 - c(t), whose slope in z depends on the state: y = 2 + sin t, z = cos t."""
+
+    def rhs(t, y, z, f):
+        s, c = 2 + np.sin(t), np.cos(t)
+        f[0] = y[1]
+        f[1] = y[0] ** 2 * y[1] + y[1] ** 3 - s**2 * c - c**3
+
+    def jacobian(t, y, z, J, ft):
+        s, c = 2 + np.sin(t), np.cos(t)
+        J[0, 1] = 1.0
+        J[1, 0], J[1, 1] = 2 * y[0] * y[1], y[0] ** 2 + 3 * y[1] ** 2
+        ft[1] = -2 * s * c**2 + (s**2 + 3 * c**2) * np.sin(t)
+
+    def exact(t):
+        return np.array([2 + np.sin(t), np.cos(t)])
+
+    return textbook(exact(0.0), rhs, jacobian, algebraic=[1], **settings), exact
+
+
 def coulomb_oscillator(**settings: Any) -> tuple[TextbookProblem, Any]:
     """m = 1, k = 4, friction 0.5 that only reverses: x0 = 2, amplitude falls by 2 F/k each half period.
 
