@@ -52,7 +52,6 @@ class Binding(Creeping):
     exempt = {
         "dissipates break_forward": LATCH,
         "dissipates break_backward": LATCH,
-        "settles naive": "It counts one of two bodies, so the load depends on the zone (docs/physics.md 1.6).",
     }
     form = Choice(("robust", "literal"), "The repaired law or the printed one.", default="robust")
     plateau_width = Parameter("1", "v_m over creep.", default=2.0, above=0)

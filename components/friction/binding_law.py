@@ -90,23 +90,32 @@ def friction_in(p: Any, zone: str, slip: Any, grip: Any) -> Any:
     return law(p, d, slip, grip)
 
 
-def effective_mass(p: Any, zone: str, a: Any, b: Any, bound_a: Any, bound_b: Any) -> Any:
-    """The mass M [kg] in  af = T + M a_rel  for the chosen definition of the applied force.
-
-    naive      all forces on b but this friction, the surface taken as it is
-    reduced    both bodies free of other bound contacts:  1/M = 1/m_a + 1/m_b
-    aggregate  as reduced, each body together with what its other contact binds to it
-    """
-    if p.applied_force == "naive":
-        return 1 / b.inverse_mass
-    inverse_a, inverse_b = a.inverse_mass, b.inverse_mass
-    if p.applied_force == "aggregate":
-        inverse_a = inverse_a / (1 + bound_a * p.partner_mass_a * inverse_a)
-        inverse_b = inverse_b / (1 + bound_b * p.partner_mass_b * inverse_b)
-    return 1 / (inverse_a + inverse_b)
-
-
 def applied_force(p: Any, zone: str, a: Any, b: Any, grip: Any, bound_a: Any, bound_b: Any) -> Any:
-    """The force that the contact would have to carry to hold [N], af = T + M a_rel."""
-    mass = effective_mass(p, zone, a, b, bound_a, bound_b)
-    return friction_in(p, zone, b.v - a.v, grip) + mass * (b.a - a.a)
+    """The force that the contact would have to carry to hold [N], by the chosen definition.
+
+    reduced    T + m a_rel,  1/m = 1/m_a + 1/m_b: no other contact of the two bodies is bound
+    aggregate  each body moves together with what its other contact binds to it, of masses M:
+               B + M (a_rel + (T - B)/m),  B the friction on the plateau at this slip
+    naive      "the net applied force": all forces on b but this friction, T + m_b a_b, whatever the surface does
+
+    In all of them T + m a_rel occurs, which a switch of this contact leaves as it is: so a switch cannot remove its own
+    cause. Bound and settled, T = B and a_rel = 0, and the three agree.
+    """
+    slip = b.v - a.v
+    friction = friction_in(p, zone, slip, grip)
+    if p.applied_force == "naive":
+        return friction + b.a / b.inverse_mass
+    inverse = a.inverse_mass + b.inverse_mass
+    free = friction + (b.a - a.a) / inverse
+    if p.applied_force == "reduced":
+        return free
+    with_a = a.inverse_mass / (1 + bound_a * p.partner_mass_a * a.inverse_mass)
+    with_b = b.inverse_mass / (1 + bound_b * p.partner_mass_b * b.inverse_mass)
+    bound, share = capped_plateau(p, slip, grip), inverse / (with_a + with_b)
+    return bound + share * (free - bound)
+
+
+def capped_plateau(p: Any, slip: Any, grip: Any) -> Any:
+    """Friction on the plateau, but at most F_s; for guards."""
+    line, most = plateau(p, 0, slip, grip), grip * p.mu_s
+    return (abs(line + most) - abs(line - most)) / 2
