@@ -2,6 +2,8 @@
 
 from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
 
+PLAY = 1e-9  # strain beyond which a loose element is taut again, so that one at rest without stretch is in one zone
+
 
 class Core(Component):
     """Tension-only element with damping.
@@ -37,18 +39,18 @@ class Core(Component):
         """Carries nothing."""
         return Law(a=0, b=0, tension=0, slack=1)
 
-    @guard("taut", to="loose", unit="m")
+    @guard("taut", to="loose", unit="N")
     def shortens(p, a, b):
         """The ends are closer than the element is long."""
-        return p.length - (b.x - a.x)
+        return -p.axial_stiffness / p.length * (b.x - a.x - p.length)
 
     @guard("taut", to="loose", unit="N")
     def would_push(p, a, b):
         """Closing so fast that the damping would push."""
         return -(p.axial_stiffness / p.length * (b.x - a.x - p.length) + p.damping * (b.v - a.v))
 
-    @guard("loose", to="taut", unit="m")
+    @guard("loose", to="taut", unit="N")
     def tightens(p, a, b):
         """Stretched, and the tension would be positive."""
-        stretch, rate = b.x - a.x - p.length, b.v - a.v
-        return stretch, stretch + p.damping * p.length / p.axial_stiffness * rate
+        elastic = p.axial_stiffness * ((b.x - a.x) / p.length - 1 - PLAY)
+        return elastic, elastic + p.damping * (b.v - a.v)

@@ -16,7 +16,7 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 
-FADES = 20.0  # e-foldings over the edge: at its end the bond is 2e-9 of full strength, 0.2 N s/m
+FADES = 24.0  # e-foldings over the edge: at its end the bond is 4e-11 of full strength, 0.04 N s/m
 
 
 class Drum(Component):
@@ -40,17 +40,17 @@ class Bond(Component, abstract=True):
     """What holds a node while it lies on the drum, inboard of `place`: a damper so strong that nothing slips.
 
     stored    force = lock slip
-    edge      force = lock exp(-10 (1 + w)) slip,  w = sqrt(2) u/sqrt(1 + u^2) from -1 to 1,  u = 2 (x - place)/edge
+    edge      force = lock exp(-12 (1 + w)) slip,  w = sqrt(2) u/sqrt(1 + u^2) from -1 to 1,  u = 2 (x - place)/edge
     free      nothing
 
-    A node is let go of, and taken hold of, without a jump. At full strength 1 kN slips 0.01 mm/s, so that the strain
+    A node is let go of, and taken hold of, without a jump. At full strength 1 kN slips 1 um/s, so that the strain
     of what is stored stays as it was wound on.
     """
 
     node = Translational("the node")
     place = Parameter("m", "Where the drum begins; it stores what is inboard.", default=0.0)
     edge = Parameter("m", "Length over which the drum takes hold.", default=0.1, above=0.02, most=2.0)
-    lock = Parameter("N*s/m", "Bond at full strength.", default=1e8, above=0)
+    lock = Parameter("N*s/m", "Bond at full strength.", default=1e9, above=0)
     leak = Output("m/s", "What the bond lets slip.")
     force = Output("N", "What the drum holds.")
     zones = Zones("stored", "edge", "free")

@@ -2,7 +2,7 @@
 
 from fairlead.components.mechanics.ground import Ground
 from fairlead.components.route.placing import misplaced, place
-from fairlead.components.route.route_line import RouteLine
+from fairlead.components.route.route_line import STANDING, RouteLine
 from fairlead.components.route.station import Station
 
 from fairlead.component import Composite, Expansion, Path, Stations
@@ -33,8 +33,10 @@ class Route(Composite):
 
     def expand(p, scene):
         """The fixed surface that all standing devices share, and what moves; contacts come with the line."""
-        children, joins, ports, outputs = {"surface": scene.make(Ground)}, [], {}, {}
         line = RouteLine(place(p.stations), scene)
+        children, joins, ports, outputs = {}, [], {}, {}
+        if any(surface.flange == STANDING for surface in line.surfaces):
+            children["surface"] = scene.make(Ground)
         for one in line.placed:
             made = line.machinery.get(one.name)
             if made is None:

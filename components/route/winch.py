@@ -18,9 +18,9 @@ class Winch(Station):
 
         line speed = R w       moment dw/dt = torque at the shaft + R (tension of the line at the drum)
 
-    Line on the drum moves with it, so that its strain stays as it was wound on, and comes off with it. The drum
-    takes hold of a node over `edge` (0.1 m); the bond is viscous, `lock` times slip, and so strong that what it lets
-    slip is nothing (1 kN: 0.01 mm/s).
+    Line on the drum moves with it, so that its strain stays as it was wound on, and comes off with it. The drum takes
+    hold of a node over `edge` (0.1 m); the bond is viscous, and lets the last node before the edge creep under the
+    difference of the tensions on both sides: 1 kN over `lock` is 1 um/s.
 
     `layers: off`  the radius does not change; `route.<name>.rim` is a flange that moves with the line, where a
                    speed or a tension may be given. `on` takes `width` and the diameter of the line and grows the
@@ -38,7 +38,7 @@ class Winch(Station):
     packing = Choice(("nested", "stacked"), "How one layer lies on the other.", default="nested")
     crossover = Parameter("rad", "Angle over which a layer changes to the next.", default=math.pi / 2, above=0)
     filled = Parameter("m", "Line on the drum beside that of the model.", default=0.0, least=0)
-    lock = Parameter("N*s/m", "Bond of a stored node with the drum.", default=1e8, above=0)
+    lock = Parameter("N*s/m", "Bond of a stored node with the drum.", default=1e9, above=0)
     line_diameter = Parameter("m", "Diameter that a layer takes.", default=0.085, above=0)
 
     def extent(p):

@@ -1,10 +1,21 @@
 """A motion given in time."""
 
+import itertools
 import math
 
 from fairlead.component import Component, Law, Output, Parameter, Translational, Waveform, derived_wave
 from fairlead.component.piecewise import Sine
 from fairlead.component.values import Wave
+
+LEAST_JUMP = 1e-9  # m, or of the position; less is rounding of the pieces
+
+
+def jumps(path):
+    """(place, height) of every jump of a piecewise polynomial."""
+    for before, row in itertools.pairwise(path.rows):
+        left, right = (sum(c * (row[0] - piece[2]) ** k for k, c in enumerate(piece[3:])) for piece in (before, row))
+        if abs(right - left) > LEAST_JUMP * max(1.0, abs(left), abs(right)):
+            yield float(row[0]), float(right - left)
 
 
 class MotionSource(Component):
@@ -39,6 +50,9 @@ class MotionSource(Component):
         """Exactly one of the two ways."""
         if (p.velocity is None) == (p.position is None):
             yield "", "give either velocity or position", "A velocity is integrated from `origin`."
+        for at, jump in jumps(p.position.polynomial) if p.position is not None else ():
+            what = f"the position jumps by {jump:.3g} m at t = {at:g} s, which takes an infinite force"
+            yield "position", what, "Give a ramp, or a velocity, which is integrated."
 
     def starts_at(p, x):
         """Where the driven body starts, when only a velocity is given."""

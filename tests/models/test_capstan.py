@@ -46,7 +46,7 @@ def test_an_anchored_line_is_drawn_out_by_the_square_of_the_pull(anchor, pull):
 
 
 def lumped(pull, grip=50.0, stiffness=500e3, element=0.5):
-    """Travel of the end [m] under the pull and after it, with the friction in nodes as the mesh has it (half at the end).
+    """Travel of the end [m] under the pull and after it, friction in nodes as the mesh has it (half at the end).
 
     Going up every node that slides takes q * element of the tension; coming down it gives twice that back.
     """

@@ -23,7 +23,8 @@ PLACES = (1.0, 4.2, 7.2, 9.7)  # m: at the winch, before and after the deployer,
 
 def tension_at(result, places, begin, end):
     """Mean tension of the line [N] at places of the route [m] over a span of time."""
-    tension = result.columns(result.match("line.hose[*].tension")) + result.columns(result.match("line.core[*].tension"))
+    hose, core = (result.columns(result.match(f"line.{layer}[*].tension")) for layer in ("hose", "core"))
+    tension = hose + core
     nodes = result.columns(result.match("line.hose_node[*].x"))
     middle = (nodes[:, 1:] + nodes[:, :-1]) / 2
     rows = np.flatnonzero((result.t > begin) & (result.t < end))

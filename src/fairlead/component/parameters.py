@@ -94,7 +94,9 @@ def family_type(family: type[Family], keep: Callable[[type[Family]], Any] | None
 def _with_word(family: type[Family], value: Any) -> Any:
     """Write out the short forms: a bare number, a bare word, a map without the word."""
     if isinstance(value, Values):
-        return {family.key: value.type.word, **value.given}  # type: ignore[attr-defined]
+        declared = value.type.declaration.parameters  # without the derived numbers it has been asked for
+        given = {name: one for name, one in value.given.items() if name in declared}
+        return {family.key: value.type.word, **given}  # type: ignore[attr-defined]
     if isinstance(value, str) and (value in family.members or value[:1].isalpha()):
         return {family.key: value}
     if not isinstance(value, Mapping) and family.bare is not None:

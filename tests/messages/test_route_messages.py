@@ -1,0 +1,100 @@
+"""A route that cannot be, or does not fit its line, is told with numbers before the run."""
+
+import pytest
+
+from fairlead.errors import ModelError
+
+BEND = "{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.3}"
+
+
+def scene_of(stations, line="length: 20 m, element: 0.25 m, start: 1 m"):
+    return f"""
+components:
+  rope: {{type: Cable, mass: 1 kg/m, stiffness: 200 kN, {line}}}
+  route:
+    type: Route
+    stations: [{(", " + chr(10) + "      ").join(stations)}]
+  haul: {{type: MotionSource, velocity: -0.2 m/s}}
+connections:
+  - [rope.path, route.path]
+  - [haul.flange, rope.inboard]
+run: {{stop: 1 s}}
+"""
+
+
+def told(scene, stations, **line):
+    with pytest.raises(ModelError) as caught:
+        scene(scene_of(stations, **line)).check()
+    return str(caught.value)
+
+
+def test_devices_that_overlap(scene):
+    text = told(scene, [BEND, "{type: Guide, start: 4 m, length: 1 m, friction: 0.3}"])
+    assert ":9:" in text  # the line of the second device
+    assert "guide begins at 4 m, before bend ends at 4.5708 m: they overlap by 0.571 m" in text
+    assert "begin where it ends" in text
+
+
+def test_two_devices_of_one_name(scene):
+    later = "{name: bend, type: Guide, start: 6 m, length: 1 m, friction: 0.3}"
+    assert "2 devices are called bend" in told(scene, [BEND.replace("{", "{name: bend, "), later])
+
+
+def test_devices_listed_out_of_order(scene):
+    text = told(scene, [BEND, "{type: Guide, start: 1 m, length: 1 m, friction: 0.3}"])
+    assert "guide stands after bend in the list, but lies inboard of it" in text
+
+
+def test_a_slit_between_devices(scene):
+    text = told(scene, [BEND, "{type: Guide, start: 4.6708 m, length: 1 m, friction: 0.3}"])
+    assert "route.guide begins 0.1 m after bend ends, less than an element (0.25 m)" in text
+    assert "Let it begin at 4.5708 m, or leave at least 0.25 m between them." in text
+
+
+def test_elements_too_coarse_for_a_bend(scene):
+    text = told(scene, [BEND], line="length: 20 m, element: 1 m, start: 1 m")
+    assert "route.bend: an element of 1 m turns through 1 rad in a radius of 1 m" in text
+    assert "Use elements of at most 0.25 m (0.25 rad): 7 on this device." in text
+
+
+def test_a_device_shorter_than_its_elements(scene):
+    text = told(scene, ["{type: Guide, start: 3 m, length: 0.3 m, friction: 0.3}"])
+    assert "route.guide: it is 0.3 m long, shorter than 2 elements of 0.25 m" in text
+    assert "0.075 m puts five nodes on it" in text
+
+
+def test_a_bend_tighter_than_the_line_allows(scene):
+    text = told(scene, [BEND], line="length: 20 m, element: 0.25 m, start: 1 m, bend_radius: 1.5 m")
+    assert "route.bend: its radius of 1 m is tighter than rope allows, 1.5 m" in text
+
+
+def test_a_drum_too_small_for_the_line(scene):
+    drum = "{type: Winch, radius: 0.3 m, layers: on, width: 0.5 m, height: 0.1 m, line_diameter: 50 mm}"
+    text = told(scene, [drum, BEND], line="length: 60 m, element: 0.25 m, start: -50 m")
+    assert "route.winch: it takes 43.56 m of line (2 layers of 10 wraps), and the line has 60 m" in text
+
+
+def test_a_route_without_devices(scene):
+    assert "route.stations is empty" in told(scene, [])
+
+
+def test_a_name_that_is_none(scene):
+    text = told(scene, ["{name: Bend A, type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.3}"])
+    assert "write a name of small letters, digits and underscores" in text
+
+
+def test_a_step_in_length_is_refused(scene):
+    text = """
+components:
+  weight: {type: Mass, mass: 1 kg}
+  winch: {type: MotionSource, position: {step: {to: 2 m, at: 1 s}}}
+connections: [[weight.flange, winch.flange]]
+run: {stop: 1 s}
+"""
+    with pytest.raises(ModelError, match="the position jumps by 2 m at t = 1 s, which takes an infinite force"):
+        scene(text).check()
+
+
+def test_a_rope_that_cannot_push_cannot_ruck(scene):
+    text = told(scene, [BEND], line="length: 20 m, element: 0.25 m, start: 1 m, ruck_force: 100 N")
+    assert "rope.ruck_force: a line that cannot push cannot ruck" in text
