@@ -190,11 +190,6 @@ STRUCTURAL = {
         scene("one: {type: Spring, stiffness: 1 N/m}", "two: {type: Spring, stiffness: 1 N/m}", "[one.a, two.a]", "[two.b, one.b]"),
         "scene.yaml:7:6: nodes {one.a, two.a} and {one.b, two.b} hang together without any mass, and on no fixed or driven point.",
     ),
-    "two contacts that hold side by side": (
-        scene(BLOCK, WALL, *PADS, "[wall.flange, one.a, two.a]", "[block.flange, one.b, two.b]", friction="{method: hold}"),
-        "scene.yaml:6:3: one and two hold in a closed circle; no law determines how they share the force.\n"
-        "    Join them into one, or use method: binding, which shares it by creep.",
-    ),
     "a rigid loop of two lengths": (
         scene(BLOCK, "other: {type: Mass, mass: 1 kg}", "one: {type: RigidLink, length: 1 m}", "two: {type: RigidLink, length: 2 m}", "[block.flange, one.a, two.a]", "[other.flange, one.b, two.b]"),
         "scene.yaml:7:3: the rigid loop two - one contradicts itself: two has the length 2, the others leave 1.",

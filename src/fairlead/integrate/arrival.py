@@ -43,6 +43,7 @@ def start(m):
 def arrive(m):
     """Move to the end of the piece; settle there if guards fired or a time event changed anything."""
     m.t = m.t_piece
+    m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
     m.jacobian_fresh = 0
     if m.rows + 4 > m.row_capacity:
@@ -158,6 +159,7 @@ def finish_settling(m, starting):
     m.jacobian_fresh = 0
     m.factored_h = 0.0
     m.companion = 0
+    m.judged = 1
     m.crossed = 0
     if not starting or m.on_grid == 0 or m.grid_next == 0:
         write_row(m, m.t, m.at_y, ORDINARY if starting else AFTER)

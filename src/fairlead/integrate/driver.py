@@ -32,6 +32,8 @@ SLICE = 0.05
 FIRST_ATTEMPTS = 16
 BLOCK_NUMBERS = 1 << 17
 """Recorded numbers a block may hold."""
+LEAST_PASSES, PATTERN_NUMBERS = 100, 1 << 22
+"""Passes that a settling may take in any case, and how many zones the patterns that it remembers may have together."""
 NEVER = 1e308
 REACTIONS = {"warn": 0, "hold": 1, "stop": 2}
 
@@ -144,7 +146,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     }  # fmt: skip
     lengths = sizes | {
         "stages_n": s * n, "three_n": 3 * n, "stages_stages": s * s, "three_stages": 3 * s,
-        "rows_outputs": rows * n_outputs, "n_plus_1": n + 1, "passes_zones": (run.max_passes + 1) * nz,
+        "rows_outputs": rows * n_outputs, "n_plus_1": n + 1, "passes_zones": (passes_allowed(run, nz) + 1) * nz,
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
@@ -159,10 +161,19 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
         calls["call_guards"] = calls["call_switch"] = 0
         memory.number["n_guards"] = 0
     write_numbers(memory, {**calls, "context": problem.context})
+    memory.number["max_passes"] = passes_allowed(run, nz)
+    memory.number["weighs_guards"] = int(memory.array["guard_inertia"].any())
     memory.number["n_algebraic"] = int(n - np.count_nonzero(problem.differential))
     memory.array["last_toggle"][:] = -NEVER
     memory.array["blocked_until"][:] = -NEVER
     return memory
+
+
+def passes_allowed(run: Run, machines: int) -> int:
+    """Passes of one settling: what was set, or enough to change every machine some times over."""
+    if run.max_passes is not None:
+        return run.max_passes
+    return min(LEAST_PASSES + 4 * machines, max(LEAST_PASSES, PATTERN_NUMBERS // max(machines, 1)))
 
 
 def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dict[str, np.ndarray]:
@@ -175,6 +186,7 @@ def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dic
         "a": tableau.a.ravel(), "C": tableau.C.ravel(), "c": tableau.c, "d": tableau.d,
         "m": tableau.m, "e": tableau.e, "H": tableau.H.ravel(),
         "zones": problem.zones, "guard_machine": problem.guard_machine,
+        "guard_inertia": getattr(problem, "guard_inertia", np.zeros(len(problem.guard_machine))),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
@@ -188,7 +200,6 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
     span = run.stop - run.start
     most = np.iinfo(np.int64).max
     return {
-        "max_passes": run.max_passes,
         "max_steps": most if run.max_steps is None else run.max_steps,
         "max_events": most if run.max_events is None else run.max_events,
         "adaptive": int(run.fixed_step is None),

@@ -23,13 +23,17 @@ INTEGERS = (
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is
-    "phase", "crossed", "companion", "landing", "jacobian_fresh", "retried", "mended", "worst", "n_fired", "passes",
+    "phase", "crossed", "companion", "judged", "landing", "jacobian_fresh", "retried", "mended", "worst", "n_fired",
+    "passes",
     "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
+    # the settlement: which violators change, since which pass, the fewest there were, passes since, whether
+    # guards have inertias
+    "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # the core of W: which matrix is factored there, and whether its factors are good
     "core_kind", "core_valid",
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
-    "linearised", "driven", "failed", "seeking",
+    "linearised", "driven", "sharing", "failed", "seeking",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
@@ -42,7 +46,7 @@ NUMBERS = (
     "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
-    "t_release", "t_last_switch", "factored_h", "core_scale",
+    "t_release", "t_last_switch", "factored_h", "look", "core_scale",
     # stepping only: theta asked for and in force, the step asked for, distances of the slopes remembered
     "least_theta", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
     "t_jump",
@@ -69,6 +73,7 @@ VECTORS = {
     "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards",
     "g_early": "n_guards",
     "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
+    "guard_inertia": "n_guards", "wrong": "n_guards",
     # machines
     "last_toggle": "n_zones", "blocked_until": "n_zones",
     # what was recorded

@@ -19,6 +19,10 @@ for all problems; `context` is passed through untouched.
     at_time   int64  (ctx, t, y)                  t is the start or a time event; 1 if anything changed
     outputs   void   (ctx, t, y, out)             out[n_outputs], in the zones in force
 
+A problem may also have `guard_inertia` [ng], live memory if the callbacks write to it: for a guard on the slip of
+a contact that may hold, the inertia that resists its force; 0 for others. Settling then knows which of two
+wrong zones is the more so, a force beyond its limit or an acceleration against the friction (settling.py).
+
 ctx is int64*, t a double, the others double* or int64*. The last six may be missing (or zero):
 no guards, no held contacts, no time events; outputs missing records y itself.
 """
@@ -170,8 +174,8 @@ class Run:
     max_steps: int | None = None
     max_events: int | None = None
     max_wall: float | None = None
-    max_passes: int = 100
-    """Passes of one settling before it counts as not settled."""
+    max_passes: int | None = None
+    """Passes of one settling before it counts as not settled; None: 100, and four for every machine."""
     dwell: float | None = None
     """A machine that toggles again and again within this time chatters; None: 1e-6 of the span."""
     on_chatter: Literal["warn", "hold", "stop"] = "warn"

@@ -148,6 +148,7 @@ def find_holds(m):
     slope_starts, slope_rows = indices(m.at_jacobian_starts, n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
     holds[:] = 0
     m.driven = 0
+    m.sharing = 0
     if m.call_slip == 0:
         return
     for j in range(n):
@@ -160,9 +161,41 @@ def find_holds(m):
                         times[i] = -values[p] / slopes[q]
                         if ft[i] != 0.0:
                             m.driven = 1
-    for p in range(m.n_jacobian):
-        if holds[slope_rows[p]] == 1:
-            slopes[p] = 0.0
+    for j in range(n):
+        for q in range(slope_starts[j], slope_starts[j + 1]):
+            i = slope_rows[q]
+            if holds[i] == 1 and slopes[q] != 0.0:
+                if differential[j] == 1 or has_mass(m, i, j):
+                    slopes[q] = 0.0
+                else:
+                    m.sharing = 1
+
+
+@compiled
+def has_mass(m, i, j):
+    """True if M has an entry at row i, column j, in the zones in force."""
+    starts, rows = indices(m.at_mass_starts, m.n + 1), indices(m.at_mass_rows, m.n_mass)
+    values = reals(m.at_mass, m.n_mass)
+    found = False
+    for p in range(starts[j], starts[j + 1]):
+        found = found or (rows[p] == i and values[p] != 0.0)
+    return found
+
+
+@compiled
+def add_shares(m, sign):
+    """Add `sign` times what forces add to the rows of b that hold: contacts that close a circle share a load."""
+    n = m.n
+    if m.sharing == 0:
+        return
+    b, holds, y_end = reals(m.at_b, n), indices(m.at_holds, n), reals(m.at_y_end, n)
+    differential, slopes = indices(m.at_differential, n), reals(m.at_jacobian, m.n_jacobian)
+    starts, rows = indices(m.at_jacobian_starts, n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
+    for j in range(n):
+        if differential[j] == 0:
+            for q in range(starts[j], starts[j + 1]):
+                if holds[rows[q]] == 1:
+                    b[rows[q]] += sign * slopes[q] * y_end[j]
 
 
 @compiled
@@ -199,7 +232,11 @@ def slips_of_step(m, h, fresh_slip):
         m.rhs += 1
         for k in range(n):
             if holds[k] == 1:
-                b[k] = times[k] * (r[k] - times[k] * ft[k]) / h
+                b[k] = r[k] - times[k] * ft[k]
+        add_shares(m, -1.0)
+        for k in range(n):
+            if holds[k] == 1:
+                b[k] = times[k] * b[k] / h
     elif m.driven == 1:
         slip_at(m.call_slip, (m.context, m.t + h, m.at_y_end, m.at_residual))
         for k in range(n):
@@ -209,6 +246,7 @@ def slips_of_step(m, h, fresh_slip):
         for k in range(n):
             if holds[k] == 1:
                 b[k] = 0.0
+    add_shares(m, 1.0)
 
 
 @compiled

@@ -27,7 +27,12 @@ from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
-from fairlead.integrate.settling import begin_settling
+from fairlead.integrate.settling import all_fall, begin_settling
+
+DOUBT = 0.1
+"""How much shorter a step is tried when a guard that falls by the slopes at the point, where the zones were just
+settled, does not in the step: the interpolant of a long step is rough at its start. To settle there again
+would change nothing, and the next step be as long."""
 
 STUBBORN = 6
 """Rejections in a row that call for `mend_point`."""
@@ -59,6 +64,11 @@ def attempt(m):
     found = first_crossing(m, h)
     if found == COMPANION:
         m.rejected_companion += 1
+        if m.judged == 1 and m.adaptive == 1 and DOUBT * h >= smallest_step(m) and all_fall(m):
+            m.n_fired = 0
+            m.h_next = DOUBT * h
+            m.retried += 1
+            return GO_ON
         m.companion = 1
         write_row(m, m.t, m.at_y, BEFORE)
         begin_settling(m)

@@ -25,6 +25,7 @@ from fairlead.system.outputs import signals, stored
 from fairlead.system.plain_python import called_controllers
 from fairlead.system.ranks import signal_ranks
 from fairlead.system.shares import rows, shares
+from fairlead.system.sharing import guard_inertias, sharing
 from fairlead.system.switching import guards, machine_owners, machine_zones
 from fairlead.system.system import Pattern, System
 from fairlead.system.timing import samplers, start_pieces
@@ -82,14 +83,16 @@ def _system(
     """Plans and arrays of a model whose blocks are built."""
     blocks, tables, machines = built
     shared, end = shares(blocks)
-    program = jacobian(flat, blocks, shared, numbering)
+    program = jacobian(flat, blocks, shared, numbering, end.mass)
     mass_pattern, memory = mass(blocks, shared, numbering)
     named, switches = guards(blocks)
     start = flat.assembly.netlist.run.start
     memory |= switches | rows(blocks, shared, end) | samplers(blocks, start) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
+    memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])}
+    memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(named))
     controllers = called_controllers(blocks, numbering, memory)
-    memory["context"] = context(blocks, numbering, program, memory)
+    memory["context"] = context(blocks, numbering, program, memory, end.mass)
     unknowns = numbering.unknowns
     return System(
         flat=flat,
@@ -108,6 +111,7 @@ def _system(
         cap=chosen.cap,
         guard_tolerance=guard_tolerances([unit for _, unit in named], chosen.cap),
         guard_machine=memory["guard_machines"],
+        guard_inertia=memory["guard_inertia"],
         machine_names=[path for path, _ in machines],
         guard_names=[name for name, _ in named],
         machine_zones=machine_zones(blocks, len(machines)),

@@ -19,13 +19,16 @@ ADDRESSES = (
     "Z", "W", "ZONES", "TABLES", "KERNELS", "BLOCKS", "COUNTS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS",
     "REACTION_A", "PARTIALS", "WORK", "PROGRAM", "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS",
     "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
-    "SAMPLE_COUNT", "SAMPLE_START", "SAMPLE_KERNELS", "OUTPUTS_ALL",
+    "SAMPLE_COUNT", "SAMPLE_START", "SAMPLE_KERNELS", "OUTPUTS_ALL", "CIRCLE_PAIRS", "CIRCLE_COEF", "CIRCLE_ZONES",
+    "CIRCLE_SEEN", "CIRCLE_STILL", "CIRCLE_BODIES", "CIRCLE_PINS", "CIRCLE_NODES", "CIRCLE_RATIO", "GUARD_INERTIA",
+    "TAU",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
     "N_REACTIONS": "reaction_mass", "N_BLOCKS": "counts", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
     "N_HOLDS": "holds", "N_TIME": "time_place", "N_SELECTED": "selected", "N_STORED": "stored", "N_SAMPLED": "sampled",
+    "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
 }  # fmt: skip
 
 
@@ -49,12 +52,15 @@ def working_arrays(
     }  # fmt: skip
 
 
-def context(blocks: Sequence[Block], numbering: Numbering, program: Program, memory: Memory) -> Integers:
+def context(
+    blocks: Sequence[Block], numbering: Numbering, program: Program, memory: Memory, circle_at: int
+) -> Integers:
     """The vector itself, in the order of `layout.py`."""
     sizes = {name: len(memory[array]) for name, array in COUNTED.items()} | {
         "N": numbering.n, "N_SIGNALS": len(numbering.signals), "N_JACOBIAN": len(program.rows),
         "N_WORK": program.length, "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
+        "CIRCLE_AT": circle_at,
     }  # fmt: skip
     vector = np.zeros(layout.CONTEXT, dtype=np.int64)
     for name, value in sizes.items():

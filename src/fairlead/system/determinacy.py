@@ -104,13 +104,21 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
         what = f"{_named(nodes)} has no mass and no law determines its {THROUGH[nodes[0].domain.name]}{while_}."
         return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
     if owners and owners.keys() <= _holding(blocks):
-        what = f"{_hold(owners)} in a closed circle; no law determines how they share the force."
-        way_out = "Join them into one, or use method: binding, which shares it by creep."
+        what = f"{_hold(owners)} in a closed circle, and {_unequal(blocks, owners)}, so how they share is not known."
+        way_out = "Leave ratios to a Gear or a Rack and write hold(b.v - a.v), or join them into one."
         return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     names = [f"{path}.{name}" for (path, name), at in numbering.own.items() if at in part]
     what = f"{_and(names)}: no equation determines {'it' if len(names) == 1 else 'them'}{while_}."
     way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
     return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+
+
+def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
+    """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
+    wanted = set(owners)
+    cannot = [i.path for b in blocks if b.kernel.structure.holds.keys() - b.kernel.structure.pairs.keys()
+              for i in b.instances if i.path in wanted]  # fmt: skip
+    return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
 
 
 def _holding(blocks: list[Block]) -> set[str]:
@@ -184,6 +192,11 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
                 for r, c in zip(row.tolist(), column.tolist(), strict=True):
                     if c < n and not algebraic[c]:
                         rows_of[c].add(r)
+    for pair in numbering.circles:
+        force = numbering.own[pair.path, pair.unknown]
+        sharing = {force, *(numbering.share[index] for index, _ in pair.ends if index in numbering.share)}
+        for at in sharing:
+            rows_of[at] |= sharing
     return rows_of
 
 

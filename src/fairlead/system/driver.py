@@ -6,6 +6,7 @@ code; compiled once, not once per model. Names in capitals are positions, see `l
     rhs        signals by rank, flows of all, reactions, ledger; rows x' = v
     jacobian   the same, then partial derivatives of all kernels, then one list of multiply-adds that
                eliminates the signals: work[a] += coefficient * partials[b] * work[c]
+    shares     of held contacts that close a circle: see sharing.py
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import inspect
 from pathlib import Path
 
 from fairlead.native import Build, Native, digest, load_or_compile
+from fairlead.system.unions import add_shares, guard_shares, look_around, unite
 
 SIGNATURES = {
     "rhs": (("I8", "float", "F8", "F8"), "None"),
@@ -45,6 +47,8 @@ def evaluate(ctx, t, y):
         w[i] = 0.0
     for b in range(0, ctx[N_BLOCKS]):
         call_kernel(kernels[b], FLOWS, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
+    if ctx[N_CIRCLES] > 0:
+        add_shares(ctx, t, y)
     mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
     for r in range(0, ctx[N_REACTIONS]):
         z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
@@ -127,6 +131,8 @@ def guards(ctx, t, y, g):
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], GUARD, block, 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g)
+    if ctx[N_CIRCLES] > 0:
+        guard_shares(ctx, t, y, g)
 
 
 def switch(ctx, t, y, fired, n_fired):
@@ -222,19 +228,21 @@ def outputs(ctx, t, y, out):
     out[ctx[N_SELECTED]] = total
 
 
+SHARED = (unite, look_around, add_shares, guard_shares, evaluate, accelerate, take_samples)
+
+
 @functools.cache
 def callbacks() -> Native:
     """The compiled driver; `address` holds the C address of every callback."""
-    sources = [
-        Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("driver.py", "lowering.py", "layout.py")
-    ]
+    files = ("driver.py", "unions.py", "lowering.py", "layout.py")
+    sources = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
     return load_or_compile(digest(*sources), _build)
 
 
 def _build() -> Build:
     from fairlead.system.lowering import lower
 
-    shared = [inspect.getsource(function) for function in (evaluate, accelerate, take_samples)]
+    shared = [inspect.getsource(function) for function in SHARED]
     here = globals()
     made = {
         name: lower(inspect.getsource(here[name]), name, kinds, returns, shared=shared)

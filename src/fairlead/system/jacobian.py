@@ -14,13 +14,16 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.blocks import Block, Floats, Integers
 from fairlead.system.program import Entries, Program, plan
 from fairlead.system.shares import Share
+from fairlead.system.sharing import circle_entries
 from fairlead.system.unknowns import LEDGER, Numbering, reaction_masses
 
 
-def jacobian(flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering) -> Program:
-    """Plan of the assembly of df/dy and df/dt, signals eliminated."""
+def jacobian(
+    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, more: int
+) -> Program:
+    """Plan of the assembly of df/dy and df/dt, signals eliminated; at `more` follow the partials of the circles."""
     m = len(numbering.signals) + len(numbering.reactions)
-    entries = Entries()
+    entries = circle_entries(numbering, m, more)
     for block, share in zip(blocks, shares, strict=True):
         _entries(block, share, numbering, entries, m)
     _fixed_entries(flat, numbering, entries, m)

@@ -3,7 +3,8 @@
 Kernels are straight-line arithmetic inside loops and zone branches; type inference on such text cost
 numba 3 to 12 s a class, this takes about 0.1 s. Understood is just what `kernel_text.py` writes:
 
-    for i in range(a, b):      if a == b:  (or <, <=, >, >=)      name = expression, name += expression
+    for i in range(a, b):      if a == b:  (or !=, <, <=, >, >=)      name = expression, name += expression
+    while a == b:  (likewise)  if a == b and c == d:  (both sides are always looked at)
     out[index] = expression, out[index] += expression             return expression
 
 with + - * / **, the functions below, and indexing of arrays. Floats are double, integers 64 bit; a
@@ -13,6 +14,7 @@ variable keeps the type it is first given. The driver of `driver.py` is written 
 from __future__ import annotations
 
 import ast
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -26,7 +28,7 @@ from fairlead.system import layout
 DOUBLE, INT = ir.DoubleType(), ir.IntType(64)
 F8, I8 = DOUBLE.as_pointer(), INT.as_pointer()
 TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": I8, "None": ir.VoidType()}
-SHARED = ("I8", "float", "F8")
+SHARED = ("I8", "float", "F8", "F8")  # of a function (ctx, t, y, out); the last may be missing
 KERNEL = ("int", "I8", "int", "int", "F8", "I8", "F8", "F8")
 INTRINSIC = {
     "exp": "llvm.exp",
@@ -57,11 +59,12 @@ def lower(
 ) -> Lowered:
     """LLVM of the one function in `source`, under the symbol `name`, its arguments of the given kinds.
 
-    `shared` holds the sources of functions (ctx, t, y) it may call, in the order of their use.
+    `shared` holds the sources of functions (ctx, t, y) or (ctx, t, y, out) it may call, in the order of their use.
     """
     module = ir.Module(name)
     for text in shared:
-        _define(module, text, "", SHARED, "None").linkage = "internal"
+        given = len(ast.parse(text).body[0].args.args)  # type: ignore[attr-defined]
+        _define(module, text, "", SHARED[:given], "None").linkage = "internal"
     _define(module, source, name, kinds, returns)
     return Lowered(name, _optimised(str(module)))
 
@@ -122,15 +125,32 @@ class _Lowering:
         builder.branch(test)
         builder.position_at_end(done)
 
+    def _While(self, loop: Any) -> None:
+        builder = self.builder
+        test, body, done = (builder.append_basic_block() for _ in range(3))
+        builder.branch(test)
+        builder.position_at_end(test)
+        builder.cbranch(self.holds(loop.test), body, done)
+        builder.position_at_end(body)
+        self.body(loop.body)
+        builder.branch(test)
+        builder.position_at_end(done)
+
     def _If(self, branch: Any) -> None:
-        left, right = self.value(branch.test.left), self.value(branch.test.comparators[0])
-        sign = {ast.Eq: "==", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}[type(branch.test.ops[0])]
-        if left.type == INT and right.type == INT:
-            holds = self.builder.icmp_signed(sign, left, right)
-        else:
-            holds = self.builder.fcmp_ordered(sign, self.double(left), self.double(right))
-        with self.builder.if_then(holds):
+        with self.builder.if_then(self.holds(branch.test)):
             self.body(branch.body)
+
+    def holds(self, test: Any) -> Any:
+        """A comparison of two whole numbers or two others, or several that must all hold."""
+        if isinstance(test, ast.BoolOp):
+            assert isinstance(test.op, ast.And), ast.dump(test)
+            return functools.reduce(self.builder.and_, map(self.holds, test.values))
+        left, right = self.value(test.left), self.value(test.comparators[0])
+        signs = {ast.Eq: "==", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+        sign = signs[type(test.ops[0])]
+        if left.type == INT and right.type == INT:
+            return self.builder.icmp_signed(sign, left, right)
+        return self.builder.fcmp_ordered(sign, self.double(left), self.double(right))
 
     def _Expr(self, statement: Any) -> None:
         self.value(statement.value)

@@ -57,6 +57,7 @@ class System:
     cap: Floats
     guard_tolerance: Floats
     guard_machine: Integers
+    guard_inertia: Floats
     machine_names: Sequence[str]
     guard_names: Sequence[str]
     machine_zones: list[Sequence[str]]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.values import number_given
 from fairlead.flatten.flat_model import FlatModel, Group
+from fairlead.system.circles import REST, HeldPair, circles
 from fairlead.system.structure import Structure
 
 LEDGER = ("dissipated", "supplied")
@@ -22,7 +23,7 @@ class Unknown:
     differential: bool
     mass: float  # its diagonal entry of M, 0 when algebraic
     start: float
-    kind: str  # position, rate, potential, state, multiplier, ledger
+    kind: str  # position, rate, potential, state, multiplier, share, ledger
     nominal: float | None = None  # a size that matters, where its component says one
 
 
@@ -35,6 +36,8 @@ class Numbering:
     rate: dict[int, int] = field(default_factory=dict)
     balance: dict[int, int] = field(default_factory=dict)  # group -> row of its balance
     own: dict[tuple[str, str], int] = field(default_factory=dict)
+    circles: list[HeldPair] = field(default_factory=list)
+    share: dict[int, int] = field(default_factory=dict)  # group in a circle -> unknown, see sharing.py
     ledger: dict[str, int] = field(default_factory=dict)
     pairs: list[tuple[int, int]] = field(default_factory=list)
     signals: dict[PortRef, int] = field(default_factory=dict)  # output -> position among signals
@@ -92,6 +95,12 @@ def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool
             made.reactions[index] = len(made.reactions)
     for instance in flat.instances:
         _number_own(made, instance)
+    made.circles = circles(flat, structures)
+    for index in sorted({index for pair in made.circles for index, _ in pair.ends if index != REST}):
+        group = flat.groups[index]
+        if group.free:
+            unit = group.domain.through[1]
+            made.share[index] = made.add(Unknown(f"{group.name}.share", unit, False, 0.0, 0.0, "share"))
     if energy:
         for line in LEDGER:
             made.ledger[line] = made.add(Unknown(f"energy.{line}", "J", True, 1.0, 0.0, "ledger"))
