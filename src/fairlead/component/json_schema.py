@@ -117,7 +117,9 @@ def _refer(properties: Schema, declared: Mapping[str, Any], definitions: dict[st
         elif isinstance(one, Stations):
             properties[name] = {**said, "type": "array", "items": _family(one.family, definitions)}
         elif isinstance(one, Block):
-            _refer(properties[name]["properties"], one.parameters, definitions)
+            forms = properties[name].get("anyOf", ())  # one that may be left out is a map or null
+            block = next((form for form in forms if "properties" in form), properties[name])
+            _refer(block["properties"], one.parameters, definitions)
 
 
 def _family(family: type[Family], definitions: dict[str, Schema]) -> Schema:
