@@ -155,6 +155,8 @@ def follow_core(m, at_b):
     for k in range(m.n_positions):
         x, v = position[k], speed[k]
         b[x] = part[k] * b[x] + (ratio[k] * b[v] if v >= 0 else 0.0)
+    if m.skip_meters == 1:
+        return
     jacobian, differential = reals(m.at_jacobian_used, m.n_jacobian), indices(m.at_differential, m.n)
     meter, starts = indices(m.at_meter, m.n_meters), indices(m.at_meter_starts, m.n_meters + 1)
     entry, column = indices(m.at_meter_entry, m.n_meter_entries), indices(m.at_meter_column, m.n_meter_entries)

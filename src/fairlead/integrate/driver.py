@@ -11,7 +11,8 @@ import fairlead.integrate.ordering as ordering
 from fairlead.integrate.condensing import kinematic_rows
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
-from fairlead.integrate.memory import Memory
+from fairlead.integrate.memory import LAYOUT, Memory
+from fairlead.integrate.neighbours import held_entries, neighbours
 from fairlead.integrate.protocol import (
     CALLBACKS,
     EVENT,
@@ -147,6 +148,8 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     lengths = sizes | {
         "stages_n": s * n, "three_n": 3 * n, "stages_stages": s * s, "three_stages": 3 * s,
         "rows_outputs": rows * n_outputs, "n_plus_1": n + 1, "passes_zones": (passes_allowed(run, nz) + 1) * nz,
+        "passes": passes_allowed(run, nz) + 1, "n_zones_plus_1": nz + 1,
+        "n_neighbours": 0, "n_hold_mass": 0, "n_hold_slope": 0, "n_hold_share": 0,
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
@@ -154,12 +157,18 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     write_numbers(memory, {**sizes, "n_outputs": n_outputs, "dense": int(plan.dense)})
     write_numbers(memory, settings(run, tableau))
     if run.engine == "stepping":
-        write_numbers(memory, stepping_settings(run))
+        write_numbers(memory, stepping_settings(run, problem))
         memory.array["controlled"][:] = controlled(problem)
+        for name, values in {**held_entries(problem), **neighbours(problem)}.items():
+            memory.point(name, values, np.int64)
+            if f"n_{name}" in LAYOUT.names:
+                memory.number[f"n_{name}"] = len(values)
     calls = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}
     if not calls["call_guards"] or not calls["call_switch"]:
         calls["call_guards"] = calls["call_switch"] = 0
         memory.number["n_guards"] = 0
+    calls["call_forces"] = calls["call_forces"] or calls["call_rhs"]
+    calls["call_drift"] = calls["call_drift"] or calls["call_slip"]
     write_numbers(memory, {**calls, "context": problem.context})
     memory.number["max_passes"] = passes_allowed(run, nz)
     memory.number["weighs_guards"] = int(memory.array["guard_inertia"].any())
@@ -219,11 +228,12 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
     }  # fmt: skip
 
 
-def stepping_settings(run: Run) -> dict[str, float]:
+def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
     """What the stepping engine sets differently, or alone."""
     return {
         "least_theta": run.theta, "theta_now": run.theta, "fixed_step": run.fixed_step or 0.0,
-        "error_exponent": 1.0 / 3.0,
+        "error_exponent": 1.0 / 3.0, "linear": int(getattr(problem, "linear", False)),
+        "n_quadratures": int(np.count_nonzero(problem.quadrature)),
     }  # fmt: skip
 
 

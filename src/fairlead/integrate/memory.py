@@ -19,7 +19,7 @@ INTEGERS = (
     "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
     # C functions of the problem, and their context
     "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
-    "call_next_time", "call_at_time", "call_outputs",
+    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift",
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is
@@ -30,10 +30,11 @@ INTEGERS = (
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # the core of W: which matrix is factored there, and whether its factors are good
-    "core_kind", "core_valid",
+    "core_kind", "core_valid", "skip_meters",
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
-    "linearised", "driven", "sharing", "failed", "seeking",
+    "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "n_quadratures",
+    "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
@@ -61,7 +62,7 @@ VECTORS = {
     "absolute": "n", "relative": "n", "cap": "n", "column_scale": "n", "row_scale": "n", "factor_work": "n",
     # matrices along their patterns; `matrix` holds W or the matrix of the consistent point
     # stepping only: mean slopes of this step, of the one before and of the one before that
-    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "hold_time": "n",
+    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "patterns_met": "passes",
     "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
     "pivot": "n_core", "jacobian_used": "n_jacobian", "mass_used": "n_mass", "core_x": "n_core", "core_b": "n_core",
     "core_residual": "n_core", "position_ratio": "n_positions", "position_share": "n_positions",
@@ -86,8 +87,13 @@ INDICES = {
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
     "differential": "n", "quadrature": "n",
     # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
-    "controlled": "n", "holds": "n", "zones_at_start": "n_zones",
-    "continuous": "n_guards",
+    "controlled": "n", "holds": "n", "caught": "n", "zones_at_start": "n_zones",
+    "continuous": "n_guards", "limit_guard": "n_guards", "first_guard": "n_zones", "met": "n_zones",
+    "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones",
+    "neighbour_starts": "n_zones_plus_1", "neighbours": "n_neighbours",
+    "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_slope": "n_hold_slope",
+    "hold_slope_row": "n_hold_slope", "hold_share": "n_hold_share", "hold_share_row": "n_hold_share",
+    "hold_share_column": "n_hold_share",
     "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",

@@ -18,13 +18,17 @@ for all problems; `context` is passed through untouched.
     next_time double (ctx, t)                     the next time event strictly later than t, or inf
     at_time   int64  (ctx, t, y)                  t is the start or a time event; 1 if anything changed
     outputs   void   (ctx, t, y, out)             out[n_outputs], in the zones in force
+    forces    void   (ctx, t, y, f)               as rhs, with anything in the rows of quadratures
+    drift     void   (ctx, t, y, r)               as slip, where slip answers only for a slip that an
+                                                  impulse takes away
 
 A problem may also have `guard_inertia` [ng], live memory if the callbacks write to it: for a guard on the slip of
 a contact that may hold, the inertia that resists its force; 0 for others. Settling then knows which of two
 wrong zones is the more so, a force beyond its limit or an acceleration against the friction (settling.py).
 
-ctx is int64*, t a double, the others double* or int64*. The last six may be missing (or zero):
-no guards, no held contacts, no time events; outputs missing records y itself.
+ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
+no guards, no held contacts, no time events; outputs missing records y itself; rhs and slip stand in
+for forces and drift.
 """
 
 from __future__ import annotations
@@ -43,7 +47,7 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 
-CALLBACKS = ("rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs")
+CALLBACKS = ("rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift")
 """The names a problem may use in `callbacks`; the first three must be there."""
 
 EVENT = np.dtype(

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from fairlead.integrate.arrival import arrive, settle_here, start
 from fairlead.integrate.codes import ARRIVE, BUFFER_FULL, FINISHED, GO_ON, PAUSED, RECORD, SETTLE, TRY
-from fairlead.integrate.foreign import compiled, copy, indices, memory_at
+from fairlead.integrate.foreign import compiled, copy, indices, memory_at, reals
 from fairlead.integrate.loop import record
 from fairlead.integrate.record import there_is_room
 from fairlead.integrate.settling import log_changes
@@ -55,13 +55,15 @@ def arrive_with_zones(m):
     """Log the zones the step changed, then arrive at its end."""
     if m.rows + 4 > m.row_capacity:
         return BUFFER_FULL
-    if m.passes > 0:
+    switched = m.passes > 0
+    if switched:
         m.t = m.t_piece
         copy(indices(m.at_zones_at_start, m.n_zones), indices(m.at_zones_before, m.n_zones))
         m.n_fired = 0
         m.passes = 0
         log_changes(m)
+    copy(reals(m.at_g, m.n_guards), reals(m.at_g_early, m.n_guards))
     status = arrive(m)
     if m.phase == TRY:
-        remember_slope(m)
+        remember_slope(m, switched)
     return status

@@ -34,10 +34,10 @@ from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
 
-IDLE, HOLD_SHARE = 1e-2, 0.025
-"""Where the motion has an error below IDLE, this share of the bend of a holding force counts as its error: a
-contact under a swinging load, where nothing moves, would else be stepped over. In a chain that moves it would
-cost four times the steps and gain nothing."""
+STILL, HOLD_SHARE = 1e-2, 0.025
+"""Where no position changes by more than this share of its weight, this share of the bend of a holding force
+counts as its error: a force that swings while nothing moves would else be seen at a few points only. In a
+chain that moves it would cost four times the steps and gain nothing."""
 KEEP_BELOW = 1.15
 """A step that may grow by less than this is kept, and the factors of its matrix with it."""
 LANDINGS = 4
@@ -57,7 +57,9 @@ def attempt_stepping(m):
         m.h_next = m.fixed_step
     h = propose(m)
     m.h = h
+    m.skip_meters = 1
     status = take_theta_step(m, h)
+    m.skip_meters = 0
     if status == INACCURATE:
         give_back_zones(m)
         return REPLAN
@@ -69,6 +71,8 @@ def attempt_stepping(m):
     if status != DONE:
         return repeat_shorter(m, h, status)
     m.error = error_of_step(m, h)
+    if m.adaptive == 1 and m.error <= 1.0 and m.passes == 0 and steps_over(m, h):
+        m.error = 2.0
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         give_back_zones(m)
         if isfinite(m.error):
@@ -137,6 +141,10 @@ def repeat_shorter(m, h, status):
     give_back_zones(m)
     m.rejected_nan += 1
     m.retried += 1
+    if status == CYCLES and m.expecting == 1:
+        m.failed += 1  # the same step again, without guessing
+        m.h_next = h
+        return GO_ON
     m.failed += 2
     if status == CYCLES:
         m.theta_now = min(m.theta_now + THETA_RISE, 1.0)
@@ -174,7 +182,7 @@ def error_of_step(m, h):
         else:
             slope[k] = (y_end[k] - y[k]) / near
     size = weighted_norm(m, m.at_error_vector)
-    if size > IDLE or m.passes > 0:
+    if m.passes > 0 or moves(m):
         return size
     for k in range(n):
         if holds[k] == 1:
@@ -183,12 +191,46 @@ def error_of_step(m, h):
 
 
 @compiled
-def remember_slope(m):
+def moves(m):
+    """True if a controlled unknown changes in the step by more than STILL of its weight."""
+    y, y_end, weight = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_weight, m.n)
+    controlled = indices(m.at_controlled, m.n)
+    for k in range(m.n):
+        if controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k]:
+            return True
+    return False
+
+
+@compiled
+def steps_over(m, h):
+    """True if a guard may have been positive inside the step: the parabola through three points says so.
+
+    Only where it rose before the step and falls in it; a step in which zones change tells by itself.
+    """
+    if m.gap == 0.0:
+        return False
+    early, g, g_end = reals(m.at_g_early, m.n_guards), reals(m.at_g, m.n_guards), reals(m.at_g_end, m.n_guards)
+    tolerance, back = reals(m.at_guard_tolerance, m.n_guards), 2.0 * m.gap
+    for i in range(m.n_guards):
+        if g[i] > early[i] and g[i] > g_end[i]:
+            rise, fall = (g[i] - early[i]) / back, (g_end[i] - g[i]) / h
+            curve = (fall - rise) / (back + h)
+            slope = rise + curve * back
+            if slope > 0.0 and g[i] - 0.25 * slope * slope / curve > tolerance[i]:
+                m.worst = 0
+                return True
+    return False
+
+
+@compiled
+def remember_slope(m, switched):
     """After an accepted step: its slope becomes the one before."""
     copy(reals(m.at_slope_before, m.n), reals(m.at_slope_earlier, m.n))
     copy(reals(m.at_mean_slope, m.n), reals(m.at_slope_before, m.n))
     m.gap_before = m.gap + 0.5 * m.h
     m.gap = 0.5 * m.h
+    if switched:
+        copy(reals(m.at_g, m.n_guards), reals(m.at_g_early, m.n_guards))
 
 
 @compiled

@@ -21,7 +21,7 @@ ADDRESSES = (
     "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
     "SAMPLE_COUNT", "SAMPLE_START", "SAMPLE_KERNELS", "OUTPUTS_ALL", "CIRCLE_PAIRS", "CIRCLE_COEF", "CIRCLE_ZONES",
     "CIRCLE_SEEN", "CIRCLE_STILL", "CIRCLE_BODIES", "CIRCLE_PINS", "CIRCLE_NODES", "CIRCLE_RATIO", "GUARD_INERTIA",
-    "TAU",
+    "TAU", "FIXED", "FIXED_COEF", "MOVING", "MOVING_BASE",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -29,6 +29,7 @@ COUNTED = {
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
     "N_HOLDS": "holds", "N_TIME": "time_place", "N_SELECTED": "selected", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
+    "N_FIXED": "fixed", "N_MOVING": "moving",
 }  # fmt: skip
 
 
@@ -47,7 +48,8 @@ def working_arrays(
         "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
         "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
         "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),
-        "program": program.steps, "program_coef": program.coef,
+        "program": program.steps, "program_coef": program.coef, "fixed": program.fixed,
+        "fixed_coef": program.fixed_coef, "moving": program.moving, "moving_base": np.zeros(len(program.moving)),
         "holds": holds(blocks)[0], "time_place": time_places(blocks), "selected": np.zeros(0, dtype=np.int64),
     }  # fmt: skip
 
@@ -61,6 +63,7 @@ def context(
         "N_WORK": program.length, "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
         "CIRCLE_AT": circle_at,
+        "GUARDS_READ": int(len(memory["circle_pairs"]) > 0 or any(b.kernel.structure.guards_read for b in blocks)),
     }  # fmt: skip
     vector = np.zeros(layout.CONTEXT, dtype=np.int64)
     for name, value in sizes.items():

@@ -3,9 +3,10 @@
 Plain functions over flat memory, in the small subset of Python that `lowering.py` makes into machine
 code; compiled once, not once per model. Names in capitals are positions, see `layout.py`.
 
-    rhs        signals by rank, flows of all, reactions, ledger; rows x' = v
+    rhs        signals by rank, flows of all, reactions; rows x' = v; ledger
     jacobian   the same, then partial derivatives of all kernels, then one list of multiply-adds that
-               eliminates the signals: work[a] += coefficient * partials[b] * work[c]
+               eliminates the signals: work[a] += coefficient * partials[b] * work[c]; what never changes
+               of either is done once
     shares     of held contacts that close a circle: see sharing.py
 """
 
@@ -20,22 +21,24 @@ from fairlead.system.unions import add_shares, guard_shares, look_around, unite
 
 SIGNATURES = {
     "rhs": (("I8", "float", "F8", "F8"), "None"),
+    "forces": (("I8", "float", "F8", "F8"), "None"),
     "jacobian": (("I8", "float", "F8", "F8", "F8"), "None"),
     "mass": (("I8", "F8"), "None"),
     "guards": (("I8", "float", "F8", "F8"), "None"),
     "switch": (("I8", "float", "F8", "I8", "int"), "int"),
     "slip": (("I8", "float", "F8", "F8"), "int"),
+    "drift": (("I8", "float", "F8", "F8"), "None"),
     "next_time": (("I8", "float"), "float"),
     "at_time": (("I8", "float", "F8"), "int"),
     "outputs": (("I8", "float", "F8", "F8"), "None"),
 }
 
 
-def evaluate(ctx, t, y):
-    """Signals, flows and ledger at (t, y): fills z and w."""
-    n, z, w, zones, tables = ctx[N], f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
-    for i in range(0, n):
+def look(ctx, t, y):
+    """What laws read at (t, y): unknowns, time, signals; fills z."""
+    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    kernels, blocks = i8(ctx[KERNELS]), ctx[BLOCKS]
+    for i in range(0, ctx[N]):
         z[i] = y[i]
     z[ctx[T_AT]] = t
     schedule = i8(ctx[SCHEDULE])
@@ -43,6 +46,13 @@ def evaluate(ctx, t, y):
         b = schedule[3 * s]
         start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], SIGNALS, block, start, stop, z, zones, tables, z)
+
+
+def evaluate(ctx, t, y):
+    """Signals, flows and reactions at (t, y): fills z and w, without the ledger."""
+    look(ctx, t, y)
+    n, z, w, zones, tables = ctx[N], f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for i in range(0, n + ctx[N_REACTIONS] + 1):
         w[i] = 0.0
     for b in range(0, ctx[N_BLOCKS]):
@@ -52,8 +62,6 @@ def evaluate(ctx, t, y):
     mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
     for r in range(0, ctx[N_REACTIONS]):
         z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
-    for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], LEDGER, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
         w[pairs[2 * k]] = y[pairs[2 * k + 1]]
@@ -65,6 +73,17 @@ def accelerate(ctx, t, y):
     z, w, inverse, first = f8(ctx[Z]), f8(ctx[W]), f8(ctx[INVERSE_MASS]), ctx[ACCELERATION_AT]
     for i in range(0, ctx[N]):
         z[first + i] = w[i] * inverse[i]
+
+
+def slips(ctx, t, y, mode, r):
+    """Ask the held contacts for their slip at (t, y)."""
+    look(ctx, t, y)
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    for i in range(0, ctx[N]):
+        r[i] = 0.0
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], mode, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, r)
 
 
 def take_samples(ctx, t, y):
@@ -83,6 +102,17 @@ def take_samples(ctx, t, y):
 def rhs(ctx, t, y, f):
     """f(t, y) in the zones in force."""
     evaluate(ctx, t, y)
+    z, w, zones, tables = f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for b in range(0, ctx[N_BLOCKS]):
+        call_kernel(kernels[b], LEDGER, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
+    for i in range(0, ctx[N]):
+        f[i] = w[i]
+
+
+def forces(ctx, t, y, f):
+    """f(t, y) as rhs, but zero in the rows of the ledger."""
+    evaluate(ctx, t, y)
     w = f8(ctx[W])
     for i in range(0, ctx[N]):
         f[i] = w[i]
@@ -93,14 +123,17 @@ def jacobian(ctx, t, y, values, ft):
     evaluate(ctx, t, y)
     z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    if ctx[FIXED_DONE] == 0:
+        fix(ctx, t, y)
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], PARTIALS_SIGNALS, block, 0, counts[b], z, zones, tables, partials)
         call_kernel(kernels[b], PARTIALS_FLOWS, block, 0, counts[b], z, zones, tables, partials)
         call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
     work, program, coefficient = f8(ctx[WORK]), i8(ctx[PROGRAM]), f8(ctx[PROGRAM_COEF])
-    for i in range(1, ctx[N_WORK]):
-        work[i] = 0.0
+    moving, base = i8(ctx[MOVING]), f8(ctx[MOVING_BASE])
+    for k in range(0, ctx[N_MOVING]):
+        work[moving[k]] = base[k]
     for k in range(0, ctx[N_PROGRAM]):
         work[program[3 * k]] += coefficient[k] * partials[program[3 * k + 1]] * work[program[3 * k + 2]]
     first, entries = ctx[JACOBIAN_AT], ctx[N_JACOBIAN]
@@ -108,6 +141,26 @@ def jacobian(ctx, t, y, values, ft):
         values[i] = work[first + i]
     for i in range(0, ctx[N]):
         ft[i] = work[first + entries + i]
+
+
+def fix(ctx, t, y):
+    """What never changes in the Jacobian, done once: fixed partial derivatives, and multiply-adds of them alone."""
+    z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    for b in range(0, ctx[N_BLOCKS]):
+        block = i8(blocks + WORD * BLOCK * b)
+        call_kernel(kernels[b], FIXED_SIGNALS, block, 0, counts[b], z, zones, tables, partials)
+        call_kernel(kernels[b], FIXED_FLOWS, block, 0, counts[b], z, zones, tables, partials)
+        call_kernel(kernels[b], FIXED_LEDGER, block, 0, counts[b], z, zones, tables, partials)
+    work, program, coefficient = f8(ctx[WORK]), i8(ctx[FIXED]), f8(ctx[FIXED_COEF])
+    for i in range(1, ctx[N_WORK]):
+        work[i] = 0.0
+    for k in range(0, ctx[N_FIXED]):
+        work[program[3 * k]] += coefficient[k] * partials[program[3 * k + 1]] * work[program[3 * k + 2]]
+    moving, base = i8(ctx[MOVING]), f8(ctx[MOVING_BASE])
+    for k in range(0, ctx[N_MOVING]):
+        base[k] = work[moving[k]]
+    ctx[FIXED_DONE] = 1
 
 
 def mass(ctx, values):
@@ -126,7 +179,10 @@ def mass(ctx, values):
 
 def guards(ctx, t, y, g):
     """All guards; -1 where the zone in force has none."""
-    accelerate(ctx, t, y)
+    if ctx[GUARDS_READ] == 0:
+        look(ctx, t, y)
+    if ctx[GUARDS_READ] > 0:
+        accelerate(ctx, t, y)
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
@@ -161,21 +217,23 @@ def switch(ctx, t, y, fired, n_fired):
 
 
 def slip(ctx, t, y, r):
-    """-slip on the rows that hold, zero elsewhere; how many rows hold."""
-    evaluate(ctx, t, y)
+    """-slip on the rows that hold, as far as an impulse takes it away, zero elsewhere; how many rows hold."""
     zones, holds = i8(ctx[ZONES]), i8(ctx[HOLDS])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     held = ctx[ALWAYS_HELD]
     for k in range(0, ctx[N_HOLDS]):
         if zones[holds[2 * k]] == holds[2 * k + 1]:
             held += 1
-    for i in range(0, ctx[N]):
-        r[i] = 0.0
     if held > 0:
-        for b in range(0, ctx[N_BLOCKS]):
-            block = i8(blocks + WORD * BLOCK * b)
-            call_kernel(kernels[b], SLIP, block, 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), r)
+        slips(ctx, t, y, SLIP, r)
+    if held == 0:
+        for i in range(0, ctx[N]):
+            r[i] = 0.0
     return held
+
+
+def drift(ctx, t, y, r):
+    """-slip on the rows that hold, whatever it is, zero elsewhere."""
+    slips(ctx, t, y, DRIFT, r)
 
 
 def next_time(ctx, t):
@@ -228,7 +286,9 @@ def outputs(ctx, t, y, out):
     out[ctx[N_SELECTED]] = total
 
 
-SHARED = (unite, look_around, add_shares, guard_shares, evaluate, accelerate, take_samples)
+SHARED = (
+    unite, look_around, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
+)  # fmt: skip
 
 
 @functools.cache

@@ -27,7 +27,24 @@ def jacobian(
     for block, share in zip(blocks, shares, strict=True):
         _entries(block, share, numbering, entries, m)
     _fixed_entries(flat, numbering, entries, m)
-    return plan(entries, numbering.n, m, _levels(blocks, numbering, m))
+    return plan(entries, numbering.n, m, _levels(blocks, numbering, m), _fixed(blocks, shares, more + len(numbering.circles) + len(numbering.share)))
+
+
+def _fixed(blocks: Sequence[Block], shares: Sequence[Share], count: int) -> NDArray[np.bool_]:
+    """Which partial derivatives never change: those the kernels say, and the constant 1."""
+    fixed = np.zeros(count, dtype=bool)
+    fixed[0] = True
+    for block, share in zip(blocks, shares, strict=True):
+        s = block.kernel.structure
+        parts = (
+            (share.signals, s.d_signals, s.fixed_signals),
+            (share.flows, s.d_flows, s.fixed_flows),
+            (share.ledger, s.d_ledger, s.fixed_ledger),
+        )
+        for first, pairs, which in parts:
+            for e in which:
+                fixed[first + len(pairs) * np.arange(block.count) + e] = True
+    return fixed
 
 
 def _levels(blocks: Sequence[Block], numbering: Numbering, m: int) -> Integers:

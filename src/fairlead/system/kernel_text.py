@@ -63,11 +63,18 @@ class KernelText:
         self.parameters = [key[2:] for key in sorted({k for k in symbols if k.startswith("p:")} | discrete)]
         self.machines = (1 if len(traced.zones) > 1 else 0) + len(traced.tables)
         self.unfit = {name: why for name in self.outputs if (why := self._unfit(name))}
-        self.d_signals = self._pairs(lambda z: [None if n in self.unfit else z.outputs.get(n) for n in self.outputs])
+        self.d_signals = self._pairs(self._fit_outputs)
         self.d_flows = self._pairs(self._target_values)
-        self.d_ledger = self._pairs(lambda z: [z.ledger.get(line) for line in self.ledger])
+        self.d_ledger = self._pairs(self._ledger_values)
         self.mass = sorted({(u, self.inputs.index(s)) for z in self.zones for u, h in z.holds.items() for s in h.rates})
         self.slots = max((len(z.guards) for z in self.zones), default=0)
+        # Kinds of derivatives: where they go, which, the values by zone, and which of them never change.
+        self.kinds = [
+            (layout.D_SIGNALS, self.d_signals, self._fit_outputs),
+            (layout.D_FLOWS, self.d_flows, self._target_values),
+            (layout.D_LEDGER, self.d_ledger, self._ledger_values),
+        ]
+        self.fixed = [self._fixed(pairs, values) for _, pairs, values in self.kinds]
 
     def write(self) -> tuple[str, Structure]:
         """The text and the structure."""
@@ -76,16 +83,19 @@ class KernelText:
             layout.SIGNALS: self._signals,
             layout.FLOWS: self._flows,
             layout.LEDGER: self._ledger_lines,
-            layout.PARTIALS_SIGNALS: lambda z: self._partials(layout.D_SIGNALS, self.d_signals, self._output_values(z)),
-            layout.PARTIALS_FLOWS: lambda z: self._partials(layout.D_FLOWS, self.d_flows, self._target_values(z)),
-            layout.PARTIALS_LEDGER: lambda z: self._partials(layout.D_LEDGER, self.d_ledger, self._ledger_values(z)),
+            layout.PARTIALS_SIGNALS: lambda z: self._partials(0, z, fixed=False),
+            layout.PARTIALS_FLOWS: lambda z: self._partials(1, z, fixed=False),
+            layout.PARTIALS_LEDGER: lambda z: self._partials(2, z, fixed=False),
             layout.MASS: self._mass,
-            layout.SLIP: self._slip,
+            layout.SLIP: lambda z: self._slip(z, "impulse"),
+            layout.DRIFT: lambda z: self._slip(z, "slip"),
             layout.GUARD: self._guards,
             layout.OUTPUT: self._all_outputs,
             layout.SAMPLE: self._sample,
         }
         loops = [self._loop(mode, [statements(zone) for zone in self.zones]) for mode, statements in modes.items()]
+        for kind, mode in enumerate((layout.FIXED_SIGNALS, layout.FIXED_FLOWS, layout.FIXED_LEDGER)):
+            loops.append(self._loop(mode, [self._partials(kind, self.zones[0], fixed=True)], zoned=False))
         return HEAD.format(**fields) + "".join(loops), self._structure()
 
 
@@ -105,11 +115,43 @@ class KernelText:
         lines = (layout.DISSIPATED, layout.SUPPLIED)
         return [(f"out[li[{lines.index(n)}]] += {{}}", zone.ledger[n]) for n in self.ledger if zone.ledger.get(n)]
 
-    def _partials(self, base: int, pairs: list[tuple[int, int]], values: list[Any]) -> list[Statement]:
-        place = f"out[block[{base}] + i*{len(pairs)} + {{e}}] = {{{{}}}}"
+    def _partials(self, kind: int, zone: TracedZone, *, fixed: bool) -> list[Statement]:
+        base, pairs, values = self.kinds[kind]
+        place, given = f"out[block[{base}] + i*{len(pairs)} + {{e}}] = {{{{}}}}", values(zone)
         return [
-            (place.format(e=e), sympy.diff(values[k] or 0, symbol(self.inputs[j]))) for e, (k, j) in enumerate(pairs)
+            (place.format(e=e), self._partial(given, pair))
+            for e, pair in enumerate(pairs)
+            if (e in self.fixed[kind]) == fixed
         ]
+
+    def _partial(self, values: list[Any], pair: tuple[int, int]) -> sympy.Expr:
+        return sympy.diff(values[pair[0]] or 0, symbol(self.inputs[pair[1]]))
+
+    def _fixed(self, pairs: list[tuple[int, int]], values: Callable[[TracedZone], list[Any]]) -> list[int]:
+        """Places of the derivatives that are the same in all zones, and made of parameters alone."""
+        given = [values(zone) for zone in self.zones]
+        found = []
+        for e, pair in enumerate(pairs):
+            partials = [self._partial(each, pair) for each in given]
+            plain = all(s.name.startswith("p:") and s.name[2] != "#" for s in partials[0].free_symbols)
+            if plain and all(other == partials[0] for other in partials):
+                found.append(e)
+        return found
+
+    def _is_linear(self) -> bool:
+        """True if no derivative reads an input, in any zone."""
+        return not any(
+            s.name in self.inputs
+            for _, pairs, values in self.kinds[:2]
+            for zone in self.zones
+            for pair in pairs
+            for s in self._partial(values(zone), pair).free_symbols
+        )
+
+    def _guards_read(self) -> bool:
+        """True if a guard reads what is known only after the forces."""
+        read = {s.name for z in self.zones for g in z.guards for value in g.values for s in value.free_symbols}
+        return any(name.startswith("port:") and name.rpartition(":")[2] in "aR" for name in read)
 
     def _mass(self, zone: TracedZone) -> list[Statement]:
         place = f"out[block[{layout.D_MASS}] + i*{len(self.mass)} + {{e}}] = {{{{}}}}"
@@ -121,10 +163,11 @@ class KernelText:
             for e, (u, j) in enumerate(self.mass)
         ]
 
-    def _slip(self, zone: TracedZone) -> list[Statement]:
+    def _slip(self, zone: TracedZone, what: str) -> list[Statement]:
         f = len(self.targets)
         return [
-            (f"out[fi[i*{f}+{self.targets.index('own:' + u)}]] = -({{}})", h.impulse) for u, h in zone.holds.items()
+            (f"out[fi[i*{f}+{self.targets.index('own:' + u)}]] = -({{}})", getattr(h, what))
+            for u, h in zone.holds.items()
         ]
 
     def _guards(self, zone: TracedZone) -> list[Statement]:
@@ -145,12 +188,12 @@ class KernelText:
         return [(place.format(k=self.parameters.index(f"#{n}")), e) for n, e in self.traced.sample.items()]
 
 
-    def _loop(self, mode: int, bodies: list[list[Statement]]) -> str:
-        """One loop over the instances, with a branch per zone."""
+    def _loop(self, mode: int, bodies: list[list[Statement]], *, zoned: bool = True) -> str:
+        """One loop over the instances, with a branch per zone unless told otherwise."""
         if not any(bodies):
             return ""
         lines = [f"    if mode == {mode}:", "        for i in range(start, stop):"]
-        many = len(self.zones) > 1
+        many = zoned and len(self.zones) > 1
         if many:
             lines.append(f"            zone = zones[ms[i*{self.machines}]]")
         for number, body in enumerate(bodies):
@@ -221,11 +264,11 @@ class KernelText:
             return "it reads the force of a prescribed motion, which is known only after the forces"
         return "it has a corner where its derivative jumps" if any(map(is_kinked, values)) else ""
 
+    def _fit_outputs(self, zone: TracedZone) -> list[Any]:
+        return [None if n in self.unfit else zone.outputs.get(n) for n in self.outputs]
+
     def _target_values(self, zone: TracedZone) -> list[Any]:
         return [(zone.flows if t.startswith("port:") else zone.own).get(t.split(":")[1]) for t in self.targets]
-
-    def _output_values(self, zone: TracedZone) -> list[Any]:
-        return [zone.outputs.get(n) for n in self.outputs]
 
     def _ledger_values(self, zone: TracedZone) -> list[Any]:
         return [zone.ledger.get(line) for line in self.ledger]
@@ -258,8 +301,9 @@ class KernelText:
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             pairs={u: pair for u, (pair, _) in paired.items()}, senses={u: sense for u, (_, sense) in paired.items()},
-            guards={name: [_describe(g, self) for g in zone.guards] for name, zone in t.zones.items()},
-            slots=self.slots,
+            guards={name: [_describe(g, self, zone) for g in zone.guards] for name, zone in t.zones.items()},
+            slots=self.slots, fixed_signals=self.fixed[0], fixed_flows=self.fixed[1], fixed_ledger=self.fixed[2],
+            linear=self._is_linear(), guards_read=self._guards_read(),
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
@@ -303,8 +347,12 @@ def _group(guard: TracedGuard) -> sympy.Expr:
     return guard.values[0] if len(guard.values) == 1 else sympy.Min(*guard.values)
 
 
-def _describe(guard: TracedGuard, text: KernelText) -> dict[str, Any]:
+def _describe(guard: TracedGuard, text: KernelText, zone: TracedZone) -> dict[str, Any]:
     base = text.machines - len(text.traced.tables)
     machine = base + text.traced.tables.index(guard.table) if guard.table else 0
     to = -1 if guard.table else list(text.traced.zones).index(guard.to)
-    return {"name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step}
+    held = {f"own:{unknown}" for unknown in zone.holds}
+    limits = any(s.name in held for value in guard.values for s in value.free_symbols)
+    return {
+        "name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step, "limits": limits,
+    }  # fmt: skip

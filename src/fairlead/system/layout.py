@@ -34,8 +34,10 @@ GUARDS = 14  # offset into the guard vector
 OUTPUTS = 15  # offset into the vector of all outputs
 BLOCK = 16
 
-# What a kernel is asked to do. `out` is z for SIGNALS, w for FLOWS, LEDGER and SLIP, else the vector named.
+# What a kernel is asked to do. `out` is z for SIGNALS, w for FLOWS, LEDGER, SLIP and DRIFT, else the vector named.
+# Partial derivatives that are one number in all zones, whatever the inputs, are asked for once: FIXED_.
 SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
+FIXED_SIGNALS, FIXED_FLOWS, FIXED_LEDGER, DRIFT = range(11, 15)
 
 DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
 OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance
@@ -112,6 +114,14 @@ CIRCLE_NODES = 65  # int64 (nodes, 4)    what it hangs on; the node above in its
 CIRCLE_RATIO = 66  # float64 (nodes,)    its speed over that of the node above
 GUARD_INERTIA = 67  # float64 (guards,)
 TAU = 68  # float64 (1,)           time constant of a held contact, s
-CONTEXT = 69
+FIXED_DONE = 69  # 1 once the fixed partial derivatives were asked for
+N_FIXED = 70  # multiply-adds with fixed factors only
+FIXED = 71  # int64 (fixed, 3)       those
+FIXED_COEF = 72  # float64 (fixed,)
+N_MOVING = 73  # places of work that the program adds to
+MOVING = 74  # int64 (moving,)       those
+MOVING_BASE = 75  # float64 (moving,)     what the fixed multiply-adds put there
+GUARDS_READ = 76  # 1 if a guard reads an acceleration or a reaction
+CONTEXT = 77
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

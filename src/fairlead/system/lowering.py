@@ -28,7 +28,7 @@ from fairlead.system import layout
 DOUBLE, INT = ir.DoubleType(), ir.IntType(64)
 F8, I8 = DOUBLE.as_pointer(), INT.as_pointer()
 TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": I8, "None": ir.VoidType()}
-SHARED = ("I8", "float", "F8", "F8")  # of a function (ctx, t, y, out); the last may be missing
+SHARED = {"ctx": "I8", "t": "float", "y": "F8", "mode": "int", "r": "F8", "g": "F8"}  # arguments of shared functions
 KERNEL = ("int", "I8", "int", "int", "F8", "I8", "F8", "F8")
 INTRINSIC = {
     "exp": "llvm.exp",
@@ -59,12 +59,12 @@ def lower(
 ) -> Lowered:
     """LLVM of the one function in `source`, under the symbol `name`, its arguments of the given kinds.
 
-    `shared` holds the sources of functions (ctx, t, y) or (ctx, t, y, out) it may call, in the order of their use.
+    `shared` holds the sources of functions it may call, in the order of their use.
     """
     module = ir.Module(name)
     for text in shared:
-        given = len(ast.parse(text).body[0].args.args)  # type: ignore[attr-defined]
-        _define(module, text, "", SHARED[:given], "None").linkage = "internal"
+        names = [argument.arg for argument in ast.parse(text).body[0].args.args]  # type: ignore[attr-defined]
+        _define(module, text, "", [SHARED[name] for name in names], "None").linkage = "internal"
     _define(module, source, name, kinds, returns)
     return Lowered(name, _optimised(str(module)))
 

@@ -44,19 +44,29 @@ class Program:
 
     steps: Integers  # (k, 3): work, partial, work
     coef: Floats
+    fixed: Integers  # (k, 3), those whose factors never change: done once
+    fixed_coef: Floats
     length: int
     jacobian_at: int
     starts: Integers
     rows: Integers
 
+    @property
+    def moving(self) -> Integers:
+        """Places of work that `steps` add to, ascending."""
+        return np.unique(self.steps[:, 0])
 
-def plan(entries: Entries, n: int, n_signals: int, level_of: Integers) -> Program:
+
+def plan(
+    entries: Entries, n: int, n_signals: int, level_of: Integers, is_fixed: NDArray[np.bool_] | None = None
+) -> Program:
     """Plan the elimination.
 
     Rows: 0 .. n_signals-1 are signals and reactions (as they lie in z behind the unknowns), then the n
     equations. `level_of` gives the level of each row. Column n stands for the time. Inputs are given
     by their place in z: below n an unknown, then the signals, and n + n_signals + 1 the time; the rest
-    (zero, accelerations) has no derivative.
+    (zero, accelerations) has no derivative. `is_fixed` tells of every partial derivative whether it is
+    one number for good.
     """
     row, z, partial = (_joined(column) for column in (entries.row, entries.z, entries.partial))
     coef = np.concatenate([*entries.coef, np.zeros(0)])
@@ -84,10 +94,27 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers) -> Progra
     steps.append(part.steps(place))
     coefs.append(part.coef)
     starts = np.searchsorted(keys // max(n, 1), np.arange(n + 1))
+    every, coefs_of_all = np.concatenate(steps), np.concatenate(coefs)
+    still = _still(every, length + len(keys) + n, is_fixed)
     return Program(
-        np.ascontiguousarray(np.concatenate(steps)), np.concatenate(coefs), length + len(keys) + n, length,
+        np.ascontiguousarray(every[~still]), coefs_of_all[~still],
+        np.ascontiguousarray(every[still]), coefs_of_all[still], length + len(keys) + n, length,
         starts.astype(np.int64), (keys % max(n, 1)).astype(np.int64),
     )  # fmt: skip
+
+
+def _still(steps: Integers, length: int, is_fixed: NDArray[np.bool_] | None) -> NDArray[np.bool_]:
+    """Which multiply-adds have factors that never change: a fixed partial, and a place only such ones add to."""
+    if is_fixed is None:
+        return np.zeros(len(steps), dtype=bool)
+    moves = np.zeros(length, dtype=bool)
+    still = is_fixed[steps[:, 1]]
+    while True:
+        moves[steps[~still, 0]] = True
+        fewer = still & ~moves[steps[:, 2]]
+        if (fewer == still).all():
+            return still
+        still = fewer
 
 
 def _joined(columns: list[Integers]) -> Integers:

@@ -33,6 +33,11 @@ class Structure:
     slots: int
     flow_inputs: dict[str, dict[str, list[str]]]  # zone -> target -> input keys it depends on
     reaches: dict[str, dict[str, str]]  # zone -> table -> input or expression it is read at
+    fixed_signals: list[int]  # places in d_signals of derivatives that are one number, in all zones
+    fixed_flows: list[int]
+    fixed_ledger: list[int]
+    linear: bool  # no derivative depends on an input: linear as long as the zones are frozen
+    guards_read: bool  # a guard reads an acceleration or a reaction
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 
     @property

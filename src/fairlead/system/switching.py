@@ -68,6 +68,27 @@ def holds(blocks: Sequence[Block]) -> tuple[Integers, int]:
     return np.array(found, dtype=np.int64).reshape(-1, 2), always
 
 
+def holders(blocks: Sequence[Block], n: int) -> Integers:
+    """The machine whose zone decides whether a row holds, for each of n rows; -1 where none does."""
+    holder = np.full(n, -1, dtype=np.int64)
+    for block in blocks:
+        s = block.kernel.structure
+        if len(s.zones) > 1:
+            for unknown in s.holds:
+                holder[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = block.machines[:, 0]
+    return holder
+
+
+def limits(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard that bounds the force of its own contact while that holds."""
+    found: list[int] = []
+    for block in blocks:
+        s = block.kernel.structure
+        slots = [max((int(g[k]["limits"]) for g in s.guards.values() if k < len(g)), default=0) for k in range(s.slots)]
+        found += slots * block.count
+    return np.array(found, dtype=np.int64)
+
+
 def machine_zones(blocks: Sequence[Block], count: int) -> list[Sequence[str]]:
     """Names of the zones of every machine."""
     names: list[Sequence[str]] = [()] * count

@@ -58,6 +58,9 @@ class System:
     guard_tolerance: Floats
     guard_machine: Integers
     guard_inertia: Floats
+    holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
+    limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
+    linear: bool  # f is linear in the unknowns as long as the zones are frozen
     machine_names: Sequence[str]
     guard_names: Sequence[str]
     machine_zones: list[Sequence[str]]

@@ -18,6 +18,11 @@ from fairlead.system.kernels import kernel, plain
 from fairlead.system.structure import Structure
 
 TAU = 1e-2  # s; the time constant of hold rows, any will do
+FIXED = {
+    layout.PARTIALS_SIGNALS: layout.FIXED_SIGNALS,
+    layout.PARTIALS_FLOWS: layout.FIXED_FLOWS,
+    layout.PARTIALS_LEDGER: layout.FIXED_LEDGER,
+}
 POINTER, WHOLE = ctypes.c_void_p, ctypes.c_int64
 
 
@@ -57,6 +62,12 @@ class Rig:
         rows, columns = self._shape(mode)
         first = self.count * len(self.structure.inputs) if mode == layout.SIGNALS else 0
         size = first + rows * columns
+        if mode in FIXED:  # the two modes share out the derivatives between them
+            moving, fixed = (self._answer(each, inputs, zones, size, machine) for each in (mode, FIXED[mode]))
+            return (moving + fixed).reshape(rows, columns)
+        return self._answer(mode, inputs, zones, size, machine)[first:size].reshape(rows, columns)
+
+    def _answer(self, mode: int, inputs: Any, zones: Any, size: int, machine: bool) -> Any:
         if machine:
             out: Any = self._machine(mode, inputs, zones, max(size, 1))
         else:
@@ -64,7 +75,7 @@ class Rig:
             block = self._arrays + [0] * (layout.BLOCK - len(self._arrays))
             flat = np.ravel(inputs).tolist()
             self.text(mode, block, 0, self.count, flat, np.ravel(zones).tolist(), self.tables, out)
-        return np.array(out)[first:size].reshape(rows, columns)
+        return np.array(out)[:size]
 
     def _machine(self, mode: int, inputs: Any, zones: Any, size: int) -> Any:
         call = ctypes.CFUNCTYPE(None, WHOLE, POINTER, WHOLE, WHOLE, POINTER, POINTER, POINTER, POINTER)(

@@ -1,0 +1,79 @@
+"""Which contacts hand their load to which: the neighbours of every machine, for the active set of `stepping`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fairlead.integrate.condensing import columns_of, core_entries, lay_out
+from fairlead.integrate.protocol import Integers, Problem
+
+MOST = 8
+"""A machine with more neighbours than this hands nothing on: a big body that many contacts act on."""
+
+
+def held_entries(problem: Problem) -> dict[str, Integers]:
+    """Entries of M and of J in rows that may hold, by their names in memory.py.
+
+    Those of J are slopes to what moves, which `stepping` takes out, or to other forces: contacts that close a
+    circle share a load.
+    """
+    rows, slopes = problem.mass_pattern.rows, problem.pattern.rows
+    may_hold = ~np.asarray(problem.differential, dtype=bool)
+    mass = np.flatnonzero(may_hold[rows]) if problem.callbacks.get("slip") else np.zeros(0, np.int64)
+    holds = np.zeros(len(may_hold), dtype=bool)
+    holds[rows[mass]] = True
+    columns = columns_of(problem.pattern)
+    in_mass = set(zip(rows[mass].tolist(), columns_of(problem.mass_pattern)[mass].tolist(), strict=True))
+    of_hold = np.flatnonzero(holds[slopes])
+    moves = [not may_hold[j] or (i, j) in in_mass for i, j in zip(slopes[of_hold].tolist(), columns[of_hold].tolist())]
+    slope, share = of_hold[np.array(moves, dtype=bool)], of_hold[~np.array(moves, dtype=bool)]
+    return {
+        "hold_mass": mass, "hold_mass_row": rows[mass], "hold_slope": slope, "hold_slope_row": slopes[slope],
+        "hold_share": share, "hold_share_row": slopes[share], "hold_share_column": columns[share],
+    }  # fmt: skip
+
+
+def neighbours(problem: Problem) -> dict[str, Integers]:
+    """Neighbours of every machine, its first guard, and the guards that limit a held force.
+
+    Two machines are neighbours when a speed that one holds is a speed the other holds, or acts on one. A problem
+    that does not say which machine holds which row (`holder`), or which guards are limits, has none.
+    """
+    nz = len(problem.zones)
+    holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
+    limits = np.asarray(getattr(problem, "limit_guard", np.zeros(len(problem.guard_machine))), dtype=np.int64)
+    found = _found(problem, holder) if limits.any() else [[] for _ in range(nz)]
+    first = np.full(nz, -1, dtype=np.int64)
+    for i in range(len(problem.guard_machine) - 1, -1, -1):
+        if problem.guard_machine[i] >= 0:
+            first[problem.guard_machine[i]] = i
+    row = np.full(nz, -1, dtype=np.int64)
+    held = np.flatnonzero(holder >= 0)
+    row[holder[held[::-1]]] = held[::-1]
+    return {
+        "limit_guard": limits, "first_guard": first, "hold_row": row,
+        "neighbour_starts": np.cumsum([0, *map(len, found)]).astype(np.int64),
+        "neighbours": np.array([w for others in found for w in others], dtype=np.int64),
+    }  # fmt: skip
+
+
+def _found(problem: Problem, holder: Integers) -> list[list[int]]:
+    """Neighbours of every machine, ascending."""
+    rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
+    held = holder[rows] >= 0
+    speeds: dict[int, set[int]] = {}
+    machines: dict[int, set[int]] = {}
+    for machine, speed in zip(holder[rows[held]].tolist(), columns[held].tolist(), strict=True):
+        speeds.setdefault(machine, set()).add(speed)
+        machines.setdefault(speed, set()).add(machine)
+    acts: dict[int, set[int]] = {speed: {speed} for speed in machines}
+    entries = core_entries(problem, lay_out(problem))
+    for i, j in zip(entries.row.tolist(), entries.column.tolist(), strict=True):
+        if i in machines and j in machines:
+            acts[i].add(j)
+    found: list[list[int]] = [[] for _ in range(len(problem.zones))]
+    for machine, own in speeds.items():
+        others = {other for speed in own for near in acts[speed] for other in machines[near]} - {machine}
+        if len(others) <= MOST:
+            found[machine] = sorted(others)
+    return found
