@@ -25,8 +25,9 @@ def held_entries(problem: Problem) -> dict[str, Integers]:
     columns = columns_of(problem.pattern)
     in_mass = set(zip(rows[mass].tolist(), columns_of(problem.mass_pattern)[mass].tolist(), strict=True))
     of_hold = np.flatnonzero(holds[slopes])
-    moves = [not may_hold[j] or (i, j) in in_mass for i, j in zip(slopes[of_hold].tolist(), columns[of_hold].tolist())]
-    slope, share = of_hold[np.array(moves, dtype=bool)], of_hold[~np.array(moves, dtype=bool)]
+    pairs = zip(slopes[of_hold].tolist(), columns[of_hold].tolist(), strict=True)
+    moves = np.array([not may_hold[j] or (i, j) in in_mass for i, j in pairs], dtype=bool)
+    slope, share = of_hold[moves], of_hold[~moves]
     return {
         "hold_mass": mass, "hold_mass_row": rows[mass], "hold_slope": slope, "hold_slope_row": slopes[slope],
         "hold_share": share, "hold_share_row": slopes[share], "hold_share_column": columns[share],

@@ -25,6 +25,9 @@ for all problems; `context` is passed through untouched.
 A problem may also have `guard_inertia` [ng], live memory if the callbacks write to it: for a guard on the slip of
 a contact that may hold, the inertia that resists its force; 0 for others. Settling then knows which of two
 wrong zones is the more so, a force beyond its limit or an acceleration against the friction (settling.py).
+For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
+decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
+that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time.
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
 no guards, no held contacts, no time events; outputs missing records y itself; rhs and slip stand in
@@ -47,7 +50,9 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 
-CALLBACKS = ("rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift")
+CALLBACKS = (
+    "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
+)  # fmt: skip
 """The names a problem may use in `callbacks`; the first three must be there."""
 
 EVENT = np.dtype(

@@ -74,15 +74,7 @@ def attempt_stepping(m):
     if m.adaptive == 1 and m.error <= 1.0 and m.passes == 0 and steps_over(m, h):
         m.error = 2.0
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
-        give_back_zones(m)
-        if isfinite(m.error):
-            m.rejected_error += 1
-            indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
-        else:
-            m.rejected_nan += 1
-        m.h_next = step_after_rejection(m, h)
-        m.retried += 1
-        return GO_ON if m.h_next >= smallest_step(m) else STEP_FLOOR
+        return reject_error(m, h)
     m.failed = max(m.failed - 1, 0)
     m.theta_now = m.least_theta + THETA_FALL * (m.theta_now - m.least_theta)
     if m.theta_now < m.least_theta + 1e-3:
@@ -97,6 +89,20 @@ def attempt_stepping(m):
     if m.h_next > 0.95 * h and m.h_next < KEEP_BELOW * h and m.adaptive == 1:
         m.h_next = h
     return GO_ON
+
+
+@compiled
+def reject_error(m, h):
+    """Repeat a step whose error is too large, and say whom it is due to."""
+    give_back_zones(m)
+    if isfinite(m.error):
+        m.rejected_error += 1
+        indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
+    else:
+        m.rejected_nan += 1
+    m.h_next = step_after_rejection(m, h)
+    m.retried += 1
+    return GO_ON if m.h_next >= smallest_step(m) else STEP_FLOOR
 
 
 @compiled

@@ -27,7 +27,7 @@ from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.jumps import all_continuous, find_jump, law_jumps
 from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, factorise_step, solve
 
-CYCLES, DIVERGES, JUMPS = 6, 7, 8
+CYCLES, DIVERGES, JUMPS, GO_ON = 6, 7, 8, 9
 PASSED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved."""
 SLOW = 0.01
@@ -52,22 +52,11 @@ def take_theta_step(m, h):
             return status
         residual_of_step(m, h, solves > 0)
         if solves > 0:
-            size = scaled_residual(m)
-            if not isfinite(size):
-                return DIVERGES
-            if size <= PASSED:
-                m.unchecked = 0
-                if solves > 2:
-                    m.linearised = 0
+            verdict, size = judge_residual(m, solves, previous)
+            if verdict == DONE:
                 move_quadratures(m, h)
-                return DONE
-            if m.linear == 1 and solves >= MOST_LINEAR_SOLVES:
-                m.linearised = 0
-                return INACCURATE
-            if solves >= MOST_SOLVES:
-                return DIVERGES
-            if solves > 1 and size > SLOW * previous:
-                m.linearised = 0
+            if verdict != GO_ON:
+                return verdict
             previous = size
         solve(m, m.at_b)
         move_end(m)
@@ -91,6 +80,27 @@ def take_theta_step(m, h):
             return JUMPS
         if m.passes > m.max_passes:
             return CYCLES
+
+
+@compiled
+def judge_residual(m, solves, previous):
+    """DONE, GO_ON with another solve, or why not; and the size of the residual."""
+    size = scaled_residual(m)
+    if not isfinite(size):
+        return DIVERGES, size
+    if size <= PASSED:
+        m.unchecked = 0
+        if solves > 2:
+            m.linearised = 0
+        return DONE, size
+    if m.linear == 1 and solves >= MOST_LINEAR_SOLVES:
+        m.linearised = 0
+        return INACCURATE, size
+    if solves >= MOST_SOLVES:
+        return DIVERGES, size
+    if solves > 1 and size > SLOW * previous:
+        m.linearised = 0
+    return GO_ON, size
 
 
 @compiled

@@ -27,7 +27,8 @@ def jacobian(
     for block, share in zip(blocks, shares, strict=True):
         _entries(block, share, numbering, entries, m)
     _fixed_entries(flat, numbering, entries, m)
-    return plan(entries, numbering.n, m, _levels(blocks, numbering, m), _fixed(blocks, shares, more + len(numbering.circles) + len(numbering.share)))
+    partials = more + len(numbering.circles) + len(numbering.share)
+    return plan(entries, numbering.n, m, _levels(blocks, numbering, m), _fixed(blocks, shares, partials))
 
 
 def _fixed(blocks: Sequence[Block], shares: Sequence[Share], count: int) -> NDArray[np.bool_]:
