@@ -67,7 +67,7 @@ class Bristle(OneFormula):
     to be looked at, not to be used. The sites reach over `travel` to either side. What stretches bonds counts as
     dissipated at once, since snapping loses it without a power; unloading gives some back.
     Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas.
-    Control 113, 354, DOI 10.1115/1.2896418. There the sites are drawn as slip goes on; here they are drawn before.
+    Control 113, 354 (citation not checked). There the sites are drawn as slip goes on; here they are drawn before.
     """
 
     exempt = {

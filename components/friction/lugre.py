@@ -26,7 +26,7 @@ class LuGre(OneWay):
     word = "lugre"
     exempt = {
         "dissipates": "With constant s1 it is passive only under a condition on s1 and on the ratio of stiction to "
-        "Coulomb friction: Barabanov and Ortega (2000), IEEE Trans. Automatic Control 45, 830."
+        "Coulomb friction: Barabanov and Ortega (2000), IEEE Trans. Automatic Control 45, 830, DOI 10.1109/9.847131."
     }
     relaxation = Parameter("s", "Damping over stiffness of the bristles, s1/s0.", default=2e-3, least=0)
     zones = Zones("forward", "backward", "off")

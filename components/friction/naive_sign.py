@@ -19,7 +19,7 @@ class NaiveSign(OneFormula):
     name. A law here must be smooth; the sign is written as tanh(v/width)^3 with a width at rounding level, flat at
     zero like sgn. (Written with tanh alone the slope at rest is enormous, and a block at rest never comes loose.)
     Use `hold` to stick exactly, `binding` for many contacts, `tanh` with a width that can be resolved.
-    Source: the difficulty is that of Karnopp (1985), DOI 10.1115/1.3140698, who begins with this law.
+    Source: textbook; the difficulty is the one that Karnopp (1985), DOI 10.1115/1.3140698, removes.
     """
 
     width = Parameter("m/s", "Slip speed over which the sign changes; not to be resolved.", default=1e-15, above=0)

@@ -68,7 +68,7 @@ class Arctan(Regularised):
     Limits: the slowest to reach its level: 94 % at ten times the creep speed, 99 % at 64 times. Of the regularised
     laws it needs the smallest creep for the same error, and pays for it in stiffness.
     Source: Mostaghel and Davis (1997), Representations of Coulomb friction for dynamic analysis, Earthquake
-    Engineering and Structural Dynamics 26, 541.
+    Engineering and Structural Dynamics 26, 541 (citation not checked).
     """
 
     def shape(p, u):
@@ -85,7 +85,7 @@ class Root(Regularised):
 
     Limits: as tanh, but its level is approached like 1 - (creep/v)^2/2, not exponentially: 99 % at seven times the
     creep speed. No transcendental function, so it is the cheapest of the smooth ones.
-    Source: Mostaghel and Davis (1997), Earthquake Engineering and Structural Dynamics 26, 541.
+    Source: as for arctan.
     """
 
     def shape(p, u):

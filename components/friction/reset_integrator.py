@@ -20,7 +20,7 @@ class ResetIntegrator(Bristles):
     no creep and no drift.
     Limits: while stuck a block rings at sqrt(s0/m) unless s1 damps it; every sticking is a bounce on that spring.
     Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas.
-    Control 113, 354, DOI 10.1115/1.2896418.
+    Control 113, 354 (citation not checked).
     """
 
     relaxation = Parameter("s", "Damping over stiffness of the spring, s1/s0.", default=2e-3, least=0)

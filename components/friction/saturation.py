@@ -18,7 +18,8 @@ class Saturation(Sliding, Creeping):
     under load af < N mu(creep) creeps at creep*af/(N mu(creep)): less than with tanh, and exactly linear, so that a
     loaded spring k leaks as exp(-k creep/(N mu) t).
     Limits: no stiction, no memory. It is binding friction without plateau: use that where creep matters.
-    Source: Karnopp (1985), ASME J. Dyn. Sys. Meas. Control 107, 100, names it as the common way around.
+    Source: textbook; Pennestri and others (2016), Nonlinear Dynamics 83, 1785, DOI 10.1007/s11071-015-2485-3, compare
+    laws of this kind.
     """
 
     zones = Zones("line", "forward", "backward", "off")
