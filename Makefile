@@ -9,7 +9,7 @@ MODEL ?= single_bend
 TESTS ?= tests
 BENCH ?= compare.py
 
-.PHONY: help demo test lint types bench clean
+.PHONY: help demo test lint types bench docs clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -32,6 +32,9 @@ types: $(VENV)/lint.done link-tree  ## check types with mypy
 
 bench: $(VENV)/bench.done  ## error, time and counters beside scipy (minutes; all methods with BENCH="compare.py --full")
 	$(RUN) benchmarks/$(BENCH)
+
+docs: $(VENV)/fairlead.done  ## make the pages and figures about friction again, from the classes
+	$(RUN) docs/make.py
 
 clean:  ## remove .venv, results and everything generated
 	rm -rf $(VENV) typing results build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info

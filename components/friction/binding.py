@@ -50,6 +50,9 @@ class Binding(Creeping):
     caps the bound force at F_s, latches a break-away, and binds again only below (1 - hysteresis) F_s;
     `form: literal` does none of this, as printed. Each can be set by itself. With `face` the viscous part falls with
     the load too, from (1 - face) F_s to nothing at F_s: the creep grows before a break-away just below F_s.
+    Limits: it creeps by 0.8 creep af/F_s, leaks load at that rate, and slides only from v_n = 4 creep on. Equations are
+    stiff, 1.25 F_s/(m creep). The printed form chatters in chains, and where a drive is slower than v_n.
+    Source: Tomlinson, Cooke, Cosserat (2003), Proc. IMechE Part I 217, 139, DOI 10.1177/095965180321700207.
     """
 
     word = "binding"

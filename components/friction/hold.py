@@ -15,6 +15,10 @@ class Hold(Rigid):
 
     Sliding ends when the slip reaches zero: the contact is then tried as held, and lets go again in
     the direction of its force if that is above the limit. Holding does not creep.
+    Limits: one algebraic unknown for every contact, and its force must have an answer: two held contacts side by
+    side, or one between two prescribed motions, leave it open. Every switch is located: many switches, many steps.
+    Source: set-valued friction after Moreau (1988); stuck and sliding as zones with the stuck force as an unknown:
+    Otter, Elmqvist, Mattsson (1999), as in the Modelica Standard Library.
     """
 
     word = "hold"

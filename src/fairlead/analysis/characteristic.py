@@ -4,13 +4,14 @@
     found.branches["plateau"]        slip [m/s] and friction [N] where this zone can stay
 
 The laws are run with plain numbers for a surface at rest and a body of 1 kg. A zone can stay at a slip where none of
-its guards has risen, for a body that does not accelerate (steady slip) or, if none does, for one that is driven by
-`DRIVEN` times stiction. States such as a bristle's deflection are at their steady value.
+its guards has risen: for a body that does not accelerate (steady slip); else for one that is slowed down by friction
+alone (caught); or, where a zone has neither, for one that is driven by `DRIVEN` times stiction. States such as a
+bristle's deflection are at their steady value.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -36,6 +37,7 @@ class Characteristic:
     breakaway: float
     branches: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # zone -> slip, friction
     driven: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while driven
+    caught: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while slowing down
     holds: bool = False  # a zone holds the slip at zero
     capacity: float = 0.0  # largest force below the first maximum
     slope: float | None = None  # at zero slip [N s/m]; None: rigid, or bristles
@@ -64,6 +66,7 @@ def characteristic(values: Values, normal: float) -> Characteristic:
     breakaway = normal * p.curve.breakaway()
     steady: dict[str, tuple[Floats, Floats]] = {}
     driven: dict[str, tuple[Floats, Floats]] = {}
+    caught: dict[str, tuple[Floats, Floats]] = {}
     holds = False
     for zone in has.zones:
         if zone == "off":
@@ -74,15 +77,19 @@ def characteristic(values: Values, normal: float) -> Characteristic:
             continue
         known = [(v, force) for v, force, _ in points if force is not None]
         stays = [(v, f) for v, f in known if _stays(p, zone, v, f, normal, 0.0)]
+        slowing = [(v, f) for v, f in known if (v, f) not in stays and _stays(p, zone, v, f, normal, -f)]
         if stays:
             steady[zone] = _columns(stays)
+        if slowing:
+            caught[zone] = _columns(slowing)
+        if stays or slowing:
             continue
         pushed = [
             (v, f) for v, f in known for d in (-1, 1) if _stays(p, zone, v, f, normal, d * DRIVEN * breakaway - f)
         ]
         if pushed:
             driven[zone] = _columns(pushed)
-    return _measured(p, normal, breakaway, steady, driven, holds)
+    return replace(_measured(p, normal, breakaway, steady, driven, holds), caught=caught)
 
 
 def _measured(

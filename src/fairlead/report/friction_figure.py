@@ -42,12 +42,12 @@ def draw(found: Characteristic, path: Path, title: str) -> Path:
 
 
 def _draw_branches(ax: Axes, found: Characteristic) -> None:
-    names = list(dict.fromkeys(_stem(zone) for zone in (*found.branches, *found.driven)))
-    for branches, line in ((found.branches, "-"), (found.driven, "--")):
+    kinds = ((found.branches, "-", ""), (found.caught, ":", " (caught)"), (found.driven, "--", " (driven)"))
+    names = list(dict.fromkeys(_stem(zone) for branches, _, _ in kinds for zone in branches))
+    for branches, line, how in kinds:
         for zone, (slip, force) in branches.items():
             colour = COLOURS[names.index(_stem(zone)) % len(COLOURS)]
-            fresh = _stem(zone) not in [text.get_label() for text in ax.lines]
-            label = (_stem(zone) + (" (driven)" if line == "--" else "")) if fresh else "_"
+            label = _stem(zone) + how
             whole = _with_gaps(slip, force)
             ax.plot(*whole, line, color=colour, label=label if label not in ax.get_legend_handles_labels()[1] else "_")
             if not _stem(zone).startswith("break"):
