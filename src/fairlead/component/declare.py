@@ -30,6 +30,7 @@ class Domain:
     across: tuple[tuple[str, str], ...]  # (variable, unit), position before rate
     through: tuple[str, str]
     acceleration: str = ""
+    rest: float = 0.0  # where a node begins that nobody gives a start
 
     @property
     def mechanical(self) -> bool:
@@ -39,7 +40,7 @@ class Domain:
 
 TRANSLATIONAL = Domain("translational", (("x", "m"), ("v", "m/s")), ("force", "N"), "a")
 ROTATIONAL = Domain("rotational", (("angle", "rad"), ("speed", "rad/s")), ("torque", "N*m"), "acceleration")
-HYDRAULIC = Domain("hydraulic", (("pressure", "Pa"),), ("flow", "m^3/s"))
+HYDRAULIC = Domain("hydraulic", (("pressure", "Pa"),), ("flow", "m^3/s"), rest=1e5)  # that of the air
 ELECTRICAL = Domain("electrical", (("voltage", "V"),), ("current", "A"))
 SUM = Domain("sum", (("total", "N"),), ("share", "N"))
 PATH = Domain("path", (), ("", ""))
@@ -91,6 +92,7 @@ class Input:
     unit: str
     doc: str = ""
     default: str | float | None = None  # a number, or the name of a parameter
+    signed: bool = False  # what it means may be negative, such as a command; the contract suite asks with both signs
 
 
 @dataclass(frozen=True)
@@ -105,13 +107,15 @@ class Output:
 class State:
     """An unknown of the component's own with a rate. `start` is a number or a parameter's name.
 
-    `nominal` is a size of it that matters; the accuracy is relative to that. Without, the unit decides.
+    `nominal` is a size of it that matters; the accuracy is relative to that. Without, the unit decides. `least`
+    is a bound below which its law does not let it fall.
     """
 
     unit: str
     doc: str = ""
     start: str | float = 0.0
     nominal: float | None = None
+    least: float | None = None
 
 
 @dataclass(frozen=True)

@@ -145,7 +145,7 @@ def _group(nodes: list[Node], inside: list[tuple[int, float, float]], facts: Any
         ends = f"({first[1].by}, {second[1].by})"
         what = f"{first[0].path} and {second[0].path} both prescribe the motion of one body {ends}."
         faults.append(Fault(second[0].where, what, "Keep one of them, or put a Spring between."))
-    position, wrong = _agreed(starts, 2)
+    position, wrong = _agreed(starts, 2, nodes[inside[0][0]].domain.rest)
     rate, also = _agreed(starts, 3)
     if prescribed and all(given.outputs is None for _, given in prescribed) and rate:
         mover = next(s for s in starts if s[3])
@@ -164,8 +164,8 @@ def _at_group(value: Any, ratio: float, offset: float) -> tuple[float | None, fl
     return None if position is None else (position - offset) / ratio, None if rate is None else rate / ratio
 
 
-def _agreed(starts: list[Any], column: int) -> tuple[float, list[Fault]]:
-    """The start value that all who give one agree on; zero when nobody does. Column 2 position, 3 rate."""
+def _agreed(starts: list[Any], column: int, rest: float = 0.0) -> tuple[float, list[Fault]]:
+    """The start value that all who give one agree on; `rest` when nobody does. Column 2 position, 3 rate."""
     given = [s for s in starts if s[column] is not None]
     for instance, ref, *other, ratio, offset in given[1:]:
         one, value = given[0], other[column - 2]
@@ -177,4 +177,4 @@ def _agreed(starts: list[Any], column: int) -> tuple[float, list[Fault]]:
                 f"it would be {ratio * one[column] + shift:g} {unit}."
             )
             return one[column], [Fault(instance.where, what, "Give one of them, or values that agree.")]
-    return (given[0][column] if given else 0.0), []
+    return (given[0][column] if given else rest), []

@@ -101,7 +101,7 @@ def consistent(m, iterations):
         if m.n_algebraic == 0 or size <= SETTLED_UPDATE:
             slope_change(m)
             return DONE
-        if iterations > 12 and size > previous:
+        if iterations > 12 and size > 0.9 * previous:  # nor as large: the root of a root is stepped over for ever
             size = damp(m, size)
         previous = size
     return NOT_CONSISTENT

@@ -18,6 +18,7 @@ from fairlead.component.values import Values
 USUAL = {
     "m": 0.1, "m/s": 0.1, "N": 10.0, "N/m": 1e3, "N*s/m": 10.0, "kg": 1.0, "kg/m": 2.0, "Pa": 1e6, "m^3/s": 1e-4,
     "V": 10.0, "W": 10.0, "kg*m^2": 0.1, "N*m": 5.0, "rad/s": 1.0, "K": 300.0, "1/K": 1e-3,
+    "m^2": 1e-3, "m^3": 1e-3, "m^3/rad": 2e-5, "m^3/s/Pa": 1e-12,
 }  # fmt: skip
 TRIES = 300  # draws until the class's own `check` finds no contradiction
 POINTS = 5  # of a random table

@@ -23,7 +23,7 @@ from fairlead.testing.samples import USUAL
 AT_ZERO = 1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
 # A large potential by domain; what it is drawn up to, of either sign (a guard may wait for one below zero).
 POTENTIAL = {"hydraulic": 2e7, "electrical": 50.0}
-OWN = {"Pa": 2e7, "m^3/s": 1e-3, "m^3": 1e-3}  # the same for unknowns of a component's own, by unit
+OWN = {"1": 2.0, "Pa": 2e7, "m^3/s": 1e-3, "m^3": 1e-3}  # the same for unknowns of a component's own, by unit
 PASSES = 60  # more switches than any component has zones
 STEP = 1e-30  # of a complex step; its square vanishes beside 1
 
@@ -92,10 +92,14 @@ class World:
             rest = declared.default if alone and isinstance(declared.default, int | float) else None
             most = USUAL.get(declared.unit, 10.0)
             values[f"in:{name}"] = float(abs(_around(rng, most))) if rest is None else float(rest)
-            if declared.unit == "1":
+            if declared.signed and rest is None:
+                values[f"in:{name}"] = _around(rng, 2.0 if declared.unit == "1" else most)
+            elif declared.unit == "1":
                 values[f"in:{name}"] = min(values[f"in:{name}"], 1.0)
         own: dict[str, Any] = {**has.states, **has.unknowns}
         values |= {f"own:{name}": _around(rng, OWN.get(one.unit, 1.0)) for name, one in own.items()}
+        bounds = {name: state.least for name, state in has.states.items() if state.least is not None}
+        values |= {f"own:{name}": low + abs(values[f"own:{name}"] - low) for name, low in bounds.items()}
         values["t"] = float(rng.uniform(0, 4))
         loads = {name: _around(rng, 30.0) for name in self.bodies}
         return Instant(values, loads, tuple(0 for _ in range(self.structure.machines)))

@@ -1,0 +1,130 @@
+"""A PI controller with feed-forward, limits, slew and anti-windup, sampled or continuous."""
+
+from fairlead.component import (
+    Choice,
+    Component,
+    Discrete,
+    Effect,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    State,
+    Zones,
+    clip,
+    derived,
+    guard,
+    sampled,
+    tanh,
+    zone,
+)  # fmt: skip
+
+
+class Pi(Component, abstract=True):
+    """Half-model: what both forms are given."""
+
+    reference = Input("1", "Value wanted.", signed=True)
+    measured = Input("1", "Value measured.", signed=True)
+    gain = Parameter("1", "K_p, command per error, in SI of both.", default=1.0)
+    integral_time = Parameter("s", "T_i.", above=0)
+    feed_forward = Parameter("1", "k_ff, command per reference.", default=0.0)
+    low = Parameter("1", "Smallest command.", default=-1.0)
+    high = Parameter("1", "Largest command.", default=1.0)
+    slew = Parameter("1/s", "Largest rate of the command; no limit when not given.", default=None, above=0)
+    tracking_time = Parameter("s", "T_t of the anti-windup; half of T_i when not given.", default=None, above=0)
+    command = Output("1", "Command.")
+    error = Output("1", "Reference less measured value.")
+
+    def check(p):
+        """There is something between the limits."""
+        if p.high <= p.low:
+            yield "high", f"high {p.high:g} is not above low {p.low:g}", "Raise it."
+
+    @derived
+    def tracking(p):
+        """T_t [s]."""
+        return p.integral_time / 2 if p.tracking_time is None else p.tracking_time
+
+
+class ContinuousPi(Pi):
+    """wanted = k_ff r + K_p e + I,  dI/dt = K_p/T_i e + (u - wanted)/T_t,  u follows clip(wanted) within the slew.
+
+    The command u is a state, `smoothing` behind what is wanted.
+    """
+
+    smoothing = Parameter("s", "Lag of the command.", default=1e-3, above=0)
+    integral = State("1", "I.", nominal=0.1)
+    applied = State("1", "Command.", nominal=0.1)
+    zones = Zones("within", "above", "below")
+
+    @zone("within", "above", "below")
+    def controlling(p, reference, measured, integral, applied, zone):
+        """What is wanted is limited; what that leaves out is taken from the integral."""
+        error, wanted = reference - measured, wanted_of(p, reference, measured, integral)
+        behind = {"above": p.high, "below": p.low}.get(zone, wanted) - applied
+        if p.slew is None:
+            rate = behind / p.smoothing
+        else:
+            rate = p.slew * tanh(behind / (p.slew * p.smoothing))
+        gathered = p.gain / p.integral_time * error + (applied - wanted) / p.tracking
+        return Law(integral=gathered, applied=rate, command=applied, error=error)
+
+    @guard("*", to="above", unit="1")
+    def rises_above(p, reference, measured, integral):
+        """More than the largest command is wanted."""
+        return wanted_of(p, reference, measured, integral) - p.high
+
+    @guard("*", to="below", unit="1")
+    def falls_below(p, reference, measured, integral):
+        """Less than the smallest is wanted."""
+        return p.low - wanted_of(p, reference, measured, integral)
+
+    @guard("above", to="within", unit="1")
+    def comes_down(p, reference, measured, integral):
+        """Within the limits again."""
+        return p.high - wanted_of(p, reference, measured, integral)
+
+    @guard("below", to="within", unit="1")
+    def comes_up(p, reference, measured, integral):
+        """Within the limits again."""
+        return wanted_of(p, reference, measured, integral) - p.low
+
+
+def wanted_of(p, reference, measured, integral):
+    """k_ff r + K_p e + I."""
+    return p.feed_forward * reference + p.gain * (reference - measured) + integral
+
+
+class PiController(Pi):
+    """wanted = k_ff r + K_p e + I,  command u = slew(clip(wanted)),  I += T_s (K_p/T_i e + (u - wanted)/T_t).
+
+    Every `period` T_s the command is computed and then held; I is that before the sample. `delay: sample` takes the
+    value measured one sample earlier, as a processor does that needs its period to compute. Steady with a plant
+    K/(T s + 1) while the eigenvalues of the map of plant, I and delayed value lie within the unit circle.
+    """
+
+    sampling = Effect("The controller works in samples; off: continuously.", off=ContinuousPi)
+    period = Parameter("s", "T_s.", default=0.01, above=0)
+    smoothing = Parameter("s", "Lag of the command, when it works continuously.", default=1e-3, above=0)
+    delay = Choice(("sample", "none"), "Whether the value measured is one sample old.", default="sample")
+    initial = Parameter("1", "Value measured before the start.", default=0.0)
+    seen = Discrete("1", "Value measured one sample ago.", start="initial")
+    integral = Discrete("1", "I.")
+    applied = Discrete("1", "Command.")
+    used = Discrete("1", "Error that the command was computed from.")
+
+    def law(p, applied, used):
+        """Held between samples."""
+        return Law(command=applied, error=used)
+
+    @sampled(every="period")
+    def sample(p, reference, measured, seen, integral, applied):
+        """One sample."""
+        error = reference - (seen if p.delay == "sample" else measured)
+        wanted = p.feed_forward * reference + p.gain * error + integral
+        command = clip(wanted, p.low, p.high)
+        if p.slew is not None:
+            most = p.slew * p.period
+            command = clip(command, applied - most, applied + most)
+        gathered = p.gain / p.integral_time * error + (command - wanted) / p.tracking
+        return Law(seen=measured, integral=integral + p.period * gathered, applied=command, used=error)

@@ -1,0 +1,97 @@
+"""A direct-current motor with its amplifier: limited voltage, limited current."""
+
+from fairlead.component import Component, Input, Law, Output, Parameter, Rotational, State, Zones, guard, zone
+
+BRISK = 0.01  # the limiter holds the current with this share of the electrical time constant L/R
+
+
+class DcDrive(Component):
+    """An amplifier gives the voltage asked for, up to its limit, and less where the current would exceed its own.
+
+    in range              L di/dt = u - R i - K w,  u the command
+    upper, lower          the same with u = +-most_voltage
+    forward, backward     the current is kept at +-most_current by less voltage than asked for
+    """
+
+    shaft = Rotational("the shaft")
+    command = Input("V", "Voltage asked for.", signed=True)
+    resistance = Parameter("ohm", "R of the winding.", above=0)
+    constant = Parameter("N*m/A", "K, torque per current and voltage per speed.", above=0)
+    inductance = Parameter("V*s/A", "L of the winding.", default=1e-3, above=0)
+    most_voltage = Parameter("V", "Voltage of the supply.", above=0)
+    most_current = Parameter("A", "Current to which the amplifier limits.", above=0)
+    flowing = State("A", "Current.")
+    current, voltage = Output("A", "Current."), Output("V", "Voltage at the motor.")
+    torque = Output("N*m", "Torque on the shaft.")
+    zones = Zones("in_range", "upper", "lower", "forward", "backward")
+
+    @zone("in_range", "upper", "lower", "forward", "backward")
+    def driving(p, shaft, command, flowing, zone):
+        """The voltage of the zone at the winding."""
+        needed = p.resistance * flowing + p.constant * shaft.speed
+        if zone in ("forward", "backward"):
+            most = p.most_current if zone == "forward" else -p.most_current
+            voltage = needed + p.resistance / BRISK * (most - flowing)
+        else:
+            voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, command)
+        torque = p.constant * flowing
+        return Law(shaft=-torque, flowing=(voltage - needed) / p.inductance, current=flowing, voltage=voltage,
+                   torque=torque, stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
+                   supplied=voltage * flowing)  # fmt: skip
+
+    @guard("in_range", "upper", to="forward", unit="A")
+    def current_rises(p, shaft, command, flowing, zone):
+        """The current reaches its limit, and the voltage would drive it on."""
+        voltage = p.most_voltage if zone == "upper" else command
+        return flowing - p.most_current, drive(p, shaft, flowing, voltage)
+
+    @guard("in_range", "lower", to="backward", unit="A")
+    def current_falls(p, shaft, command, flowing, zone):
+        """The same the other way."""
+        voltage = -p.most_voltage if zone == "lower" else command
+        return -flowing - p.most_current, -drive(p, shaft, flowing, voltage)
+
+    @guard("forward", to="in_range", unit="A")
+    def forward_ends(p, shaft, command, flowing):
+        """The voltage asked for would lower the current."""
+        return -drive(p, shaft, p.most_current, command), (p.most_voltage - command) / p.resistance
+
+    @guard("backward", to="in_range", unit="A")
+    def backward_ends(p, shaft, command, flowing):
+        """The same the other way."""
+        return drive(p, shaft, -p.most_current, command), (p.most_voltage + command) / p.resistance
+
+    @guard("forward", to="upper", unit="A")
+    def voltage_runs_out(p, shaft, command, flowing):
+        """So would all the voltage there is."""
+        return -drive(p, shaft, p.most_current, p.most_voltage), (command - p.most_voltage) / p.resistance
+
+    @guard("backward", to="lower", unit="A")
+    def voltage_runs_out_backward(p, shaft, command, flowing):
+        """The same the other way."""
+        return drive(p, shaft, -p.most_current, -p.most_voltage), (-p.most_voltage - command) / p.resistance
+
+    @guard("in_range", "lower", to="upper", unit="V")
+    def saturates(p, command):
+        """More is asked for than there is."""
+        return command - p.most_voltage
+
+    @guard("in_range", "upper", to="lower", unit="V")
+    def saturates_backward(p, command):
+        """The same the other way."""
+        return -p.most_voltage - command
+
+    @guard("upper", to="in_range", unit="V")
+    def comes_back(p, command):
+        """Less is asked for than there is."""
+        return p.most_voltage - command
+
+    @guard("lower", to="in_range", unit="V")
+    def comes_back_backward(p, command):
+        """The same the other way."""
+        return p.most_voltage + command
+
+
+def drive(p, shaft, current, voltage):
+    """How much further a voltage would drive a current [A]: the final one less this."""
+    return (voltage - p.constant * shaft.speed) / p.resistance - current

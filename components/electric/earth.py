@@ -1,0 +1,17 @@
+"""The reference of all voltages."""
+
+from fairlead.component import Component, Electrical, Law
+
+
+class Earth(Component):
+    """Zero volts; it takes whatever current comes."""
+
+    terminal = Electrical("the terminal")
+
+    def law(p, terminal):
+        """Nothing to add; the voltage is prescribed."""
+        return Law(terminal=0, supplied=terminal.current * terminal.voltage)
+
+    def prescribes():
+        """Zero."""
+        return {"terminal": None}

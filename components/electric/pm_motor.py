@@ -1,0 +1,107 @@
+"""A permanent-magnet synchronous motor in the q axis, with its current controller."""
+
+from fairlead.component import (
+    Component,
+    Effect,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Rotational,
+    State,
+    Zones,
+    guard,
+    zone,
+)  # fmt: skip
+
+
+class PmTorque(Component, abstract=True):
+    """Half-model: current asked for in, torque K i out."""
+
+    shaft = Rotational("the shaft")
+    wanted = Input("A", "Current asked for.", signed=True)
+    constant = Parameter("N*m/A", "K, torque per current (q axis) and voltage per speed.", above=0)
+    resistance = Parameter("ohm", "R of the winding.", default=0.0, least=0)
+    current, torque = Output("A", "Current."), Output("N*m", "Torque on the shaft.")
+
+
+class IdealPm(PmTorque):
+    """The current is the one asked for."""
+
+    def law(p, shaft, wanted):
+        """Supplied is what goes to the shaft and what the winding loses."""
+        return pm_law(p, shaft, wanted)
+
+
+class LaggingPm(PmTorque):
+    """The current follows with a lag:  lag di/dt = wanted - i."""
+
+    current_loop = Effect("The current follows what is asked for with a lag.", off=IdealPm)
+    lag = Parameter("s", "Time constant of the current loop.", default=1e-3, above=0)
+    flowing = State("A", "Current.")
+
+    def law(p, shaft, wanted, flowing):
+        """An ideal current loop."""
+        return pm_law(p, shaft, flowing, flowing=(wanted - flowing) / p.lag)
+
+
+class PmMotor(PmTorque):
+    """Winding and current controller:  L di/dt = u - R i - K w,  u = K w + L/lag (wanted - i) + R integral.
+
+    The controller cancels the pole of the winding, d(integral)/dt = (wanted - i)/lag, so that within the voltage of
+    the supply the current follows with a lag, as without `winding`. Beyond it the voltage stays at its limit.
+    """
+
+    winding = Effect("The voltage of the winding, which is limited.", "off", off=LaggingPm)
+    current_loop = Effect("The current follows what is asked for with a lag.")
+    lag = Parameter("s", "Time constant of the current loop.", default=1e-3, above=0)
+    inductance = Parameter("V*s/A", "L of the winding.", default=1e-3, above=0)
+    most_voltage = Parameter("V", "Voltage of the supply.", default=48.0, above=0)
+    flowing = State("A", "Current.")
+    integral = State("A", "Integral of the current controller.")
+    zones = Zones("in_range", "upper", "lower")
+
+    @zone("in_range", "upper", "lower")
+    def driving(p, shaft, wanted, flowing, integral, zone):
+        """At a limit the integral follows the current that flows."""
+        error, back = wanted - flowing, p.constant * shaft.speed
+        free = back + p.inductance / p.lag * error + p.resistance * integral
+        voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, free)
+        rate = (voltage - p.resistance * flowing - back) / p.inductance
+        catching = error / p.lag if zone == "in_range" else (flowing - integral) / p.lag
+        torque = p.constant * flowing
+        return Law(shaft=-torque, flowing=rate, integral=catching, current=flowing, torque=torque,
+                   stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
+                   supplied=voltage * flowing)  # fmt: skip
+
+    @guard("*", to="upper", unit="V")
+    def runs_out(p, shaft, wanted, flowing, integral):
+        """The controller wants more than the supply has."""
+        return voltage_wanted(p, shaft, wanted, flowing, integral) - p.most_voltage
+
+    @guard("*", to="lower", unit="V")
+    def runs_out_backward(p, shaft, wanted, flowing, integral):
+        """The same the other way."""
+        return -voltage_wanted(p, shaft, wanted, flowing, integral) - p.most_voltage
+
+    @guard("upper", to="in_range", unit="V")
+    def comes_back(p, shaft, wanted, flowing, integral):
+        """The supply has enough again."""
+        return p.most_voltage - voltage_wanted(p, shaft, wanted, flowing, integral)
+
+    @guard("lower", to="in_range", unit="V")
+    def comes_back_backward(p, shaft, wanted, flowing, integral):
+        """The same the other way."""
+        return p.most_voltage + voltage_wanted(p, shaft, wanted, flowing, integral)
+
+
+def pm_law(p, shaft, current, **own):
+    """Law of a motor at a current."""
+    torque, lost = p.constant * current, p.resistance * current**2
+    return Law(shaft=-torque, current=current, torque=torque, dissipated=lost,
+               supplied=torque * shaft.speed + lost, **own)  # fmt: skip
+
+
+def voltage_wanted(p, shaft, wanted, flowing, integral):
+    """What the current controller asks for."""
+    return p.constant * shaft.speed + p.inductance / p.lag * (wanted - flowing) + p.resistance * integral

@@ -1,0 +1,142 @@
+"""A chamber of a cylinder: oil whose volume the piston changes."""
+
+from fairlead.components.hydraulics.fluid import Fluid, throttled
+
+from fairlead.component import (
+    Choice,
+    Component,
+    Effect,
+    Hydraulic,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    State,
+    Translational,
+    Zones,
+    derived,
+    guard,
+    pi,
+    zone,
+)  # fmt: skip
+
+LAG, NOTHING = 1e-6, 1.0  # s; Pa: what rounding has left of the pressure in a void is gone after this time
+EDGE, CRITICAL = 0.62, 1e5  # C_d and p_cr [Pa] of the bore through which a chamber is filled
+
+
+class PistonChamber(Component, abstract=True):
+    """Half-model of a chamber: volume, flow through its bore, force of the piston.
+
+    V = dead_volume + area * (free length of the chamber);  (V/bulk_modulus) dp/dt = Q - area * speed;  force = area p
+
+    The power of a port is pressure times flow, which leaves out the energy of compression that oil carries along.
+    With a volume that changes it does not cancel: p^2/(2 bulk_modulus) * area * speed, 1 % of the power at 200 bar,
+    is told as supplied. (`travel` is rod.x - body.x; `side: cap` grows with it, `side: rod` shrinks.)
+    """
+
+    port = Hydraulic("the bore")
+    body = Translational("the barrel")
+    rod = Translational("the piston with its rod")
+    side = Choice(("cap", "rod"), "Which way the piston pushes: out, or in.", default="cap")
+    area = Parameter("m^2", "Area of the piston.", above=0)
+    stroke = Parameter("m", "Travel from stop to stop.", above=0)
+    dead_volume = Parameter("m^3", "Volume that the piston does not sweep, with the line to it.", above=0)
+    bore = Parameter("m", "Diameter of the bore that fills the chamber.", default=0.02, above=0)
+    pressure = Parameter("Pa", "Pressure at the start; 1 bar when not given.", default=None, least=0)
+    fluid = Part(Fluid, "What fills it.", default="oil")
+    level = Output("Pa", "Pressure on the piston.")
+    force = Output("N", "Force that pushes the rod out.")
+
+    def start(p):
+        """Pressure at the start, where given."""
+        return {"port": p.pressure}
+
+    @derived
+    def first(p):
+        """Pressure at the start [Pa]."""
+        return 1e5 if p.pressure is None else p.pressure
+
+    @derived
+    def conductance(p):
+        """Flow per root of pressure drop of the bore."""
+        return p.fluid.conductance(EDGE, pi * p.bore**2 / 4)
+
+
+def chamber_law(p, port, body, rod, level, **own):
+    """Law of a chamber at a pressure; `own` gives the rate of it when it is held, and further states."""
+    d = 1 if p.side == "cap" else -1
+    travel, speed = rod.x - body.x, d * (rod.v - body.v)
+    volume = p.dead_volume + p.area * (travel if p.side == "cap" else p.stroke - travel)
+    drop = port.pressure - level
+    flow = throttled(p.conductance, drop, CRITICAL)
+    push = d * p.area * level
+    rate = own.pop("rate", None)
+    supplied, lost = 0, flow * drop
+    if rate is None:
+        rate = p.fluid.bulk_modulus / volume * (flow - p.area * speed)
+        supplied = level**2 / (2 * p.fluid.bulk_modulus) * p.area * speed
+    return Law(port=flow, rod=-push, body=push, level=level, force=push, oil=rate, supplied=supplied,
+               stored=volume * level**2 / (2 * p.fluid.bulk_modulus), dissipated=lost, **own)  # fmt: skip
+
+
+class FullChamber(PistonChamber):
+    """A chamber whose pressure may fall below zero."""
+
+    oil = State("Pa", "Pressure on the piston.", start="first")
+
+    def law(p, port, body, rod, oil):
+        """Only compressed."""
+        return chamber_law(p, port, body, rod, oil)
+
+
+class Chamber(PistonChamber):
+    """A chamber of a cylinder; where its pressure would fall below zero a void opens (see `PistonChamber`)."""
+
+    cavitation = Effect("Pressure does not fall below zero; a void opens and closes.", off=FullChamber)
+    oil = State("Pa", "Pressure on the piston.", start="first")
+    void = State("m^3", "Volume without oil.")
+    zones = Zones("full", "cavitating")
+
+    @zone("full")
+    def full(p, port, body, rod, oil):
+        """Only compressed."""
+        return chamber_law(p, port, body, rod, oil, void=0)
+
+    @zone("cavitating")
+    def cavitating(p, port, body, rod, oil):
+        """The piston leaves the oil behind, at no pressure."""
+        speed = (1 if p.side == "cap" else -1) * (rod.v - body.v)
+        flow = throttled(p.conductance, port.pressure, CRITICAL)
+        return Law(port=flow, rod=0, body=0, level=0, force=0, oil=-oil / LAG, void=p.area * speed - flow,
+                   dissipated=flow * port.pressure)  # fmt: skip
+
+    @guard("full", to="cavitating", unit="Pa")
+    def tears(p, oil):
+        """The pressure falls through zero."""
+        return -oil
+
+    @guard("cavitating", to="full", unit="1")
+    def closes(p, port, body, rod, oil, void):
+        """The void is filled, and more flows in than the piston gives room for."""
+        speed = (1 if p.side == "cap" else -1) * (rod.v - body.v)
+        flow = throttled(p.conductance, port.pressure, CRITICAL)
+        more = (flow - p.area * speed) / (p.conductance * CRITICAL**0.5)
+        return -void / p.dead_volume, more, (oil + NOTHING) / CRITICAL
+
+
+class RigidChamber(Component):
+    """A chamber whose oil is not compressed: what flows in moves the piston, and the pressure is that of the port."""
+
+    port = Hydraulic("the bore")
+    body = Translational("the barrel")
+    rod = Translational("the piston with its rod")
+    side = Choice(("cap", "rod"), "Which way the piston pushes: out, or in.", default="cap")
+    area = Parameter("m^2", "Area of the piston.", above=0)
+    level = Output("Pa", "Pressure on the piston.")
+    force = Output("N", "Force that pushes the rod out.")
+
+    def law(p, port, body, rod):
+        """Flow is area times speed, force area times pressure; nothing is lost."""
+        area = p.area if p.side == "cap" else -p.area
+        push = area * port.pressure
+        return Law(port=area * (rod.v - body.v), rod=-push, body=push, level=port.pressure, force=push)

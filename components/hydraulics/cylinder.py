@@ -1,0 +1,128 @@
+"""A double-acting hydraulic cylinder."""
+
+from fairlead.components.friction.contact import Contact
+from fairlead.components.hydraulics.chamber import Chamber
+from fairlead.components.hydraulics.fluid import Fluid
+from fairlead.components.hydraulics.leak import Leak
+from fairlead.components.mechanics.end_stop import EndStop
+
+from fairlead.component import (
+    Component,
+    Composite,
+    Effect,
+    Expansion,
+    Hydraulic,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    Translational,
+    derived,
+    pi,
+)  # fmt: skip
+
+CYLINDER = {
+    "bore_diameter": Parameter("m", "Diameter of the piston.", above=0),
+    "rod_diameter": Parameter("m", "Diameter of the rod.", default=0.0, least=0),
+    "stroke": Parameter("m", "Travel from stop to stop.", above=0),
+    "cap_dead_volume": Parameter("m^3", "Volume at a that the piston does not sweep.", default=1e-4, above=0),
+    "rod_dead_volume": Parameter("m^3", "Volume at b that the piston does not sweep.", default=1e-4, above=0),
+    "port_diameter": Parameter("m", "Diameter of the bores that fill the chambers.", default=0.02, above=0),
+    "internal_leakage": Parameter("m^3/s/Pa", "Leakage across the piston.", default=0.0, least=0),
+    "seal_force": Parameter("N", "Sliding friction of the seals.", default=0.0, least=0),
+    "stop_stiffness": Parameter("N/m", "Of the end stops.", default=1e8, above=0),
+    "stop_damping": Parameter("s/m", "Share of their force that is added per speed.", default=5.0, least=0),
+}
+
+
+class Cylinder(Composite):
+    """Pressure at a pushes the rod out, pressure at b pulls it in; the travel rod.x - body.x ends at stops.
+
+    m dv/dt = A_a p_a - A_b p_b - seal friction - load. The mass is that of the bodies at `rod` and `body`.
+    Small oscillations with the valve closed have  w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m.
+    """
+
+    a, b = Hydraulic("cap side"), Hydraulic("rod side")
+    body, rod = Translational("the barrel"), Translational("the rod")
+    bore_diameter, rod_diameter = CYLINDER["bore_diameter"], CYLINDER["rod_diameter"]
+    stroke = CYLINDER["stroke"]
+    cap_dead_volume, rod_dead_volume = CYLINDER["cap_dead_volume"], CYLINDER["rod_dead_volume"]
+    port_diameter, internal_leakage = CYLINDER["port_diameter"], CYLINDER["internal_leakage"]
+    seal_force = CYLINDER["seal_force"]
+    stop_stiffness, stop_damping = CYLINDER["stop_stiffness"], CYLINDER["stop_damping"]
+    pressure_a = Parameter("Pa", "Pressure at the cap side at the start; 1 bar when not given.", default=None, least=0)
+    pressure_b = Parameter("Pa", "Pressure at the rod side at the start; 1 bar when not given.", default=None, least=0)
+    fluid = Part(Fluid, "What fills it.", default="oil")
+    cavitation = Effect("Pressure does not fall below zero; a void opens and closes.")
+    leakage = Effect("Oil leaks across the piston.")
+    seal_friction = Effect("The seals stick and slide.")
+    level_a = Output("Pa", "Pressure at the cap side.")
+    level_b = Output("Pa", "Pressure at the rod side.")
+    travel = Output("m", "rod.x - body.x, 0 when retracted.")
+
+    @derived
+    def cap_area(p):
+        """Area of the piston [m^2]."""
+        return pi * p.bore_diameter**2 / 4
+
+    @derived
+    def rod_area(p):
+        """Area of the piston less that of the rod [m^2]."""
+        return pi * (p.bore_diameter**2 - p.rod_diameter**2) / 4
+
+    def check(p):
+        """The rod is thinner than the piston."""
+        if p.rod_diameter >= p.bore_diameter:
+            what = f"rod_diameter {p.rod_diameter:g} m is not below bore_diameter {p.bore_diameter:g} m"
+            yield "rod_diameter", what, "Lower it."
+
+    def expand(p, scene):
+        """Two chambers and a pair of stops; seals and leakage where wanted."""
+        common = {"stroke": p.stroke, "bore": p.port_diameter, "fluid": p.fluid, "cavitation": p.cavitation}
+        children = {
+            "cap": scene.make(Chamber, side="cap", area=p.cap_area, dead_volume=p.cap_dead_volume,
+                              pressure=p.pressure_a, **common),
+            "rod_side": scene.make(Chamber, side="rod", area=p.rod_area, dead_volume=p.rod_dead_volume,
+                                   pressure=p.pressure_b, **common),
+        }  # fmt: skip
+        joins = []
+        bodies, rods = ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"]
+        mechanics(p, scene, children, joins, bodies, rods)
+        if p.leakage == "on":
+            children["leak"] = scene.make(Leak, conductance=p.internal_leakage)
+            joins += [("cap.port", "leak.a"), ("rod_side.port", "leak.b")]
+        ports = {"a": "cap.port", "b": "rod_side.port", "body": "cap.body", "rod": "cap.rod"}
+        shown = {"level_a": "cap.level", "level_b": "rod_side.level", "travel": "stops.travel"}
+        return Expansion(children, joins, ports, shown)
+
+
+class SealForce(Component):
+    """Friction of the seals; none while a closed valve holds the rod: two things that hold cannot be told apart."""
+
+    force = Parameter("N", "Sliding friction.", least=0)
+    loose = Input("1", "0 while a closed valve holds the rod.")
+    normal = Output("N", "Sliding friction.")
+
+    def law(p, loose):
+        """All of it or nothing."""
+        return Law(normal=loose * p.force)
+
+
+def mechanics(p, scene, children, joins, bodies, rods, loose=""):
+    """Stops, and seals where wanted, between what moves with the barrel and what moves with the rod.
+
+    `loose` is the output that says whether the seals have something to do.
+    """
+    stops = {"lower": 0.0, "upper": p.stroke, "stiffness": p.stop_stiffness, "damping": p.stop_damping}
+    children["stops"] = scene.make(EndStop, **stops)
+    bodies.append("stops.a")
+    rods.append("stops.b")
+    if p.seal_friction == "on":
+        children["seal"] = scene.make(Contact, curve=1.0, normal_force=p.seal_force)
+        if loose:
+            children["seals"] = scene.make(SealForce, force=p.seal_force)
+            joins += [(loose, "seals.loose"), ("seals.normal", "seal.normal")]
+        bodies.append("seal.a")
+        rods.append("seal.b")
+    joins += [tuple(bodies), tuple(rods)]

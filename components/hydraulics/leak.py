@@ -1,0 +1,18 @@
+"""Laminar leakage through a narrow gap."""
+
+from fairlead.component import Component, Hydraulic, Law, Output, Parameter
+
+
+class Leak(Component):
+    """Flow in proportion to the pressure drop:  flow = conductance * (a.pressure - b.pressure)."""
+
+    a = Hydraulic("one side")
+    b = Hydraulic("the other side")
+    conductance = Parameter("m^3/s/Pa", "Flow per pressure drop.", least=0)
+    flow = Output("m^3/s", "Flow from a to b.")
+
+    def law(p, a, b):
+        """All of flow times drop becomes heat."""
+        drop = a.pressure - b.pressure
+        flow = p.conductance * drop
+        return Law(a=flow, b=-flow, flow=flow, dissipated=flow * drop)

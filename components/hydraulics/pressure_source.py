@@ -1,0 +1,32 @@
+"""Constant pressures: an ideal supply, and a tank."""
+
+from fairlead.component import Component, Hydraulic, Law, Output, Parameter
+
+
+class PressureSource(Component):
+    """Keeps its port at a pressure, whatever flow that takes."""
+
+    port = Hydraulic("the outlet")
+    pressure = Parameter("Pa", "Pressure, absolute.", least=0)
+    flow = Output("m^3/s", "Flow given.")
+    level = Output("Pa", "Pressure.")
+    power = Output("W", "Hydraulic power given.")
+
+    def law(p, port):
+        """The flow is known when all others are; what it gives is supplied."""
+        power = port.flow * port.pressure
+        return Law(port=0, flow=port.flow, level=port.pressure, power=power, supplied=power)
+
+    def prescribes():
+        """The pressure does not change."""
+        return {"port": None}
+
+    def start(p):
+        """The pressure."""
+        return {"port": p.pressure}
+
+
+class Tank(PressureSource):
+    """An open tank: constant pressure, that of the air unless it says otherwise. It takes whatever comes back."""
+
+    pressure = Parameter("Pa", "Pressure, absolute.", default=1e5, least=0)

@@ -1,0 +1,39 @@
+"""A pressure relief valve."""
+
+from fairlead.component import Component, Hydraulic, Law, Output, Parameter, State, Zones, guard, sqrt, zone
+
+CRITICAL = 1e5  # Pa; drop below which the open valve passes less than in proportion
+
+
+class ReliefValve(Component):
+    """Opens above a pressure difference:  Q = slope * lift,  lag d(lift)/dt = max(0, p_a - p_b - setting) - lift.
+
+    At a steady flow the pressure is  setting + Q/slope. It never drives a flow: Q goes to zero with p_a - p_b.
+    """
+
+    a = Hydraulic("the line it protects")
+    b = Hydraulic("to the tank")
+    setting = Parameter("Pa", "Difference at which it opens.", above=0)
+    slope = Parameter("m^3/s/Pa", "Flow per pressure above the setting.", above=0)
+    lag = Parameter("s", "Time constant of the poppet.", default=0.01, above=0)
+    lift = State("Pa", "Pressure above the setting that the poppet has followed.", least=0.0)
+    flow = Output("m^3/s", "Flow from a to b.")
+    zones = Zones("closed", "open")
+
+    @zone("closed", "open")
+    def poppet(p, a, b, lift, zone):
+        """The poppet follows the pressure above the setting."""
+        drop = a.pressure - b.pressure
+        wanted = drop - p.setting if zone == "open" else 0
+        flow = p.slope * lift * drop / sqrt(drop**2 + CRITICAL**2)
+        return Law(a=flow, b=-flow, lift=(wanted - lift) / p.lag, flow=flow, dissipated=flow * drop)
+
+    @guard("closed", to="open", unit="Pa")
+    def opens(p, a, b):
+        """Above the setting."""
+        return a.pressure - b.pressure - p.setting
+
+    @guard("open", to="closed", unit="Pa")
+    def closes(p, a, b):
+        """Below the setting."""
+        return p.setting - a.pressure + b.pressure

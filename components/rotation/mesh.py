@@ -1,0 +1,58 @@
+"""Teeth that mesh: stiff, with a gap between them."""
+
+from fairlead.component import Component, Law, Output, Parameter, Rotational, Zones, guard, zone
+
+
+class Mesh(Component):
+    """Backlash between two shafts of one speed: nothing is carried while the twist is within half a gap of zero.
+
+    drive     twist beyond gap/2 by d      torque = stiffness d (1 + damping dd/dt)
+    gap                                    torque = 0
+    reverse   beyond gap/2 the other way   the same, backward
+
+    twist = a.angle - b.angle: positive torque turns b forward. The torque begins and ends with the deflection, as
+    in an `EndStop`.
+    """
+
+    a = Rotational("driving side")
+    b = Rotational("driven side")
+    stiffness = Parameter("N*m/rad", "Of the teeth in contact.", above=0)
+    damping = Parameter("s/rad", "Share of the torque that is added per speed of approach.", default=10.0, least=0)
+    backlash = Parameter("rad", "Angle by which b can turn while a stands still.", least=0)
+    torque = Output("N*m", "Torque carried from a to b.")
+    size = Output("N*m", "The same without sign.")
+    zones = Zones("gap", "drive", "reverse")
+
+    @zone("gap")
+    def loose(p, a, b):
+        """No teeth touch."""
+        return Law(a=0, b=0, torque=0, size=0)
+
+    @zone("drive", "reverse")
+    def touching(p, a, b, zone):
+        """Spring and damper of the teeth."""
+        d = 1 if zone == "drive" else -1
+        deep, rate = d * (a.angle - b.angle) - p.backlash / 2, d * (a.speed - b.speed)
+        size = p.stiffness * deep * (1 + p.damping * rate)
+        return Law(a=d * size, b=-d * size, torque=d * size, size=size, stored=p.stiffness * deep**2 / 2,
+                   dissipated=p.stiffness * p.damping * deep * rate**2)  # fmt: skip
+
+    @guard("gap", to="drive", unit="rad")
+    def meets_forward(p, a, b):
+        """The gap is used up."""
+        return a.angle - b.angle - p.backlash / 2
+
+    @guard("gap", to="reverse", unit="rad")
+    def meets_backward(p, a, b):
+        """The same the other way."""
+        return b.angle - a.angle - p.backlash / 2
+
+    @guard("drive", to="gap", unit="rad")
+    def parts_forward(p, a, b):
+        """The teeth part."""
+        return p.backlash / 2 - (a.angle - b.angle)
+
+    @guard("reverse", to="gap", unit="rad")
+    def parts_backward(p, a, b):
+        """The same the other way."""
+        return p.backlash / 2 - (b.angle - a.angle)

@@ -1,0 +1,14 @@
+"""A signal given in time."""
+
+from fairlead.component import Component, Law, Output, Waveform
+
+
+class SignalSource(Component):
+    """Tells a plain number in time; it may feed any input, whose unit is SI."""
+
+    value = Waveform("1", "Value in time.")
+    signal = Output("1", "The value.")
+
+    def law(p, t):
+        """As given."""
+        return Law(signal=p.value(t))

@@ -1,0 +1,28 @@
+"""A torque given in time or by a signal."""
+
+from fairlead.component import Component, Input, Law, Output, Rotational, Waveform
+
+
+class TorqueSource(Component):
+    """Turns its shaft forward with a given torque."""
+
+    shaft = Rotational("where the torque acts")
+    torque = Waveform("N*m", "Torque in time, positive forward.")
+    applied = Output("N*m", "The torque.")
+
+    def law(p, shaft, t):
+        """The shaft takes in the opposite of the torque it gives."""
+        torque = p.torque(t)
+        return Law(shaft=-torque, applied=torque, supplied=torque * shaft.speed)
+
+
+class TorqueActuator(Component):
+    """Turns its shaft forward with the torque that a signal says: an ideal drive."""
+
+    shaft = Rotational("where the torque acts")
+    torque = Input("N*m", "Torque, positive forward.", signed=True)
+    power = Output("W", "Power given.")
+
+    def law(p, shaft, torque):
+        """All power given is supplied."""
+        return Law(shaft=-torque, power=torque * shaft.speed, supplied=torque * shaft.speed)
