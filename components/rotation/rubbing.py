@@ -8,10 +8,12 @@ their own; a held clutch costs what a held pad costs. Speeds of curves and creep
 
 from fairlead.components.friction.contact import Contact
 from fairlead.components.friction.curve import Curve
+from fairlead.components.friction.heat import THERMAL, FrictionHeat
 from fairlead.components.mechanics.ground import Ground
 from fairlead.components.rotation.rack import Rack
 
 from fairlead.component import (
+    Block,
     Choice,
     Component,
     Composite,
@@ -65,9 +67,11 @@ class Rubbing(Composite, abstract=True):
     creep = Parameter("m/s", "Tolerated creep at the radius; the scene's when not given.", default=None, above=0)
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     faces = Count("Number of rubbing faces, each pressed with the whole normal force.", default=1)
+    heat = Block(THERMAL, "What friction warms; then the curve's softening is a fade.", default=None)
     normal = Input("N", "Normal force.", default="normal_force")
     torque = Output("N*m", "Friction torque, positive when it opposes positive slip.")
     slip = Output("m/s", "Slip speed at the radius.")
+    temperature = Output("K", "Temperature of the faces, if they are warmed.")
 
 
 def rubbing(p, scene, other):
@@ -88,6 +92,11 @@ def rubbing(p, scene, other):
         ("contact.friction", "lever.friction"),
     ]  # fmt: skip
     shown = {"torque": "lever.torque", "slip": "contact.slip", "normal": "pressing.normal"}
+    if p.heat is not None:
+        children["body"] = scene.make(FrictionHeat, **vars(p.heat))
+        joins += [(f"contact.{name}", f"body.{name}") for name in ("friction", "slip")]
+        joins.append(("body.temperature", "contact.temperature"))
+        shown["temperature"] = "body.temperature"
     ports = {"a": "rim_a.pinion", "b": "rim_b.pinion"} if "rim_a" in other else {"shaft": "rim_b.pinion"}
     return Expansion(children, joins, ports, shown)
 
@@ -97,7 +106,7 @@ class Clutch(Rubbing):
 
     The normal force may be a signal: connect it to `normal` and the clutch engages as it is pressed.
     For plates between radii r and R the mean radius is (r + R)/2 when run in (uniform wear) and
-    2/3 (R^3 - r^3)/(R^2 - r^2) when new (uniform pressure). Fade with temperature is left out.
+    2/3 (R^3 - r^3)/(R^2 - r^2) when new (uniform pressure). `heat` with a curve that has a `softening` is fade.
     """
 
     a, b = Rotational("one shaft"), Rotational("the other shaft")

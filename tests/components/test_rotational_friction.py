@@ -9,6 +9,7 @@ With a constant torque T between inertias J1 and J2 at speeds w1 and w2, and 1/J
 
 import textwrap
 
+import numpy as np
 import pytest
 from fairlead.components.rotation.rubbing import METHODS
 
@@ -67,6 +68,24 @@ def test_a_clutch_pressed_by_a_signal_locks_when_its_impulse_is_spent(simulate):
     result = simulate(text)
     (locked,) = [event.t for event in result.events if event.zone_to == "held" and event.t > 0.1]
     assert locked == pytest.approx(INERTIA * SLIP / TORQUE + 0.5, rel=1e-6)
+
+
+SOFT = "curve: {coulomb: 0.3, softening: 0.004 1/K, reference_temperature: 300 K}"
+WARM = "normal_force: 1 kN, heat: {capacity: 100 J/K, share: 0.5, ambient: 300 K}"
+FADING = ENGAGED.replace("curve: 0.3", SOFT).replace("normal_force: 1 kN", WARM)
+
+
+def test_a_clutch_is_warmed_by_the_heat_of_the_closed_form_and_fades(simulate):
+    """Whatever the torque did in time, the faces get half of J w^2/2; and T = T0 exp(-alpha rise) on the way."""
+    fading = simulate(FADING)
+    rise = 0.5 * INERTIA * SLIP**2 / 2 / 100
+    assert fading["clutch.temperature"][-1] == pytest.approx(300 + rise, rel=1e-6)
+    (locked,) = [event.t for event in fading.events if event.zone_to == "held"]
+    # T t = J w without fade; with it the mean of the torque is lower, between the cold and the last one.
+    assert 1 < locked / (INERTIA * SLIP / TORQUE) < np.exp(0.004 * rise)
+    slipping = fading.t < locked
+    faded = TORQUE * np.exp(-0.004 * (fading["clutch.temperature"] - 300))
+    np.testing.assert_allclose(-fading["clutch.torque"][slipping], faded[slipping], rtol=1e-4)
 
 
 @pytest.mark.parametrize("kind", ["Brake", "Bearing"])
