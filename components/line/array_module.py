@@ -12,13 +12,14 @@ from fairlead.components.line.mesh import bulkheads, cut
 from fairlead.components.line.meter import Meter
 from fairlead.components.line.registration import Registration
 from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
+from fairlead.components.line.torsion import TORSION, twisting
 from fairlead.components.mechanics.mass import Mass
 
 from fairlead.component import (
     Block,
-    Choice,
     Composite,
     Count,
+    Effect,
     Expansion,
     Parameter,
     Part,
@@ -71,7 +72,9 @@ class ArrayModule(Composite):
                            default=None, above=0)  # fmt: skip
     ruck_stiffness = Parameter("1", "Stiffness of the hose while it rucks, over that before.", default=1.0, above=0,
                                most=1)  # fmt: skip
-    meters = Choice(("on", "off"), "Scuffing length and friction work of every contact, as states.", default="off")
+    torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
+    planar_slip = Effect("Friction against the resultant of slipping and turning; off: against each by itself.")
+    meters = Effect("Scuffing length and friction work of every contact, as states.", default="off")
 
     def check(p):
         """An element is no longer than a module."""
@@ -109,6 +112,9 @@ class ArrayModule(Composite):
                 joins.append((f"{name}[{i}].a", f"{name}_node[{i}].flange"))
                 joins.append((f"{name}[{i}].b", f"{name}_node[{i + 1}].flange"))
         ends = {"inboard": "hose_node[0].flange", "outboard": f"hose_node[{n}].flange"}
+        if p.torsion is not None:
+            more, links, twist_ends = twisting(p, scene, mesh, ("hose", "core"))
+            children, joins, ends = children | more, joins + links, ends | twist_ends
         marks = bulkheads(mesh, p.bulkhead_pitch)
         meter = Meter if p.meters == "on" else None
         laid = LaidLine(mesh, p, "hose_node", ("hose", "core"), "core_node", marks, meter)

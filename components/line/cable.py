@@ -10,9 +10,21 @@ from fairlead.components.line.laid_line import LaidLine
 from fairlead.components.line.mesh import cut
 from fairlead.components.line.meter import Meter
 from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
+from fairlead.components.line.torsion import TORSION, twisting
 from fairlead.components.mechanics.mass import Mass
 
-from fairlead.component import Choice, Composite, Count, Expansion, Parameter, Path, Table, Translational
+from fairlead.component import (
+    Block,
+    Choice,
+    Composite,
+    Count,
+    Effect,
+    Expansion,
+    Parameter,
+    Path,
+    Table,
+    Translational,
+)  # fmt: skip
 
 
 class Cable(Composite):
@@ -46,7 +58,9 @@ class Cable(Composite):
     ruck_force = Parameter("N", "Compression above which it rucks, if it can push; not watched when not given.",
                            default=None, above=0)  # fmt: skip
     ruck_stiffness = Parameter("1", "Stiffness while it rucks, over that before.", default=1.0, above=0, most=1)
-    meters = Choice(("on", "off"), "Scuffing length and friction work of every contact, as states.", default="off")
+    torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
+    planar_slip = Effect("Friction against the resultant of slipping and turning; off: against each by itself.")
+    meters = Effect("Scuffing length and friction work of every contact, as states.", default="off")
 
     def check(p):
         """An element is no longer than the line; only what can push can ruck."""
@@ -72,6 +86,9 @@ class Cable(Composite):
             joins.append((f"line[{i}].a", f"node[{i}].flange"))
             joins.append((f"line[{i}].b", f"node[{i + 1}].flange"))
         ends = {"inboard": "node[0].flange", "outboard": f"node[{n}].flange"}
+        if p.torsion is not None:
+            more, links, twist_ends = twisting(p, scene, mesh, ("line",))
+            children, joins, ends = children | more, joins + links, ends | twist_ends
         meter = Meter if p.meters == "on" else None
         return Expansion(children, joins, ends, line=LaidLine(mesh, p, "node", ("line",), meter=meter))
 

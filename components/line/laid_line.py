@@ -12,6 +12,9 @@ from fairlead.components.line.lateral_load import ClampLoad, LateralLoad, Presse
 from fairlead.components.line.laying import Laying
 from fairlead.components.line.line_weight import LineWeight
 from fairlead.components.line.mesh import Mesh
+from fairlead.components.line.twist_contact import LaidOn, PlanarContact
+from fairlead.components.mechanics.rigid_link import RigidLink
+from fairlead.components.rotation.rack import Rack
 from fairlead.components.route.bearing_load import Told
 from fairlead.components.route.drum import StoredNode, WoundNode
 from fairlead.components.route.route_line import RouteLine, Surface
@@ -72,6 +75,7 @@ class _On:
         slots = [self.contact(surface, i, body, reach, squeezed) for surface in self.route.surfaces]
         if bulkhead is not None:
             self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
+        self.twist(i, body)
         bodies = [body] + ([f"{self.line.inner}[{i}]"] if two else [])
         for one in bodies:
             self.storage(i, one)
@@ -94,7 +98,7 @@ class _On:
             load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, curved, layers, load)
         two = self.line.inner and i not in self.line.mesh.connectors
         masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
-        self.to.contact(f"{name}[{i}]", f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
+        self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
         self.meter(f"{name}[{i}]")
         total_of = self.route.machinery[surface.name].total if surface.name in self.route.machinery else ""
         if total_of:
@@ -102,6 +106,25 @@ class _On:
             self.to.join(f"{load}.force", f"{tells}.value")
             self.to.join_to(f"{tells}.sum", f"{self.path}.{surface.name}.{total_of}")
         return f"{name}[{i}]"
+
+    def rub(self, name: str, i: int, surface: str, body: str, load: str, curve: Any, masses: dict[str, float]) -> None:
+        """The contact itself; for a line that twists, one in two directions or one in each."""
+        p = self.line.values
+        if p.torsion is None or p.planar_slip == "off":
+            self.to.contact(name, surface, body, load, curve, masses)
+        if p.torsion is None:
+            return
+        if p.planar_slip == "on":
+            self.to.child(name, PlanarContact, curve=curve, radius=p.diameter / 2, **self.to.creep)
+            self.to.join_to(f"{name}.a", surface)
+            self.to.join(f"{body}.flange", f"{name}.b")
+            self.to.join(f"twist[{i}].shaft", f"{name}.turning")
+            self.to.join(f"{load}.force", f"{name}.normal")
+            return
+        if f"{self.to.line.path}.rim[{i}]" not in self.to.assembly.instances:
+            self.to.child(f"rim[{i}]", Rack, radius=p.diameter / 2)
+            self.to.join(f"twist[{i}].shaft", f"rim[{i}].pinion")
+        self.to.contact(f"twist_{name}", self.to.still(), f"rim[{i}]", load, curve, {}, port="rack")
 
     def inner_contact(self, i: int, body: str, reach: Reach, clamped: str, slots: list[str]) -> None:
         """Bulkhead on hose: pressed by the tension of the core in bends, and by clamps."""
@@ -185,6 +208,9 @@ class _On:
             made, station = self.route.machinery[one.name], one.station
             given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
             name = f"stored_{body.partition('_')[0]}[{i}]" if self.line.inner else f"stored[{i}]"
+            if station.layers == "off" and i == 0 and self.line.values.start < one.end:
+                self.fasten(body, f"{self.path}.{one.name}.{made.surface}")
+                continue
             if station.layers == "off":
                 stored = self.to.child(name, StoredNode, **given)
                 self.to.join_to(f"{stored}.rim", f"{self.path}.{one.name}.{made.surface}")
@@ -193,6 +219,25 @@ class _On:
                 self.to.join_to(f"{stored}.drum", f"{self.path}.{one.name}.{made.surface}")
                 self.to.join_to(f"{stored}.radius", f"{self.path}.{one.name}.layers.radius_now")
             self.to.join(f"{stored}.node", f"{body}.flange")
+
+    def fasten(self, body: str, rim: str) -> None:
+        """The inboard end of a line that lies on the drum is fastened to it: one body, which holds all tension."""
+        link = self.to.child("fastening", RigidLink, length=self.line.values.start)
+        self.to.join_to(f"{link}.a", rim)
+        self.to.join(f"{link}.b", f"{body}.flange")
+
+    def twist(self, i: int, body: str) -> None:
+        """What holds the twist of a line on the drum; and its rim, where friction in turning acts by itself."""
+        p = self.line.values
+        if p.torsion is None:
+            return
+        for one in self.route.of_type("Winch"):
+            if one.station.layers == "off":
+                drum = {"place": one.end, "edge": one.station.edge or 0.1, "lay": one.station.lay}
+                laid = self.to.child(f"laid[{i}]", LaidOn, **drum)
+                self.to.join(f"twist[{i}].shaft", f"{laid}.node")
+                self.to.join(f"{body}.flange", f"{laid}.along")
+                self.to.join_to(f"{laid}.rim", f"{self.path}.{one.name}.{self.route.machinery[one.name].surface}")
 
     def weight(self, i: int, body: str, reach: Reach, bodies: list[str]) -> None:
         """Weight along the slope, divided between the layers by mass."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from fairlead.components.friction.contact import Contact
+from fairlead.components.mechanics.ground import Ground
 
 from fairlead.component.declare import Input
 from fairlead.component.instantiate import Join, PortRef
@@ -25,14 +26,16 @@ class Laying:
         self.assembly.add(f"{self.line.path}.{name}", self.made(kind, **given), self.line.where)
         return name
 
-    def contact(self, name: str, a: str, body: str, load: str, curve: Any, masses: dict[str, float]) -> None:
+    def contact(
+        self, name: str, a: str, body: str, load: str, curve: Any, masses: dict[str, float], port: str = "flange"
+    ) -> None:
         """A contact as the scene's friction block treats it, between the port `a` (a full path) and a body."""
         scene = self.assembly.scene
         declared = scene.member(Contact, {}).declaration.parameters
         known = {key: value for key, value in masses.items() if key in declared}
         self.child(name, Contact, curve=curve, **known)
         self.join_to(f"{name}.a", a)
-        self.join(f"{body}.flange", f"{name}.b")
+        self.join(f"{body}.{port}", f"{name}.b")
         self.join(f"{load}.force", f"{name}.normal")
 
     def made(self, kind: type, **given: Any) -> Any:
@@ -64,6 +67,19 @@ class Laying:
 
     def _join(self, *refs: PortRef) -> None:
         self.assembly.joins.append(Join(refs, self.line.where))
+
+    def still(self) -> str:
+        """A fixed point of the line's own, by its full path."""
+        path = f"{self.line.path}.still"
+        if path not in self.assembly.instances:
+            self.child("still", Ground)
+        return f"{path}.flange"
+
+    @functools.cached_property
+    def creep(self) -> dict[str, Any]:
+        """The creep that the scene tolerates, if it says so."""
+        said = self.assembly.scene.friction.get("creep")
+        return {} if said is None else {"creep": said.plain()}
 
     def mass(self, name: str) -> float:
         """Mass of a node [kg]."""

@@ -20,7 +20,8 @@ class Winch(Station):
 
     Line on the drum moves with it, so that its strain stays as it was wound on, and comes off with it. The drum takes
     hold of a node over `edge` (0.1 m); the bond is viscous, and lets the last node before the edge creep under the
-    difference of the tensions on both sides: 1 kN over `lock` is 1 um/s.
+    difference of the tensions on both sides: 1 kN over `lock` is 1 um/s. An inboard end that lies on the drum is
+    fastened to it (when the drum has no layers).
 
     `layers: off`  the radius does not change; `route.<name>.rim` is a flange that moves with the line, where a
                    speed or a tension may be given. `on` takes `width` and the diameter of the line and grows the
@@ -37,6 +38,7 @@ class Winch(Station):
     height = Parameter("m", "Depth from the flange's edge to the drum; no limit when not given.", default=None, above=0)
     packing = Choice(("nested", "stacked"), "How one layer lies on the other.", default="nested")
     crossover = Parameter("rad", "Angle over which a layer changes to the next.", default=math.pi / 2, above=0)
+    lay = Parameter("rad/m", "Twist that winding gives the line, per length; for a line with torsion.", default=0.0)
     filled = Parameter("m", "Line on the drum beside that of the model.", default=0.0, least=0)
     lock = Parameter("N*s/m", "Bond of a stored node with the drum.", default=1e9, above=0)
     line_diameter = Parameter("m", "Diameter that a layer takes.", default=0.085, above=0)

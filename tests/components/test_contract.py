@@ -36,7 +36,7 @@ def asked(check):
         return False
     if set(check.chosen) & FACTORS:  # on the normal force, the same for all
         return getattr(check.kind, "word", "hold") == "hold"
-    return curve is None or check.kind.word in EVERY_CURVE or curve in ENOUGH
+    return curve is None or getattr(check.kind, "word", "") in EVERY_CURVE or curve in ENOUGH
 
 
 ALL = [check for kind in known_types().values() for check in checks(kind) if asked(check)]

@@ -274,7 +274,7 @@ def test_24_layers_of_a_drum():
 
 def test_meters_count_how_far_a_contact_has_slipped_and_its_work(simulate):
     bend = "{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.35}"
-    result = simulate(hauled(bend, more=", meters: on"))
+    result = simulate(hauled(bend, more=", effects: {meters: on}"))
     work = sum(result[name][-1] for name in result.match("rope.outer_meter[*].work"))
     slipped = max(result[name][-1] for name in result.match("rope.outer_meter[*].scuffed"))
     names = [name.removesuffix(".slip") for name in result.match("rope.outer[*].slip")]

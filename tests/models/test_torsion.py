@@ -1,0 +1,91 @@
+"""Torsion of a line with the same friction as along it (physics sections 5.8 and 7d, section 8 item 30)."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.reference.rod_anchor import FrictionAnchor
+
+COUPLE, GRIP = 10.0, 0.35 * 500 * 0.0425  # N m; N m per m held by friction
+ANCHOR = FrictionAnchor(stiffness=150.0, grip=GRIP)  # the same closed form, in torque and angle
+
+
+@pytest.mark.parametrize("planar", ["off", "on"])
+def test_30_the_end_of_an_anchored_line_turns_by_the_square_of_the_couple(bundled, planar):
+    result = bundled("torsion", {"effects.planar_slip": planar})
+    assert result["line.twist[80].turned"].max() == pytest.approx(ANCHOR.end_travel(COUPLE), rel=0.01)
+
+
+def test_half_of_the_twist_stays_when_the_couple_is_taken_off(bundled):
+    twist = bundled("torsion")["line.twist[80].turned"]
+    assert twist[-1] / twist.max() == pytest.approx(0.5, abs=0.02)  # half an element of 27, and creep
+
+
+def test_torque_falls_along_a_straight_line_and_reaches_as_far_as_the_closed_form_says(bundled):
+    result = bundled("torsion")
+    k = int(np.searchsorted(result.t, 4.0))
+    torque = np.array([result[f"line.torsion[{i}].torque"][k] for i in range(80)])[::-1]
+    middle = (np.arange(80) + 0.5) * 0.05
+    np.testing.assert_allclose(torque, ANCHOR.tension(COUPLE, middle), atol=0.05 * GRIP)
+    assert 0.05 * np.sum(torque > 0.2) == pytest.approx(ANCHOR.slipped_length(COUPLE), abs=0.1)
+
+
+def test_energy_closes_in_turning_too(bundled):
+    assert bundled("torsion").run["energy"]["closure"] < 1e-6
+
+
+ROUTE = """
+components:
+  line: {type: Cable, length: 20 m, element: 0.25 m, start: -2 m, mass: 5.8 kg/m, stiffness: 500 kN, diameter: 85 mm,
+         tension: 500 N, torsion: {stiffness: 150 N*m^2, inertia: 6e-3 kg*m, coupling: COUPLING}}
+  route:
+    type: Route
+    stations:
+      - {type: Winch, radius: 0.65 m, lay: 0.02 rad/m}
+      - {type: Bend, start: 2 m, angle: 90 deg, radius: 1 m, friction: 0.35}
+      - {type: Bend, start: 5 m, angle: 90 deg, radius: 1 m, friction: 0.35}
+  drive: {type: MotionSource, velocity: {ramp: {to: -0.3 m/s, over: 1 s}}}
+  tow: {type: ForceSource, force: 500 N}
+connections:
+  - [line.path, route.path]
+  - [drive.flange, route.winch.rim]
+  - [tow.flange, line.outboard]
+effects: {planar_slip: PLANAR}
+run: {stop: 20 s}
+record: {every: 50 ms}
+"""
+
+
+def wound(simulate, planar, coupling="0 m"):
+    return simulate(ROUTE.replace("PLANAR", planar).replace("COUPLING", coupling))
+
+
+def torque_at(result, place):
+    """Torque of the line [N m] at a place of the route at the end."""
+    nodes = np.array([result[name][-1] for name in result.match("line.node[*].x")])
+    torque = np.array([result[name][-1] for name in result.match("line.torsion[*].torque")])
+    return np.interp(place, (nodes[1:] + nodes[:-1]) / 2, torque)
+
+
+def test_with_one_friction_for_both_twist_of_the_drum_leaves_a_line_that_moves(simulate):
+    """The turning slip is small beside the sliding at 0.3 m/s, so friction hardly resists: mu N r^2/v per node."""
+    drag = 0.35 * 500 * math.exp(0.35 * math.pi) * math.pi * 0.0425**2 / 0.3  # N m s, both bends, from above
+    assert abs(torque_at(wound(simulate, "on"), 1.0)) < drag * 0.02 * 0.3 * 1.5
+
+
+def test_with_a_friction_of_its_own_twist_is_held_back_in_the_bends_and_accumulates(simulate):
+    """The drum has wound 5.85 m; between it and bend A the line is turned as if the bend were a clamp."""
+    held = torque_at(wound(simulate, "off"), 1.0)
+    free = torque_at(wound(simulate, "on"), 1.0)
+    assert held > 30 * abs(free)
+    assert held > 1.0
+
+
+def test_a_rope_that_wants_to_unlay_turns_a_free_end(simulate):
+    """Torque k T turns the line outboard of the bends until the spring balances it: nothing is left in the end."""
+    result = wound(simulate, "on", coupling="1 mm")
+    assert abs(torque_at(result, 10.0)) < 0.05  # of 0.5 N m: the end is a free swivel, and still swings a little
+    ends = [result[name][-1] for name in ("line.twist[80].turned", "line.twist[60].turned")]
+    twist = (ends[0] - ends[1]) / 5.0  # per metre
+    assert twist == pytest.approx(-1e-3 * 500 / 150, rel=0.05)
