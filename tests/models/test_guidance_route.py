@@ -5,7 +5,7 @@ Where the line slides steadily the tensions are products of capstans, whatever t
     before the deployer  T_winch exp(+-mu A)      in the sea  tail + drag * length      after it  T_sea exp(-+mu B)
 
 with + while deploying. The drag belongs to the speed of the water along the line, ship less line. Tensions ripple
-as single elements stick and slip, so they are compared as means over some seconds.
+as single elements stick and slip, so they are compared as means over time.
 """
 
 import math
@@ -21,19 +21,24 @@ WINCH, TAIL, SHIP, SPEED = 200.0, 150.0, 4.0, 0.5
 PLACES = (1.0, 4.2, 7.2, 9.7)  # m: at the winch, before and after the deployer, at the sea
 
 
+def rows_between(result, begin, end):
+    """Rows at equal spans of time; those that are recorded at events beside them would weigh bursts of events."""
+    return np.searchsorted(result.t, np.arange(begin, end, 0.05))
+
+
 def tension_at(result, places, begin, end):
     """Mean tension of the line [N] at places of the route [m] over a span of time."""
     hose, core = (result.columns(result.match(f"line.{layer}[*].tension")) for layer in ("hose", "core"))
     tension = hose + core
     nodes = result.columns(result.match("line.hose_node[*].x"))
     middle = (nodes[:, 1:] + nodes[:, :-1]) / 2
-    rows = np.flatnonzero((result.t > begin) & (result.t < end))
+    rows = rows_between(result, begin, end)
     return np.mean([np.interp(places, middle[k], tension[k]) for k in rows], axis=0)
 
 
 def closed_form(result, mu, way, begin, end):
     """The four tensions [N]; `way` is +1 while deploying."""
-    rows = (result.t > begin) & (result.t < end)
+    rows = rows_between(result, begin, end)
     length = result["line.hose_node[160].x"][rows].mean() - SEA
     sea = TAIL + length * drag_per_length(1025.0, 0.003, 0.085, SHIP - way * SPEED)
     return [
@@ -57,7 +62,7 @@ def test_tensions_along_the_route_are_those_of_sliding_through_capstans(route, w
 
 @pytest.mark.parametrize(("way", "begin", "end"), [(+1, 18.0, 24.9), (-1, 34.0, 44.0)])
 def test_the_deployer_gives_the_difference_of_the_tensions_on_both_sides(route, way, begin, end):
-    rows = (route.t > begin) & (route.t < end)
+    rows = rows_between(route, begin, end)
     _, before, after, _ = closed_form(route, 0.35, way, begin, end)
     assert route["belts.force"][rows].mean() == pytest.approx(before - after, rel=0.02)
 
