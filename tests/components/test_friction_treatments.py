@@ -6,14 +6,18 @@ The LuGre numbers are those of Canudas de Wit, Olsson, Astrom, Lischinsky (1995)
 """
 
 import itertools
+import json
 import math
 import textwrap
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from typer.testing import CliRunner
 
 import fairlead
+from fairlead.cli import app
+from fairlead.component.registry import known_types
 
 NORMAL, STATIC, KINETIC, FALL = 10.0, 0.5, 0.3, 5e-3
 STIFFNESS, DRIVE = 100.0, 0.05
@@ -214,6 +218,25 @@ def test_a_block_held_at_99_percent_for_an_hour_creeps_as_the_formula_says(simul
         assert result.run["worst_creep"]["value"] == pytest.approx(creep, rel=1e-2)
 
 
+def test_the_table_and_the_report_of_a_run_tell_the_creep(tmp_path):
+    """An hour at 99 % of binding's capacity: 0.99 creep/1.25, in the closing table, in run.json and in report.html."""
+    scene, out = tmp_path / "scene.yaml", tmp_path / "out"
+    scene.write_text("schema: 1\nname: scene\n" + textwrap.dedent(PUSHED), encoding="utf-8")
+    given = ["--set", "method=binding", "--set", "pad.creep=1e-5 m/s"]
+    said = CliRunner().invoke(app, ["run", str(scene), "--out", str(out), "--report", *given])
+    assert said.exit_code == 0, said.output
+    assert "7.92e-06 m/s in pad" in said.output
+    assert "7.92" in (out / "report.html").read_text(encoding="utf-8")
+    assert json.loads((out / "run.json").read_text())["worst_creep"]["value"] == pytest.approx(7.92e-6, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["naive_sign", "naive_zone"])
+def test_a_treatment_that_holds_nothing_says_so(method):
+    """Those without a holding capacity are not asked to hold for an hour: their pages say that they do not."""
+    page = known_types()["Contact"].members[method].__doc__
+    assert {"naive_sign": "never comes loose", "naive_zone": "There is no stiction"}[method] in page
+
+
 @pytest.mark.parametrize("method", ["dahl", "lugre"])
 def test_bristles_under_a_slow_load_bend_by_a_logarithm(simulate, method):
     """dz/dx = 1 - z/presliding, so x = -presliding ln(1 - load/F_s)."""
@@ -328,6 +351,26 @@ def test_the_break_away_force_of_lugre_falls_with_the_rate_of_loading(simulate):
     assert 1.0 < forces[-1] < forces[0] < 1.5
 
 
+def test_lugre_sticks_and_slips_on_a_spring_as_in_1995(simulate):
+    """1995, section 4D, Fig. 6: 1 kg pulled through 2 N/m at 0.1 m/s; against the equations by another library."""
+    text = LUGRE.replace("push: {type: ForceSource, force: FORCE}", """spring: {type: Spring, stiffness: 2 N/m}
+      pull: {type: MotionSource, velocity: 0.1 m/s}""").replace("push.flange", "spring.a").replace(
+        "]]\n", "], [spring.b, pull.flange]]\n", 1
+    )
+    result = simulate(text, stop="12 s", **{"run.accuracy": "1e-8"})
+
+    def rates(t, y):
+        x, v, z = y
+        g = 1.0 + 0.5 * math.exp(-((v / 1e-3) ** 2))
+        dz = v - 1e5 * abs(v) * z / g
+        return [v, 2.0 * (0.1 * t - x) - 1e5 * z - math.sqrt(1e5) * dz - 0.4 * v, dz]
+
+    t = np.linspace(0, 12, 241)
+    x = solve_ivp(rates, (0, 12), [0, 0, 0], "Radau", t, rtol=1e-8, atol=1e-13).y[0]
+    assert np.abs(np.diff(x)).max() > 20 * np.abs(np.diff(x)).min()  # it sticks and slips
+    np.testing.assert_allclose(np.interp(t, result.t, result["block.x"]), x, atol=2e-3 * x.max())
+
+
 # The naive ones
 
 
@@ -356,8 +399,6 @@ def test_a_budget_of_the_netlist_goes_before_that_of_a_naive_law(simulate):
 
 @pytest.mark.parametrize("method", ["naive_sign", "naive_zone"])
 def test_the_page_of_a_naive_law_says_why_it_fails_and_what_to_use(method):
-    from fairlead.component.registry import known_types
-
     page = known_types()["Contact"].members[method].__doc__
     assert "Use `hold`" in page
     assert "binding" in page

@@ -52,7 +52,7 @@ def _creep(creep: Mapping[str, Any] | None) -> str:
     """Largest slip speed of a contact that should be stuck; a scene may have no such contact."""
     if not creep or creep.get("value") is None:
         return "no contact was held"
-    return f"{creep['value']:.2g} m/s in {creep['contact']}"
+    return f"{creep['value']:.3g} m/s in {creep['contact']}"
 
 
 def _closure(energy: Mapping[str, Any] | None) -> str:
