@@ -35,6 +35,10 @@ class Contact(Family, Component, abstract=True):
     lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
     load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
     temperature_dependence = Effect("The curve's softening; off: friction does not depend on temperature.")
+    extent = Parameter(
+        "1", "What shares the normal force: the curve's load_reference is that of 1 (a spot, or a metre of line).",
+        default=1.0, above=0,
+    )  # fmt: skip
     ambient = Parameter("K", "Temperature when the input is not connected.", default=293.15, above=0)
     normal = Input("N", "Normal force.", default="normal_force")
     temperature = Input("K", "Temperature of the surfaces.", default="ambient")
@@ -45,7 +49,7 @@ class Contact(Family, Component, abstract=True):
     @shared
     def grip(p, normal, temperature):
         """The normal force that counts [N]: with the factors for load and temperature that the curve gives."""
-        load = load_factor(p.curve, normal, p.lift) if p.load_dependence == "on" else 1
+        load = load_factor(p.curve, normal / p.extent, p.lift / p.extent) if p.load_dependence == "on" else 1
         warmth = temperature_factor(p.curve, temperature) if p.temperature_dependence == "on" else 1
         return normal * load * warmth
 

@@ -53,7 +53,7 @@ def creep_of_leak(kind, given):
     normal = leak and (leak["normal_force"] or given["normal_force"])
     if not normal:
         return None
-    grip = normal * load_factor(given["curve"], normal, given["lift"])
+    grip = normal * load_factor(given["curve"], normal / given["extent"], given["lift"] / given["extent"])
     slope = -leak["stiffness"] * leak["time"] / math.log1p(-leak["share"])
     low, high = map(math.log, RANGE)
     for _ in range(HALVINGS):  # the slope falls as the creep grows

@@ -128,6 +128,14 @@ def test_friction_grows_as_a_power_of_the_load_under_every_treatment(simulate, m
     assert result["block.x"].max() == pytest.approx(MASS * SPEED**2 / (2 * friction), abs=3e-6)
 
 
+def test_a_contact_cut_in_parts_rubs_as_the_whole(simulate):
+    """Ten spots under a tenth of the load each, the reference that of one spot: the mesh of a line must not count."""
+    text = SLIDING.replace("CURVE", LOADED)
+    whole = simulate(text, normal="100 N", **{"pad.extent": "10"})
+    friction = 10 * 0.5 * REFERENCE * (10 / REFERENCE) ** EXPONENT
+    assert whole["block.x"][-1] == pytest.approx(MASS * SPEED**2 / (2 * friction), rel=1e-6)
+
+
 def test_load_dependence_off_is_friction_in_proportion_to_the_load(simulate, scene):
     text = SLIDING.replace("CURVE", LOADED)
     off = simulate(text + "    effects: {load_dependence: off}\n")
