@@ -233,6 +233,7 @@ def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
     return {
         "least_theta": run.theta, "theta_now": run.theta, "fixed_step": run.fixed_step or 0.0,
         "error_exponent": 1.0 / 3.0, "linear": int(getattr(problem, "linear", False)),
+        "has_limits": int(np.any(getattr(problem, "limit_guard", 0))),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
     }  # fmt: skip
 

@@ -201,10 +201,10 @@ def moves(m):
     """True if a controlled unknown changes in the step by more than STILL of its weight."""
     y, y_end, weight = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_weight, m.n)
     controlled = indices(m.at_controlled, m.n)
+    found = False
     for k in range(m.n):
-        if controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k]:
-            return True
-    return False
+        found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k])
+    return found
 
 
 @compiled

@@ -5,8 +5,8 @@
     held contacts                  0 = slip(t0 + h, y1)
 
 y are the differential unknowns, a the algebraic ones: forces of contacts, means over the step. With
-theta = 1/2 this is the implicit midpoint rule (order 2). A guard reads the speeds at the end of the step
-and the mean forces, so a contact that holds and one that slides are the two branches of
+theta = 1/2 this is the implicit midpoint rule (order 2). A guard reads what its law reads: slips at the end
+of the step, forces and their limits at the theta point. So a contact that holds and one that slides are the two branches of
 |force| <= limit, slip at the end = 0 or against the force: a complementarity problem. It is solved by an
 active set (active_set.py): solve with the zones frozen, switch those whose guards are violated, solve
 again. Smooth nonlinearity is taken up by the same iteration, which ends when no guard is violated and
@@ -62,7 +62,7 @@ def take_theta_step(m, h):
         move_end(m)
         m.newly_held = 0
         solves += 1
-        evaluate_guards(m, m.t + h, m.at_y_end, m.at_g_end)
+        guards_of_step(m, h)
         violators(m)
         if m.n_fired == 0:
             if m.linear == 1 and m.unchecked == 0:
@@ -71,11 +71,10 @@ def take_theta_step(m, h):
             continue
         solves = 0
         known = all_continuous(m)
-        suspect = m.passes == 0 and not known
-        if suspect:
-            field_at(m.call_rhs, (m.context, m.t + h, m.at_y_end, m.at_x))
-        jumped = follow_guards(m, h, known)
-        if jumped or (suspect and law_jumps(m, h)):
+        if m.passes == 0 and not known and m.gap > 0.0 and law_jumps(m, h):
+            find_jump(m, h)
+            return JUMPS
+        if follow_guards(m, h, known):
             find_jump(m, h)
             return JUMPS
         if m.passes > m.max_passes:
@@ -243,6 +242,26 @@ def move_end(m):
     ahead = 1.0 / m.theta_now
     for k in range(m.n):
         y_end[k] += ahead * b[k] if differential[k] == 1 else b[k]
+
+
+@compiled
+def guards_of_step(m, h):
+    """Into `g_end` every guard where its law is read: limits of forces at the theta point, all others at the end.
+
+    A limit that varies (a normal force that follows a tension) would else let a contact go that, sliding, is
+    held back by more than it was let go for. Where f is linear no limit varies with the unknowns.
+    """
+    evaluate_guards(m, m.t + h, m.at_y_end, m.at_g_end)
+    if m.linear == 1 or m.has_limits == 0:
+        return
+    theta_point(m)
+    evaluate_guards(m, m.t + m.theta_now * h, m.at_u, m.at_g_probe)
+    g, at_theta, is_limit = (
+        reals(m.at_g_end, m.n_guards), reals(m.at_g_probe, m.n_guards), indices(m.at_limit_guard, m.n_guards),
+    )  # fmt: skip
+    for i in range(m.n_guards):
+        if is_limit[i] == 1:
+            g[i] = at_theta[i]
 
 
 @compiled
