@@ -73,6 +73,10 @@ class ArrayModule(Composite):
     ruck_stiffness = Parameter("1", "Stiffness of the hose while it rucks, over that before.", default=1.0, above=0,
                                most=1)  # fmt: skip
     torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
+    hose_core_slip = Effect("Hose and core may part; off: one body with the mass and the stiffness of both.")
+    tension_only_core = Effect("A core that cannot push; off: a spring.")
+    line_damping = Effect("Damping of the elements; off: none.")
+    gravity = Effect("Weight of the line; off: none.")
     planar_slip = Effect("Friction against the resultant of slipping and turning; off: against each by itself.")
     meters = Effect("Scuffing length and friction work of every contact, as states.", default="off")
 
@@ -90,6 +94,7 @@ class ArrayModule(Composite):
         """Masses, elements and connectors; the contacts come when the line is laid on a route."""
         mesh = cut(p.length, p.element, p.modules, p.graded)
         n = mesh.elements
+        together = mesh.connectors if p.hose_core_slip == "on" else range(n + 1)
         children, joins = {}, []
         registration = scene.make(Registration)
         for i in range(n + 1):
@@ -97,13 +102,14 @@ class ArrayModule(Composite):
             extra = p.connector_mass if i in mesh.connectors else 0.0
             children[f"hose_node[{i}]"] = scene.make(Mass, mass=p.hose.mass * share + extra, position=x)
             children[f"core_node[{i}]"] = scene.make(Mass, mass=p.core.mass * share, position=x)
-            if i in mesh.connectors:
+            if i in together:
                 joins.append((f"hose_node[{i}].flange", f"core_node[{i}].flange"))
             else:
                 children[f"registration[{i}]"] = registration
                 joins.append((f"hose_node[{i}].flange", f"registration[{i}].hose"))
                 joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
-        for (kind, more), layer, name in ((hose_kind(p), p.hose, "hose"), ((Core, {}), p.core, "core")):
+        core = Core if p.tension_only_core == "on" else Hose
+        for (kind, more), layer, name in ((hose_kind(p), p.hose, "hose"), ((core, {}), p.core, "core")):
             made = {}
             for i, each in enumerate(map(_tidy, mesh.lengths)):
                 if each not in made:
@@ -115,9 +121,10 @@ class ArrayModule(Composite):
         if p.torsion is not None:
             more, links, twist_ends = twisting(p, scene, mesh, ("hose", "core"))
             children, joins, ends = children | more, joins + links, ends | twist_ends
-        marks = bulkheads(mesh, p.bulkhead_pitch)
+        marks = bulkheads(mesh, p.bulkhead_pitch) if p.hose_core_slip == "on" else {}
         meter = Meter if p.meters == "on" else None
-        laid = LaidLine(mesh, p, "hose_node", ("hose", "core"), "core_node", marks, meter)
+        inner = "core_node" if p.hose_core_slip == "on" else ""
+        laid = LaidLine(mesh, p, "hose_node", ("hose", "core"), inner, marks, meter)
         return Expansion(children, joins, ends, line=laid)
 
 
@@ -133,7 +140,8 @@ def hose_kind(p):
 def _element(p, layer, each):
     """Parameters of an element of a layer whose length under the starting tension is `each`."""
     free = each / (1 + p.tension / (p.hose.stiffness + p.core.stiffness))
-    damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
+    ratio = layer.damping_ratio if p.line_damping == "on" else 0.0
+    damping = 2 * ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
     return {"axial_stiffness": layer.stiffness, "length": free, "damping": damping}
 
 

@@ -59,6 +59,8 @@ class Cable(Composite):
                            default=None, above=0)  # fmt: skip
     ruck_stiffness = Parameter("1", "Stiffness while it rucks, over that before.", default=1.0, above=0, most=1)
     torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
+    line_damping = Effect("Damping of the elements; off: none.")
+    gravity = Effect("Weight of the line; off: none.")
     planar_slip = Effect("Friction against the resultant of slipping and turning; off: against each by itself.")
     meters = Effect("Scuffing length and friction work of every contact, as states.", default="off")
 
@@ -95,7 +97,8 @@ class Cable(Composite):
 
 def _element(p, scene, each):
     """An element whose length under the starting tension is `each`."""
-    damping = 2 * p.damping_ratio * math.sqrt(p.stiffness / each * p.mass * each)
+    ratio = p.damping_ratio if p.line_damping == "on" else 0.0
+    damping = 2 * ratio * math.sqrt(p.stiffness / each * p.mass * each)
     given = {"axial_stiffness": p.stiffness, "length": each / (1 + p.tension / p.stiffness), "damping": damping}
     if p.compression == "none":
         return scene.make(Core, **given)

@@ -44,6 +44,11 @@ class LaidLine:
     bulkheads: dict[int, Reach] | None = None
     meter: Any = None  # class of what counts slip and work of every contact
 
+    @property
+    def load(self) -> float:
+        """Weight per length, if the scene has any [N/m]."""
+        return float(self.values.weight) if self.values.gravity == "on" else 0.0
+
     def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
         """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""
         faults = fits(assembly, self, line, route)
@@ -86,7 +91,7 @@ class _On:
         """Loads and contact of a node with one surface; returns the name of the contact."""
         name = f"outer_{surface.name}" if surface.name else "outer"
         load, told = "", [one.name for one, _ in surface.devices]
-        pressed = surface.pressed(self.line.values.weight)
+        pressed = surface.pressed(self.line.load)
         if pressed:
             load = self.pressed_load(f"{name}_pressed[{i}]", body, reach, pressed)
         for one in told:
@@ -241,7 +246,7 @@ class _On:
 
     def weight(self, i: int, body: str, reach: Reach, bodies: list[str]) -> None:
         """Weight along the slope, divided between the layers by mass."""
-        weight = self.line.values.weight
+        weight = self.line.load
         steep = [one for one in self.route.placed if one.station.slope]
         if not weight or not steep:
             return

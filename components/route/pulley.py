@@ -1,5 +1,8 @@
 """A pulley: a wheel that turns the line through an angle and turns with it."""
 
+import math
+from typing import Any
+
 from fairlead.components.friction.curve import Curve
 from fairlead.components.rotation.inertia import Inertia
 from fairlead.components.rotation.rack import Rack
@@ -9,7 +12,7 @@ from fairlead.components.route.station import Machinery, Station
 
 from fairlead.component import Block, Choice, Parameter, Part
 
-BEARING = {
+BEARING: dict[str, Any] = {
     "friction": Part(Curve, "Friction of the bearing.", default=0.0),
     "radius": Parameter("m", "Radius of the bearing's bore.", default=0.03, above=0),
 }
@@ -49,8 +52,6 @@ class Pulley(Station):
 
     def machinery(p, scene):
         """Wheel and rim; the bearing with the load it carries, if it rubs."""
-        import math
-
         if p.turns == "locked":
             return None
         children = {"wheel": scene.make(Inertia, moment=p.moment), "rim": scene.make(Rack, radius=p.radius)}

@@ -35,8 +35,8 @@ record: {{every: 20 ms}}
 
 
 def haul(result):
-    """Mean force of the haul [N] when it runs steadily."""
-    return -result["haul.force"][result.t > 2.5].mean()
+    """Mean force of the haul [N] over time when it runs steadily."""
+    return -result["haul.force"][np.searchsorted(result.t, np.arange(2.5, 5.0, 0.02))].mean()
 
 
 def test_modules_are_joined_by_connectors_in_which_hose_and_core_are_one(simulate):
@@ -95,3 +95,33 @@ def test_a_watched_hose_tells_when_and_how_long_it_is_compressed_beyond_the_limi
     switched = [(event.t, event.zone_to) for event in result.events if event.component == "hose"]
     assert [to for _, to in switched] == ["beyond"]
     assert switched[0][0] == pytest.approx(2.0, abs=1e-6)  # 2 % strain is 160 N
+
+
+def moved(simulate, **effects):
+    """Haul and size of the compiled system with effects on or off."""
+    switches = ", ".join(f"{name}: {word}" for name, word in effects.items())
+    return simulate(array("modules: 2", friction=0.3) + f"effects: {{{switches}}}\n")
+
+
+def unknowns(scene, **effects):
+    switches = ", ".join(f"{name}: {word}" for name, word in effects.items())
+    return scene(array("modules: 2", friction=0.3) + f"effects: {{{switches}}}\n").system
+
+
+def test_hose_and_core_as_one_body_have_half_the_unknowns_and_no_inner_contacts(scene):
+    two, one = unknowns(scene), unknowns(scene, hose_core_slip="off")
+    assert one.n == two.n - 2 * (96 + 1 - 3)
+    assert not [instance for instance in one.flat.instances if ".inner" in instance.path]
+
+
+def test_below_the_threshold_of_slip_they_are_the_limit_of_two(simulate):
+    assert haul(moved(simulate, hose_core_slip="off")) == pytest.approx(haul(moved(simulate)), rel=0.005)
+
+
+def test_a_core_that_may_push_has_no_zones(scene):
+    assert not [name for name in unknowns(scene, tension_only_core="off").machine_names if ".core[" in name]
+    assert [name for name in unknowns(scene).machine_names if ".core[" in name]
+
+
+def test_in_tension_it_is_the_same_core(simulate):
+    assert haul(moved(simulate, tension_only_core="off")) == pytest.approx(haul(moved(simulate)), rel=1e-3)

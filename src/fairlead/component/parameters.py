@@ -235,8 +235,8 @@ def _contradictions(
         place = _place(raw, name, where)
         faults.append(Fault(place, f"{path}{'.' + name if name else ''}: {what.removesuffix('.')}.", way_out))
     for name, value in values.given.items():
-        several = isinstance(value, list)
-        parts = [(f"{name}[{k}]", one) for k, one in enumerate(value)] if several else [(name, value)]
+        listed = enumerate(value) if isinstance(value, list) else ()
+        parts = [(f"{name}[{k}]", one) for k, one in listed] or [(name, value)]
         for inner_path, one in parts:
             if isinstance(one, Values):
                 node = _node(raw, inner_path)
