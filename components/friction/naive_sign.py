@@ -27,6 +27,7 @@ class NaiveSign(OneFormula):
         "method naive_sign lets the sign of the slip jump inside a step, which no step size follows; use method hold, "
         "or binding where many contacts stick."
     )
+    can_hold = False
     budget = {"max_steps": 100_000}
 
     @zone("on")

@@ -23,6 +23,7 @@ class NaiveZone(Sliding):
         "method naive_zone has no zone for sticking, so at rest neither of its two is right; use method hold, or "
         "binding where many contacts stick."
     )
+    can_hold = False
     budget = {"max_steps": 100_000, "max_events": 50_000}
     zones = Zones("forward", "backward", "off")
 

@@ -43,6 +43,7 @@ class Characteristic:
     slope: float | None = None  # at zero slip [N s/m]; None: rigid, or bristles
     stiffness: float | None = None  # of bristles [N/m]
     creep: tuple[float, ...] = ()  # at LOAD_SHARES of the capacity
+    can_hold: bool = True  # false for laws that are there to be seen failing
     numbers: tuple[tuple[str, float, str], ...] = ()  # name, value, unit of what the law derives from its settings
 
     def rows(self) -> list[tuple[str, str]]:
@@ -52,6 +53,11 @@ class Characteristic:
         else:
             stiffness = "rigid" if self.slope is None else f"{self.slope:.4g} N*s/m"
         creep = ", ".join(f"{v:.3g} m/s at {share:.0%}" for v, share in zip(self.creep, LOAD_SHARES, strict=True))
+        if not self.can_hold:
+            return [
+                ("normal force", f"{self.normal:.4g} N"), ("breakaway", f"{self.breakaway:.4g} N"),
+                ("holding capacity", f"none: method {self.label} has no sticking"),
+            ]  # fmt: skip
         return [
             ("normal force", f"{self.normal:.4g} N"), ("breakaway", f"{self.breakaway:.4g} N"),
             ("holding capacity", f"{self.capacity:.4g} N"), ("stiffness", stiffness), ("creep", creep),
@@ -98,7 +104,7 @@ def _measured(
     label, rest = p.type.word, dict.fromkeys(LOAD_SHARES, 0.0)  # type: ignore[attr-defined]
     numbers = tuple(p.numbers(normal)) if hasattr(p.type, "numbers") else ()
     common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven,
-              "numbers": numbers}  # fmt: skip
+              "numbers": numbers, "can_hold": getattr(p.type, "can_hold", True)}  # fmt: skip
     if holds or p.type.declaration.states:
         ratio = getattr(p, "ratio", None)
         stiffness = None if holds or ratio is None else normal * ratio
