@@ -25,7 +25,14 @@ def fits(assembly: Any, line: Any, laid: Any, route: Any) -> list[Fault]:
         where = _where(assembly, route, one)
         name = f"{route.path}.{one.name}"
         found += [Fault(where, f"{name}: {what}.", way) for what, way in _device(one, line, laid)]
-    shortest = finest(line.mesh)
+    shortest, loops = finest(line.mesh), [one for one in placed if one.station.type.word == "Tensioner"]
+    if len(loops) > 1:
+        what = f"{route.path} has {len(loops)} tensioners; a line runs through one at most."
+        found.append(Fault(_where(assembly, route, loops[1]), what, "Leave out the others."))
+    if loops and line.values.ruck_force is not None:
+        place = f"{route.path}.{loops[0].name}"
+        what = f"{laid.path}.ruck_force: hose that is watched for rucking cannot run through {place}."
+        found.append(Fault(laid.where, what, "Leave out ruck_force, or the tensioner."))
     for before, after, gap in slits(placed, shortest):
         what = f"{route.path}.{after.name} begins {gap:.3g} m after {before.name} ends, less than an element"
         way_out = f"Let it begin at {before.end:g} m, or leave at least {shortest:.3g} m between them."

@@ -7,10 +7,13 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from fairlead.components.line.core_element import Core
 from fairlead.components.line.fits import fits
+from fairlead.components.line.hose_element import Hose
 from fairlead.components.line.lateral_load import ClampLoad, LateralLoad, PressedLoad, RoundLoad
 from fairlead.components.line.laying import Laying
 from fairlead.components.line.line_weight import LineWeight
+from fairlead.components.line.looped import LoopedCore, LoopedHose, step
 from fairlead.components.line.mesh import Mesh
 from fairlead.components.line.twist_contact import LaidOn, PlanarContact
 from fairlead.components.mechanics.rigid_link import RigidLink
@@ -59,6 +62,7 @@ class LaidLine:
             if f"{line.path}.{self.outer}[{i}]" not in add.to.prescribed:  # friction could not change a given motion
                 add.node(i)
         add.ends()
+        add.loops()
         return []
 
 
@@ -283,6 +287,19 @@ class _On:
                 wound = one.station.filled + max(one.end - p.start, 0.0)
                 drum = self.to.assembly.instances[f"{self.path}.{one.name}.layers"]
                 drum.values.given["radius"] = one.station.wound().over_angle(wound, one.station.crossover)
+
+    def loops(self) -> None:
+        """Elements that run through a tensioner take the loop into their stretch."""
+        looped = {Hose: LoopedHose, Core: LoopedCore}
+        instances, path = self.to.assembly.instances, self.to.line.path
+        for one in self.route.of_type("Tensioner"):
+            table = step(one.begin, one.station.edge or max(self.line.mesh.lengths))
+            for layer in self.line.layers:
+                for k in range(self.line.mesh.elements):
+                    old = instances[f"{path}.{layer}[{k}]"].values
+                    given = {name: old.given[name] for name in ("axial_stiffness", "length", "damping")}
+                    self.to.child(f"{layer}[{k}]", looped[old.type], **given, behind=table, ahead=table)
+                    self.to.join_to(f"{layer}[{k}].carriage", f"{self.path}.{one.name}.carriage.flange")
 
     def table(self, reach: Reach, *windows: Window) -> Any:
         """The sum of windows; the same table for all nodes of the same reach."""

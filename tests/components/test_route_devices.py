@@ -281,3 +281,41 @@ def test_meters_count_how_far_a_contact_has_slipped_and_its_work(simulate):
     contact = sum(np.trapezoid(result[f"{n}.friction"] * result[f"{n}.slip"], result.t) for n in names)
     assert work == pytest.approx(contact, rel=2e-3)
     assert slipped == pytest.approx(0.2 * 0.5 / 2 + 0.2 * 2.5, rel=0.02)
+
+
+def test_a_tensioner_keeps_half_of_its_force_in_a_line_that_runs_through_it(simulate):
+    """Nodes go through the loop; force - stiffness y = 2 T on the way, and the tension on both sides is one."""
+    dancer = "{type: Tensioner, start: 5 m, force: 300 N, stiffness: 500 N/m, damping: 500 N*s/m}"
+    result = simulate(hauled(dancer, stop=6))
+    assert pull(result, 3.0) == pytest.approx(100, rel=5e-3)
+    assert result["route.tensioner.carriage.x"][-1] == pytest.approx((300 - 2 * 100) / 500, abs=2e-3)
+    assert result.run["energy"]["closure"] < 1e-4  # at an accuracy of 1e-3
+
+
+TAKEN_UP = f"""
+components:
+  rope: {{{ROPE}, length: 10 m, element: 0.125 m, tension: 50 N}}
+  route:
+    type: Route
+    stations: [{{type: Tensioner, start: 5 m, force: 100 N, mass: 5 kg, stroke: 0.5 m, damping: 50 N*s/m}}]
+  bring: {{type: MotionSource, velocity: {{trapezoid: {{to: 0.2 m/s, rise: 1 s, stay: WAIT, fall: 1 s}}}}}}
+  wall: {{type: Ground}}
+connections:
+  - [rope.path, route.path]
+  - [bring.flange, rope.inboard]
+  - [wall.flange, rope.outboard]
+run: {{stop: 10 s}}
+record: {{every: 10 ms}}
+"""
+
+
+def test_a_tensioner_takes_up_half_of_the_line_that_is_brought(simulate):
+    result = simulate(TAKEN_UP.replace("WAIT", "2 s"))
+    assert result["route.tensioner.carriage.x"][-1] == pytest.approx(0.2 * 3 / 2, abs=2e-3)
+    assert result["rope.line[10].tension"][-1] == pytest.approx(50, rel=5e-3)
+
+
+def test_at_its_stop_a_tensioner_takes_up_no_more_and_the_line_goes_slack(simulate):
+    result = simulate(TAKEN_UP.replace("WAIT", "5 s"))
+    assert result["route.tensioner.carriage.x"].max() < 0.5 + 100 / 1e5 + 1e-3
+    assert result["rope.line[10].tension"][-1] == pytest.approx(0, abs=0.5)
