@@ -21,6 +21,10 @@ def run(
     netlist: Netlist,
     settings: Settings,
     libraries: Libraries,
+    settings_file: Annotated[
+        pathlib.Path | None,
+        typer.Option("--settings", metavar="FILE", help="Settings as cost --write leaves them; --set wins over them."),
+    ] = None,
     out: Annotated[
         pathlib.Path | None,
         typer.Option(metavar="DIR", help="Leave the results here. Default: results/NAME."),
@@ -38,8 +42,10 @@ def run(
     """Simulate a netlist. Ctrl-C ends a run early and keeps what was computed."""
     import fairlead
     from fairlead.cli.progress import progress_bar
+    from fairlead.netlist.settings_file import read_settings
 
-    model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
+    chosen = read_settings(settings_file) if settings_file is not None else {}
+    model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress:
         result = model.run(out=out, force=force, progress=progress, profile=profile)
     written = _write_extras(model, result, csv=csv, report=report)

@@ -24,19 +24,20 @@ def override(tree: Value, overrides: Mapping[str, str]) -> tuple[Value, list[Fau
     """The tree with each override in its place, and a fault for each that has none."""
     faults = []
     for name, text in overrides.items():
-        result = _one(tree, name, str(text))
+        place = getattr(text, "where", PLACE)  # of a settings file
+        result = _one(tree, name, str(text), place)
         if isinstance(result, Fault):
-            faults.append(result)
+            faults.append(replace(result, where=place))
         else:
             tree = result
     return tree, faults
 
 
-def _one(tree: Value, name: str, text: str) -> Value | Fault:
+def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
     if len(name) > LONGEST or len(text) > LONGEST:
         return Fault(PLACE, f"{shown(name)}: names and values have at most {LONGEST} characters")
     try:
-        new = Value(resolve(text.strip()), PLACE, PLACE)
+        new = Value(resolve(text.strip()), place, place)
     except ValueError as error:
         return Fault(PLACE, f"{shown(name)} = {shown(text)}: {error}")
     path = name.replace("[", ".").replace("]", "").split(".")

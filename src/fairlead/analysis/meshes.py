@@ -1,0 +1,102 @@
+"""The elements of a scene: how it is told to take smaller ones, and which outputs of two meshes are the same thing.
+
+A family of m signals at the ends of elements has k (m - 1) + 1 of them with elements k times as fine: number i becomes
+number k i. A family of m elements has k m: element i becomes the mean of elements k i ... k i + k - 1. What an
+element or a node takes in (the friction of one contact) belongs to its length and is not compared.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from fairlead.quantities import QuantityError, si
+from fairlead.results.signal import family
+
+SIZES, COUNTS = ("element",), ("elements", "blocks")  # how netlists and components call the size and the number
+PER_ELEMENT = ("friction", "normal", "drag", "dissipated", "creep_rate")  # last words of what belongs to one element
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A size or number of elements: settings that give it, and how much finer than the scene's it is."""
+
+    label: str
+    settings: Mapping[str, str]
+    finer: float
+
+
+def mesh_settings(model: Any) -> dict[str, float]:
+    """Parameters of scene or components that say how fine the elements are, with their values in SI."""
+    netlist = model.netlist
+    scene = {name: value.content for name, value in netlist.parameters.items() if name in (*SIZES, *COUNTS)}
+    if scene:
+        return _numbers(scene)
+    found = {
+        f"{entry.name}.{name}": value.content
+        for entry in netlist.components.values()
+        for name, value in entry.parameters.items() if name in (*SIZES, *COUNTS)
+    }  # fmt: skip
+    return _numbers(found)
+
+
+def meshes(model: Any, factors: Sequence[float]) -> list[Mesh]:
+    """Meshes finer by these factors (0.5 is half as fine); none for a scene without elements."""
+    now = mesh_settings(model)
+    found = []
+    for factor in factors if now else ():
+        settings = {name: _scaled(name, value, factor) for name, value in now.items()}
+        name, text = next(iter(settings.items()))
+        found.append(Mesh(f"{name.rpartition('.')[2]} {text}", settings, factor))
+    return found
+
+
+def correspondence(coarse: Sequence[str], fine: Sequence[str]) -> dict[str, list[str]]:
+    """Output of the coarse mesh -> signals of the fine one whose mean it is; what has no counterpart is left out."""
+    ours, theirs = _families(coarse), _families(fine)
+    found = {name: [name] for name in coarse if family(name)[1] is None and name in set(fine)}
+    for key, mine in ours.items():
+        other = theirs.get(key, [])
+        if key.rpartition(".")[2] in PER_ELEMENT or len(mine) < 2 or not other:
+            continue
+        first, last, start, end = mine[0], mine[-1], other[0], other[-1]
+        nodes, elements = (end - start) / (last - first), (end - start + 1) / (last - first + 1)
+        if nodes == int(nodes):
+            pairs = {i: [start + int(nodes) * (i - first)] for i in mine}
+        elif elements == int(elements):
+            k = int(elements)
+            pairs = {i: list(range(start + k * (i - first), start + k * (i - first) + k)) for i in mine}
+        else:
+            continue
+        known = set(other)
+        for i, others in pairs.items():
+            if known.issuperset(others):
+                found[key.replace("[*]", f"[{i}]")] = [key.replace("[*]", f"[{j}]") for j in others]
+    return found
+
+
+def _families(names: Sequence[str]) -> dict[str, list[int]]:
+    found = defaultdict(list)
+    for name in names:
+        key, index = family(name)
+        if index is not None and "[*]" in key:
+            found[key].append(index)
+    return {key: sorted(numbers) for key, numbers in found.items()}
+
+
+def _numbers(found: Mapping[str, Any]) -> dict[str, float]:
+    numbers = {}
+    for name, content in found.items():
+        try:
+            numbers[name] = si(content, "m" if name.rpartition(".")[2] in SIZES else "1")
+        except QuantityError:  # not a size of elements after all
+            continue
+    return numbers
+
+
+def _scaled(name: str, value: float, factor: float) -> str:
+    if name.rpartition(".")[2] in COUNTS:
+        return str(max(1, round(value * factor)))
+    return f"{value / factor:.10g}"

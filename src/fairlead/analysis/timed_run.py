@@ -1,0 +1,144 @@
+"""One run of a study: what it computed on a common grid of times, its switches, and what it cost.
+
+    timed = timed_run(load, {"run.engine": "rodas"}, names, span=(0, 8), cap=10.0)
+    timed.values                                             (GRID + 1, len(names)), in SI
+
+Set-up (reading, tracing, compiling or loading kernels) is apart from stepping. The CPU time of the stepping is its
+wall time times the share of the processor that the process had during the run, so that a busy machine does not
+make an engine look slow; of repeats the median counts.
+"""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.errors import FairleadError
+
+GRID = 1000  # intervals between the common times
+REPEATS = 5
+BRIEF = 0.2  # s; when the runs together took longer, their time is known well enough
+Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
+Members = Mapping[str, Sequence[str]]  # an output -> the signals whose mean it is, where it is of another mesh
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A run that finished, or why it did not. `values` is (GRID + 1, m), empty when it did not finish."""
+
+    status: str
+    reason: str = ""
+    cap: float = 0.0  # s of wall time that it was given
+    setup: float = 0.0  # s, wall: netlist to compiled system
+    cpu: float = 0.0  # s, stepping
+    wall: float = 0.0  # s, stepping
+    steps: int = 0
+    switches: int = 0
+    reached: float = 0.0  # s, simulated
+    creep: float | None = None  # m/s, the worst of all contacts
+    repeats: int = 1
+    values: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)), repr=False)
+    events: tuple[tuple[float, str, str, str], ...] = field(default=(), repr=False)  # t, component, from, to
+
+    @property
+    def finished(self) -> bool:
+        """True when there are values to compare."""
+        return self.status == "finished"
+
+    def plain(self) -> dict[str, Any]:
+        """All but values and events, for JSON."""
+        return {name: value for name, value in asdict(replace(self, values=np.empty(0), events=())).items()
+                if name not in ("values", "events")}  # fmt: skip
+
+
+def grid(span: tuple[float, float]) -> NDArray[np.float64]:
+    """The common times (GRID + 1,) [s] of a span."""
+    return np.linspace(span[0], span[1], GRID + 1)
+
+
+def on_grid(settings: Mapping[str, str], span: tuple[float, float]) -> dict[str, str]:
+    """The settings, with a run over the span that is recorded on the grid."""
+    every = (span[1] - span[0]) / GRID
+    return {**settings, "run.stop": repr(span[1]), "record.every": repr(every)}
+
+
+def timed_run(
+    load: Load, settings: Mapping[str, str], names: Sequence[str], span: tuple[float, float], cap: float,
+    members: Members | None = None,
+) -> Timed:  # fmt: skip
+    """Run a scene over a span with at most `cap` seconds of wall time; repeat it when it is brief.
+
+    A scene that cannot be built is a Timed with the reason. KeyboardInterrupt passes through, also when a run
+    was interrupted in its middle.
+    """
+    begun = time.perf_counter()
+    try:
+        model = load(on_grid(settings, span))
+        assert model.system is not None  # compiled here, so that it counts as set-up
+    except FairleadError as error:
+        return Timed("not started", _first_line(error), cap)
+    setup = time.perf_counter() - begun
+    first, walls, cpus = None, [], []
+    for _ in range(REPEATS):
+        result, cpu = _once(model, cap)
+        if isinstance(result, str):
+            return Timed("not started", result, cap, setup)
+        walls.append(result.run["solve_time"])
+        cpus.append(result.run["solve_time"] * cpu)
+        first = first or _summary(result, names, span, members or {})
+        if not first.finished or sum(walls) > BRIEF or (time.perf_counter() - begun) > cap:
+            break
+    assert first is not None
+    return replace(
+        first, cap=cap, setup=setup, wall=statistics.median(walls), cpu=statistics.median(cpus), repeats=len(walls)
+    )
+
+
+def _once(model: Any, cap: float) -> tuple[Any, float]:
+    """The result of one run, all of it in memory, and the share of the processor it had; or why there is none."""
+    with tempfile.TemporaryDirectory(prefix="fairlead-cost-") as folder:
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            result = model.run(out=f"{folder}/run", force=True, max_wall=cap)
+        except FairleadError as error:
+            return _first_line(error), 0.0
+        share = (time.process_time() - cpu) / max(time.perf_counter() - wall, 1e-9)
+        if result.status == "interrupted":
+            raise KeyboardInterrupt
+        result.columns()
+        assert result.t is not None
+        assert result.events is not None
+        return result, min(share, 1.0)
+
+
+def _summary(result: Any, names: Sequence[str], span: tuple[float, float], members: Members) -> Timed:
+    run = result.run
+    creep = (run.get("worst_creep") or {}).get("value")
+    reached = float(run.get("end_time") or span[0])
+    done = Timed(result.status, steps=run["steps"], switches=run["switches"], reached=reached, creep=creep)
+    if result.status != "finished":
+        return replace(done, reason=str(run.get("sentence", "")))
+    events = tuple((event.t, event.component, event.zone_from, event.zone_to) for event in result.events)
+    return replace(done, values=sampled(result, names, span, members), events=events)
+
+
+def sampled(result: Any, names: Sequence[str], span: tuple[float, float], members: Members) -> NDArray[np.float64]:
+    """The outputs (GRID + 1, m) of a result on the common times; NaN where it has no such output."""
+    t = np.clip(grid(span), result.t[0], result.t[-1])
+    values = np.full((len(t), len(names)), np.nan)
+    for column, name in enumerate(names):
+        found = [one for one in members.get(name, (name,)) if one in result]
+        if found:
+            values[:, column] = np.mean([result.at(one, t) for one in found], axis=0)
+    return values
+
+
+def _first_line(error: FairleadError) -> str:
+    return str(error).splitlines()[0]

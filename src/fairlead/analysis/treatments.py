@@ -1,0 +1,71 @@
+"""How a scene is told to treat friction otherwise: the settings that reach every contact, wherever it is written.
+
+    treatment(model, "hold")            {"friction.method": "hold", "pad.method": "hold"}
+
+A contact takes its treatment from the scene's `friction` block unless it, or the component that makes it, says one
+itself; so both are set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from fairlead.component.base import Family
+from fairlead.netlist.netlist import Value
+
+EXACT = "hold"
+"""The treatment in which a stuck contact does not move; what modelling errors are measured against."""
+
+
+def contacts(model: Any) -> list[Any]:
+    """Instances that are members of a family chosen by `method`."""
+    return [one for one in model.flat.instances if issubclass(one.type, Family) and one.type.key == "method"]
+
+
+def treatment_of(model: Any) -> str:
+    """The treatment of most contacts; "" in a scene without any."""
+    words = [one.type.word for one in contacts(model)]
+    return max(words, key=words.count, default="")
+
+
+def creep_of(model: Any) -> float | None:
+    """The smallest creep [m/s] that a contact is given; None when none has such a setting."""
+    given = [one.values.given.get("creep") for one in contacts(model)]
+    return min((creep for creep in given if creep), default=None)
+
+
+def treatment(model: Any, word: str) -> dict[str, str]:
+    """Settings that give every contact this treatment."""
+    known = {word for one in contacts(model) for word in _head(one.type).members}
+    own = (path for path, value in _settings(model, "method") if value in known)
+    return {"friction.method": word, **dict.fromkeys(own, word)}
+
+
+def creep(model: Any, value: float) -> dict[str, str]:
+    """Settings that give every contact this creep [m/s]."""
+    own = (path for path, _ in _settings(model, "creep"))
+    return {"friction.creep": f"{value:.6g}", **dict.fromkeys(own, f"{value:.6g}")}
+
+
+def _head(kind: type[Any]) -> type[Any]:
+    return next(one for one in kind.__mro__ if "members" in one.__dict__)
+
+
+def _settings(model: Any, key: str) -> Iterator[tuple[str, Any]]:
+    """Where components set `key` themselves, as paths for an override, and to what."""
+    for name, entry in model.netlist.components.items():
+        for word, value in entry.parameters.items():
+            yield from _within(f"{name}.{word}", word, value, key)
+
+
+def _within(path: str, word: str, value: Value, key: str) -> Iterator[tuple[str, Any]]:
+    if word == key and not isinstance(value.content, dict | list):
+        if value.content is not None:
+            yield path, value.content
+    elif isinstance(value.content, dict):
+        for inner, one in value.content.items():
+            yield from _within(f"{path}.{inner}", inner, one, key)
+    elif isinstance(value.content, list):
+        for number, one in enumerate(value.content):
+            yield from _within(f"{path}.{number}", "", one, key)

@@ -1,0 +1,101 @@
+"""The table of `fairlead cost`, and what is said below it."""
+
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from fairlead.analysis.choice import Choice
+    from fairlead.analysis.cost import Row, Study
+
+COLUMNS = (
+    "equations", "engine", "accuracy", "numerical", "modelling", "elements", "worst output", "at end", "at worst",
+    "switches", "late by", "CPU", "wall", "set-up",
+)  # fmt: skip
+LEFT = ("equations", "engine", "worst output")
+
+
+def print_study(study: "Study", choices: list["Choice"]) -> None:
+    """Print table, reference, remarks, choices."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False, width=None if typer.get_text_stream("stdout").isatty() else 190)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for name in COLUMNS:
+        table.add_column(name, no_wrap=True, justify="left" if name in LEFT else "right")
+    for row in ordered(study):
+        table.add_row(*_cells(study, row))
+    console.print(table)
+    for line in _below(study):
+        console.print(line, markup=False)
+    for choice in choices:
+        console.print(choice.sentence, markup=False)
+
+
+def ordered(study: "Study") -> list["Row"]:
+    """The lines as a reader looks for them: by equations, engine and accuracy, loose first."""
+    labels = list(dict.fromkeys(row.rung.equations.label for row in study.rows))
+    engines = list(dict.fromkeys(row.rung.engine for row in study.rows))
+    return sorted(
+        study.rows,
+        key=lambda row: (labels.index(row.rung.equations.label), engines.index(row.rung.engine), -row.rung.accuracy),
+    )
+
+
+def _cells(study: "Study", row: "Row") -> list[str]:
+    from fairlead.analysis.choice import percent, seconds
+    from fairlead.analysis.deviation import worst
+
+    rung = row.rung
+    head = [rung.equations.label or "as it is", rung.engine, f"{rung.accuracy:.0e}".replace("e-0", "e-")]
+    if not row.timed.finished:
+        return [*head, row.timed.status, *[""] * (len(COLUMNS) - 4)]
+    found = worst(row.numerical, statistical=study.sensitive) if row.numerical else None
+    late = row.switching.most if row.switching is not None else None
+    return [
+        *head, percent(study.size(row.numerical)),
+        "exact" if rung.equations.exact else percent(study.size(row.modelling)),
+        percent(study.size(row.discretisation)),
+        found.name if found else "", f"{found.end:.2g} {found.unit}" if found else "",
+        f"{found.worst:.2g} {found.unit}" if found else "", _switches(row), "-" if late is None else seconds(late),
+        seconds(row.timed.cpu), seconds(row.timed.wall), seconds(row.timed.setup),
+    ]  # fmt: skip
+
+
+def _switches(row: "Row") -> str:
+    if row.switching is None:
+        return str(row.timed.switches)
+    both = row.switching
+    return str(both.mine) if both.mine == both.theirs else f"{both.mine} of {both.theirs}"
+
+
+def _below(study: "Study") -> list[str]:
+    from fairlead.analysis.choice import front, knee, percent
+    from fairlead.analysis.cost import reasons
+
+    lines = []
+    if not study.whole:
+        lines.append(f"Studied is t = {study.span[0]:g} ... {study.span[1]:g} s only, to keep within the budget; "
+                     "--full or a larger --budget takes more.")  # fmt: skip
+    reference = study.reference
+    if reference is not None:
+        spread = "" if reference.spread is None else f"; they agree to {percent(reference.spread)}"
+        worst = f" (worst: {reference.spread_of})" if reference.spread_of else ""
+        lines.append(f"Errors are rms over time, relative to the range; reference: {reference.label}{spread}{worst}.")
+        if study.sensitive:
+            lines.append(
+                "Tight runs do not converge: the scene is sensitive to everything. Compared are means and standard "
+                "deviations over time."
+            )
+        elif reference.spread is not None and not reference.agrees:
+            lines.append("The references do not agree better than that; errors below it cannot be told.")
+    lines += [*study.remarks, *reasons(study)]
+    if study.left_out:
+        lines.append(f"{'Interrupted' if study.interrupted else 'Out of budget'}; not begun: {len(study.left_out)} "
+                     "runs. The same command goes on from here.")  # fmt: skip
+    best = knee(front(study))
+    if best is not None:
+        lines.append(f"Knee: {best.rung.label}.")
+    return lines
