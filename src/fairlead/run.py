@@ -155,11 +155,20 @@ def _signals(chosen: list[OutputSignal]) -> list[Signal]:
     return [Signal(signal.name, signal.unit, signal.doc) for signal in chosen]
 
 
-def _engine(settings: RunSettings) -> tuple[Literal["rodas", "stepping", "ida"], str]:
-    """The engine and why; `benchmarks/engines.py` measures what `auto` goes by."""
-    if settings.engine == "auto":
-        return "rodas", "auto: it locates every switch, and serves every law"
-    return settings.engine, "chosen by run.engine"
+MANY_CONTACTS, FINE = 200, 1e-6
+"""What `auto` goes by, measured by `benchmarks/engines.py` on the chain: at 300 contacts `stepping` takes a tenth
+of the time of `rodas` at any error from 1e-3 to 1e-6, at 30 about the same, at 10 more. Below this number rodas
+takes a second at most, and dates every switch. Laws that are not linear between switches are left to rodas."""
+
+
+def _engine(settings: RunSettings, system: System) -> tuple[Literal["rodas", "stepping", "ida"], str]:
+    """The engine and why."""
+    if settings.engine != "auto":
+        return settings.engine, "chosen by run.engine"
+    contacts = int(np.count_nonzero(system.holder >= 0))
+    if contacts >= MANY_CONTACTS and system.linear and settings.accuracy >= FINE:
+        return "stepping", f"auto: {contacts} contacts that hold exactly, laws linear between switches"
+    return "rodas", "auto: it locates every switch, and serves every law"
 
 
 def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) -> Run:
@@ -167,7 +176,7 @@ def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) ->
     types = [instance.type for instance in system.flat.instances]
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
-        engine=_engine(settings)[0],
+        engine=_engine(settings, system)[0],
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
         max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,
@@ -179,7 +188,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
     return {
         "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
         "description": netlist.description, "settings": settings.model_dump(),
-        "engine": _engine(settings)[0], "engine_reason": _engine(settings)[1],
+        "engine": _engine(settings, system)[0], "engine_reason": _engine(settings, system)[1],
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "unknowns": system.n, "machines": len(system.zones),
         "remarks": [str(remark) for remark in too_wide(system.flat)],

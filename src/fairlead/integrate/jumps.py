@@ -77,11 +77,11 @@ def jumps_at_guard(m, h, i):
     copy(kept, zones)
     old, new = reals(m.at_x, n), reals(m.at_residual, n)
     differential, weight = indices(m.at_differential, n), reals(m.at_column_scale, n)
+    found = False
     for k in range(n):
         # On a chord the row of either zone is a little off; a jump is off in the new zone and from the old one.
-        if differential[k] == 0 and min(abs(new[k]), abs(new[k] - old[k])) > weight[k]:
-            return True
-    return False
+        found = found or (differential[k] == 0 and min(abs(new[k]), abs(new[k] - old[k])) > weight[k])
+    return found
 
 
 @compiled

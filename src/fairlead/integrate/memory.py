@@ -33,7 +33,8 @@ INTEGERS = (
     "core_kind", "core_valid", "skip_meters",
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
-    "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits", "n_quadratures",
+    "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
+    "n_quadratures",
     "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
@@ -88,7 +89,8 @@ INDICES = {
     "differential": "n", "quadrature": "n",
     # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
     "controlled": "n", "holds": "n", "caught": "n", "zones_at_start": "n_zones",
-    "continuous": "n_guards", "limit_guard": "n_guards", "may_jump": "n_guards", "suspects": "n_guards", "zones_probed": "n_zones", "first_guard": "n_zones", "met": "n_zones",
+    "continuous": "n_guards", "limit_guard": "n_guards", "may_jump": "n_guards", "suspects": "n_guards",
+    "zones_probed": "n_zones", "first_guard": "n_zones", "met": "n_zones",
     "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones",
     "neighbour_starts": "n_zones_plus_1", "neighbours": "n_neighbours",
     "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_slope": "n_hold_slope",

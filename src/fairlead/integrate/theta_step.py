@@ -6,12 +6,12 @@
 
 y are the differential unknowns, a the algebraic ones: forces of contacts, means over the step. With
 theta = 1/2 this is the implicit midpoint rule (order 2). A guard reads what its law reads: slips at the end
-of the step, forces and their limits at the theta point. So a contact that holds and one that slides are the two branches of
-|force| <= limit, slip at the end = 0 or against the force: a complementarity problem. It is solved by an
-active set (active_set.py): solve with the zones frozen, switch those whose guards are violated, solve
-again. Smooth nonlinearity is taken up by the same iteration, which ends when no guard is violated and
-the residual passes. Where f is linear as long as the zones are frozen one solve is exact, and the
-residual is looked at once per factorisation.
+of the step, forces and their limits at the theta point. So a contact that holds and one that slides are the
+two branches of |force| <= limit, slip at the end = 0 or against the force: a complementarity problem. It is
+solved by an active set (active_set.py): solve with the zones frozen, switch those whose guards are violated,
+solve again. Smooth nonlinearity is taken up by the same iteration, which ends when no guard is violated and
+the residual passes. Where f is linear as long as the zones are frozen one solve is exact, and the residual
+is looked at once per factorisation.
 
 The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of
 pivots serves both engines; the row of a held contact is M/(h theta) alone.

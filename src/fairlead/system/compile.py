@@ -55,6 +55,12 @@ def compile(flat: FlatModel, accuracy: float = 1e-3) -> System:
     return system
 
 
+def _is_linear(block: Block, numbering: Numbering) -> bool:
+    """True if flows, and outputs that something reads, are linear in the unknowns as long as the zones are frozen."""
+    read = (block.sig_index != numbering.dump).any(axis=0)
+    return block.kernel.structure.linear and not any(read[k] for k in block.kernel.structure.curved)
+
+
 def untraceable(flat: FlatModel) -> list[Fault]:
     """Laws that cannot be traced, one fault a class; each names the author's file and line."""
     faults: dict[Variant, Fault] = {}
@@ -114,7 +120,7 @@ def _system(
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),
         limit_guard=limits(blocks),
-        linear=all(block.kernel.structure.linear for block in blocks),
+        linear=all(_is_linear(block, numbering) for block in blocks),
         machine_names=[path for path, _ in machines],
         guard_names=[name for name, _ in named],
         machine_zones=machine_zones(blocks, len(machines)),

@@ -138,15 +138,16 @@ class KernelText:
                 found.append(e)
         return found
 
-    def _is_linear(self) -> bool:
-        """True if no derivative reads an input, in any zone."""
-        return not any(
-            s.name in self.inputs
-            for _, pairs, values in self.kinds[:2]
+    def _curved(self, pairs: list[tuple[int, int]], values: Callable[[TracedZone], list[Any]]) -> list[int]:
+        """Places of the values with a derivative, other than that to time, that reads an input, in some zone."""
+        found = {
+            pair[0]
             for zone in self.zones
             for pair in pairs
-            for s in self._partial(values(zone), pair).free_symbols
-        )
+            if self.inputs[pair[1]] != "t"
+            and any(s.name in self.inputs for s in self._partial(values(zone), pair).free_symbols)
+        }
+        return sorted(found)
 
     def _guards_read(self) -> bool:
         """True if a guard reads what is known only after the forces."""
@@ -303,7 +304,8 @@ class KernelText:
             pairs={u: pair for u, (pair, _) in paired.items()}, senses={u: sense for u, (_, sense) in paired.items()},
             guards={name: [_describe(g, self, zone) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots, fixed_signals=self.fixed[0], fixed_flows=self.fixed[1], fixed_ledger=self.fixed[2],
-            linear=self._is_linear(), guards_read=self._guards_read(),
+            linear=not self._curved(self.d_flows, self._target_values),
+            curved=self._curved(self.d_signals, self._fit_outputs), guards_read=self._guards_read(),
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},

@@ -36,7 +36,8 @@ class Structure:
     fixed_signals: list[int]  # places in d_signals of derivatives that are one number, in all zones
     fixed_flows: list[int]
     fixed_ledger: list[int]
-    linear: bool  # no derivative depends on an input: linear as long as the zones are frozen
+    linear: bool  # no derivative of a flow depends on an input: linear as long as the zones are frozen
+    curved: list[int]  # places in outputs of those with a derivative that does
     guards_read: bool  # a guard reads an acceleration or a reaction
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 
