@@ -52,7 +52,7 @@ def class_in(file: pathlib.Path) -> str:
     return name
 
 
-@pytest.mark.parametrize("page", ["components", "netlist"])
+@pytest.mark.parametrize("page", ["components", "netlist", "routes"])
 def test_every_command_shown_ends_well(page: str, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     files(page, tmp_path)
