@@ -1,4 +1,4 @@
-"""The stepping engine on models: order, agreement with `rodas`, holding, long holds, repeatability, the choice of auto."""
+"""The stepping engine on models: order, agreement with `rodas`, holding, repeatability, the choice of auto."""
 
 import numpy as np
 import pytest
