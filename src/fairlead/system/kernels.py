@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from fairlead.component.dependencies import dependencies
@@ -38,7 +38,8 @@ class Kernel:
 @functools.cache
 def kernel(variant: Variant) -> Kernel:
     """The kernel of a class variant, from the cache or traced and compiled. Raises TraceError."""
-    native = load_or_compile(digest(dependencies(variant)), lambda: _build(variant))
+    facts = " ".join(field.name for field in fields(Structure))  # of this process, whatever the files say by now
+    native = load_or_compile(digest(dependencies(variant), facts), lambda: _build(variant))
     return Kernel(variant, Structure(**native.meta), native)
 
 
