@@ -25,9 +25,11 @@ class Pi(Component, abstract=True):
 
     reference = Input("1", "Value wanted.", signed=True)
     measured = Input("1", "Value measured.", signed=True)
+    ahead = Input("1", "What else is fed forward, such as the speed of a line that is held tight.", 0.0, signed=True)
     gain = Parameter("1", "K_p, command per error, in SI of both.", default=1.0)
     integral_time = Parameter("s", "T_i.", above=0)
     feed_forward = Parameter("1", "k_ff, command per reference.", default=0.0)
+    ahead_gain = Parameter("1", "k_a, command per `ahead`.", default=1.0)
     low = Parameter("1", "Smallest command.", default=-1.0)
     high = Parameter("1", "Largest command.", default=1.0)
     slew = Parameter("1/s", "Largest rate of the command; no limit when not given.", default=None, above=0)
@@ -47,7 +49,7 @@ class Pi(Component, abstract=True):
 
 
 class ContinuousPi(Pi):
-    """wanted = k_ff r + K_p e + I,  dI/dt = K_p/T_i e + (u - wanted)/T_t,  u follows clip(wanted) within the slew.
+    """wanted = k_ff r + k_a ahead + K_p e + I,  dI/dt = K_p/T_i e + (u - wanted)/T_t,  u = slew(clip(wanted)).
 
     The command u is a state, `smoothing` behind what is wanted.
     """
@@ -58,9 +60,9 @@ class ContinuousPi(Pi):
     zones = Zones("within", "above", "below")
 
     @zone("within", "above", "below")
-    def controlling(p, reference, measured, integral, applied, zone):
+    def controlling(p, reference, measured, ahead, integral, applied, zone):
         """What is wanted is limited; what that leaves out is taken from the integral."""
-        error, wanted = reference - measured, wanted_of(p, reference, measured, integral)
+        error, wanted = reference - measured, wanted_of(p, reference, measured, ahead, integral)
         behind = {"above": p.high, "below": p.low}.get(zone, wanted) - applied
         if p.slew is None:
             rate = behind / p.smoothing
@@ -70,33 +72,33 @@ class ContinuousPi(Pi):
         return Law(integral=gathered, applied=rate, command=applied, error=error)
 
     @guard("*", to="above", unit="1")
-    def rises_above(p, reference, measured, integral):
+    def rises_above(p, reference, measured, ahead, integral):
         """More than the largest command is wanted."""
-        return wanted_of(p, reference, measured, integral) - p.high
+        return wanted_of(p, reference, measured, ahead, integral) - p.high
 
     @guard("*", to="below", unit="1")
-    def falls_below(p, reference, measured, integral):
+    def falls_below(p, reference, measured, ahead, integral):
         """Less than the smallest is wanted."""
-        return p.low - wanted_of(p, reference, measured, integral)
+        return p.low - wanted_of(p, reference, measured, ahead, integral)
 
     @guard("above", to="within", unit="1")
-    def comes_down(p, reference, measured, integral):
+    def comes_down(p, reference, measured, ahead, integral):
         """Within the limits again."""
-        return p.high - wanted_of(p, reference, measured, integral)
+        return p.high - wanted_of(p, reference, measured, ahead, integral)
 
     @guard("below", to="within", unit="1")
-    def comes_up(p, reference, measured, integral):
+    def comes_up(p, reference, measured, ahead, integral):
         """Within the limits again."""
-        return wanted_of(p, reference, measured, integral) - p.low
+        return wanted_of(p, reference, measured, ahead, integral) - p.low
 
 
-def wanted_of(p, reference, measured, integral):
-    """k_ff r + K_p e + I."""
-    return p.feed_forward * reference + p.gain * (reference - measured) + integral
+def wanted_of(p, reference, measured, ahead, integral):
+    """The command before it is limited."""
+    return p.feed_forward * reference + p.ahead_gain * ahead + p.gain * (reference - measured) + integral
 
 
 class PiController(Pi):
-    """wanted = k_ff r + K_p e + I,  command u = slew(clip(wanted)),  I += T_s (K_p/T_i e + (u - wanted)/T_t).
+    """wanted = k_ff r + k_a ahead + K_p e + I,  u = slew(clip(wanted)),  I += T_s (K_p/T_i e + (u - wanted)/T_t).
 
     Every `period` T_s the command is computed and then held; I is that before the sample. `delay: sample` takes the
     value measured one sample earlier, as a processor does that needs its period to compute. Steady with a plant
@@ -118,10 +120,10 @@ class PiController(Pi):
         return Law(command=applied, error=used)
 
     @sampled(every="period")
-    def sample(p, reference, measured, seen, integral, applied):
+    def sample(p, reference, measured, ahead, seen, integral, applied):
         """One sample."""
-        error = reference - (seen if p.delay == "sample" else measured)
-        wanted = p.feed_forward * reference + p.gain * error + integral
+        value = seen if p.delay == "sample" else measured
+        error, wanted = reference - value, wanted_of(p, reference, value, ahead, integral)
         command = clip(wanted, p.low, p.high)
         if p.slew is not None:
             most = p.slew * p.period

@@ -190,6 +190,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "description": netlist.description, "settings": settings.model_dump(),
         "engine": _engine(settings, system)[0], "engine_reason": _engine(settings, system)[1],
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
+        "effects_in_force": system.flat.assembly.effects,
         "unknowns": system.n, "machines": len(system.zones),
         "remarks": [str(remark) for remark in too_wide(system.flat)],
     }  # fmt: skip

@@ -275,3 +275,22 @@ def test_a_tension_trim_about_a_speed_loop_settles_at_the_tension_wanted(simulat
     assert result.at("line.tension", 5.8) == pytest.approx(300, rel=3e-2)
     assert result["line.tension"][-1] == pytest.approx(300, rel=3e-2)
     assert result.run["energy"]["closure"] < 1e-4
+
+
+def test_a_sensor_lags_or_is_perfect(scene, simulate):
+    text = """
+        components:
+          value: {type: SignalSource, value: {ramp: {to: 1, over: 1 s}}}
+          sensor: {type: SignalLag, lag: 50 ms}
+        connections: [[value.signal, sensor.value]]
+        run: {stop: 0.9 s, accuracy: 1e-6}
+        record: {signals: ["*"], every: 10 ms}
+    """
+    lagging = simulate(text)
+    exact = lagging.t - 0.05 * -np.expm1(-lagging.t / 0.05)
+    np.testing.assert_allclose(lagging["sensor.signal"], exact, atol=1e-6)
+    perfect = simulate(text, **{"effects.sensor_lag": "off"})
+    np.testing.assert_allclose(perfect["sensor.signal"], perfect.t, atol=1e-12)
+    quick = simulate(text, **{"sensor.lag": "1 us"})
+    np.testing.assert_allclose(quick["sensor.signal"], perfect["sensor.signal"], atol=1e-5)
+    assert "sensor.told" not in scene(text, **{"effects.sensor_lag": "off"}).system.unknown_names

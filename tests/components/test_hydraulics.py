@@ -42,6 +42,27 @@ def test_the_drop_of_a_flow_is_the_inverse_of_the_flow_of_a_drop(flow):
     assert throttled(3e-7, drop_of(3e-7, flow, 1e5), 1e5) == pytest.approx(flow, rel=1e-12)
 
 
+def test_orifices_in_series_find_the_pressures_between_them(simulate):
+    """Nothing is stored between them, so a root of a root must be solved, from a start that is far from it."""
+    text = """
+        components:
+          high: {type: PressureSource, pressure: 180 bar}
+          one: {type: Orifice, area: 1 mm^2}
+          two: {type: Orifice, area: 1 cm^2}
+          three: {type: Orifice, area: 2 mm^2}
+          low: {type: Tank}
+        connections: [[high.port, one.a], [one.b, two.a], [two.b, three.a], [three.b, low.port]]
+        run: {stop: 1 s}
+    """
+    result = simulate(text)
+    areas = {"one": 1e-6, "two": 1e-4, "three": 2e-6}
+    flow = result["one.flow"][-1]
+    drops = {name: drop_of(0.62 * area * math.sqrt(2 / DENSITY), flow, 1e5) for name, area in areas.items()}
+    assert sum(drops.values()) == pytest.approx(179e5, rel=1e-9)
+    for name, drop in drops.items():
+        assert result[f"{name}.drop"][-1] == pytest.approx(drop, rel=1e-6)
+
+
 def test_an_orifice_between_two_pressures_turns_its_power_into_heat(simulate):
     text = """
         components:
@@ -413,3 +434,19 @@ def test_a_laminar_line_follows_hagen_and_poiseuille(simulate):
     for effects in ({}, {"line.effects.fluid_inertia": "off"}, {"line.effects.compressibility": "off"}):
         result = simulate(text, **effects)
         assert result["line.column[0].flow"][-1] == pytest.approx(expected, rel=1e-4)
+
+
+def test_oil_without_inertia_is_the_limit_of_light_oil(scene, simulate):
+    text = """
+        components:
+          high: {type: PressureSource, pressure: 10 bar}
+          line: {type: HydraulicLine, length: 4 m, diameter: 10 mm, sections: 2, fluid: {viscosity: 40e-6 m^2/s}}
+          end: {type: Volume, volume: 1 l, pressure: 1 bar}
+        connections: [[high.port, line.a], [line.b, end.port]]
+        run: {stop: 0.2 s, accuracy: 1e-6}
+        record: {signals: [end.level], every: 2 ms}
+    """
+    off = simulate(text, **{"effects.fluid_inertia": "off"})
+    light = {"line.fluid.density": "1e-3 kg/m^3", "line.fluid.viscosity": f"{40e-6 * 870 / 1e-3} m^2/s"}
+    np.testing.assert_allclose(simulate(text, **light)["end.level"], off["end.level"], rtol=1e-4)
+    assert not [n for n in scene(text, **{"effects.fluid_inertia": "off"}).system.unknown_names if "column" in n]

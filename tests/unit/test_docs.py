@@ -52,7 +52,7 @@ def class_in(file: pathlib.Path) -> str:
     return name
 
 
-@pytest.mark.parametrize("page", ["components", "netlist", "routes"])
+@pytest.mark.parametrize("page", ["components", "drives", "netlist", "routes"])
 def test_every_command_shown_ends_well(page: str, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     files(page, tmp_path)
@@ -128,7 +128,7 @@ def test_waveforms_shown_are_all_there_are_and_can_be_read(tmp_path: pathlib.Pat
         read_waveform({term: settings}, Waveform("N"), tmp_path)
 
 
-@pytest.mark.parametrize("page", ["components", "netlist", "integrator"])
+@pytest.mark.parametrize("page", ["components", "drives", "netlist", "integrator"])
 def test_files_and_types_that_a_page_names_exist(page: str) -> None:
     text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
     engine = ROOT / "src/fairlead/integrate"

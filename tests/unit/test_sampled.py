@@ -157,3 +157,12 @@ def test_a_change_of_a_sampled_law_is_seen_by_the_kernel_cache(library, simulate
     for step in (1, 2):
         path = library(COUNTER.replace("count + 1", f"count + {step}"))
         assert just_after(simulate(TWO_CLOCKS, libraries=(path,)), "slow.shown", [0.3])[0] == 2 * step
+
+
+def test_what_is_computed_at_sample_times_is_described(library):
+    from fairlead.simulate import describe_type
+
+    said = describe_type("Feedback", (library(FEEDBACK),))
+    assert "force = held" in said
+    assert "every period, from the values before it" in said
+    assert "held = -damping*flange.v - stiffness*flange.x" in said

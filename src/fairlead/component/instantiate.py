@@ -97,7 +97,11 @@ class Assembly:
 
     def __str__(self) -> str:
         joins = (f"{' -- '.join(map(str, join.ports))}    {join.where}" for join in self.joins)
-        return "\n".join([*map(str, self.instances.values()), *joins])
+        effects = (
+            f"effects of {path}: {', '.join(f'{name} {word}' for name, word in switches.items())}"
+            for path, switches in self.effects.items()
+        )
+        return "\n".join([*map(str, self.instances.values()), *joins, *effects])
 
 
 def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assembly:

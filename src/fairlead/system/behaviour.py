@@ -30,7 +30,7 @@ def behaviour(kind: type[Declared]) -> Iterator[str]:
         yield from columns(_without_repeats((name, first_line(kind.declaration.laws[name])) for name in traced.zones))
         yield from _transitions(kind, traced, writing)
     yield from heading(f"equations{_chosen(kind, traced)}")
-    said = list(_equations(traced, writing))
+    said = [*_equations(traced, writing), *_samples(kind, traced, writing)]
     yield from said or ["  none; it takes part in nothing but the graph"]
     yield from _legend(traced, "\n".join(said))
 
@@ -104,6 +104,17 @@ def _equations(traced: Traced, writing: Writing) -> Iterator[str]:
             yield f"  in zone {', '.join(names)}"
             for line in lines_of_zone:
                 yield from wrapped(f"    {line}", 8)
+
+
+def _samples(kind: type[Declared], traced: Traced, writing: Writing) -> Iterator[str]:
+    """What is computed at sample times from the values before them, and then held."""
+    has = kind.declaration
+    if has.python:
+        yield "  every period, in plain Python, and held in between: " + ", ".join(has.outputs)
+    for sample in has.samples.values():
+        yield f"  every {sample.period}, from the values before it"
+        for name, value in traced.sample.items():
+            yield from wrapped(f"    {name} = {formula(value, writing.names)}", 8)
 
 
 def _legend(traced: Traced, equations_said: str) -> Iterator[str]:

@@ -28,7 +28,7 @@ def names_of(has: Declaration) -> dict[str, str]:
             names[f"port:{port}:{kind}"] = f"{port}.{variable}"
         names[f"port:{port}:a"] = f"{port}.{domain.acceleration}"
         names[f"port:{port}:R"] = f"{port}.{domain.through[0]}"
-    return names
+    return names | {f"p:#{name}": name for name in has.discrete}
 
 
 def formula(expression: sympy.Expr, names: Names) -> str:
@@ -63,7 +63,8 @@ class _Writer:
             return f"|{self.text(e.args[0], SUM)}|", ATOM
         if e is sympy.pi:
             return "pi", ATOM
-        return f"{e.func.__name__}({', '.join(self.text(a, SUM) for a in e.args)})", ATOM
+        word = {"Max": "max", "Min": "min"}.get(e.func.__name__, e.func.__name__)
+        return f"{word}({', '.join(self.text(a, SUM) for a in e.args)})", ATOM
 
     def _number(self, e: sympy.Expr) -> str:
         return str(e) if e.is_Integer else f"{float(e):.12g}"

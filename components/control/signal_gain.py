@@ -1,0 +1,16 @@
+"""A signal times a number."""
+
+from fairlead.component import Component, Input, Law, Output, Parameter
+
+
+class SignalGain(Component):
+    """signal = gain * value + offset."""
+
+    value = Input("1", "What comes in.", signed=True)
+    gain = Parameter("1", "Factor, in SI of both.", default=1.0)
+    offset = Parameter("1", "What is added.", default=0.0)
+    signal = Output("1", "What goes out.")
+
+    def law(p, value):
+        """At once."""
+        return Law(signal=p.gain * value + p.offset)

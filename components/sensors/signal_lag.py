@@ -1,0 +1,29 @@
+"""A sensor that takes its time."""
+
+from fairlead.component import Component, Effect, Input, Law, Output, Parameter, State
+
+
+class PerfectSignal(Component):
+    """Tells what it reads."""
+
+    value = Input("1", "What is measured.", signed=True)
+    signal = Output("1", "What is told.")
+
+    def law(p, value):
+        """At once."""
+        return Law(signal=value)
+
+
+class SignalLag(Component):
+    """A sensor with a lag:  lag d(signal)/dt = value - signal."""
+
+    value = Input("1", "What is measured.", signed=True)
+    sensor_lag = Effect("The sensor takes its time.", off=PerfectSignal)
+    lag = Parameter("s", "Time constant.", above=0)
+    initial = Parameter("1", "What it tells at the start.", default=0.0)
+    told = State("1", "What is told.", start="initial", nominal=0.1)
+    signal = Output("1", "What is told.")
+
+    def law(p, value, told):
+        """First order."""
+        return Law(told=(value - told) / p.lag, signal=told)
