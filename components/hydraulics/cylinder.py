@@ -88,7 +88,7 @@ class Cylinder(Composite):
         }  # fmt: skip
         joins = []
         bodies, rods = ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"]
-        mechanics(p, scene, children, joins, bodies, rods)
+        mechanics(p, p.seal_friction, scene, children, joins, bodies, rods)
         if p.leakage == "on":
             children["leak"] = scene.make(Leak, conductance=p.internal_leakage)
             joins += [("cap.port", "leak.a"), ("rod_side.port", "leak.b")]
@@ -109,19 +109,19 @@ class SealForce(Component):
         return Law(normal=loose * p.force)
 
 
-def mechanics(p, scene, children, joins, bodies, rods, loose=""):
-    """Stops, and seals where wanted, between what moves with the barrel and what moves with the rod.
+def mechanics(size, seals, scene, children, joins, bodies, rods, loose=""):
+    """Stops, and with `seals` their friction, between what moves with the barrel and what moves with the rod.
 
-    `loose` is the output that says whether the seals have something to do.
+    `size` holds the parameters of CYLINDER; `loose` is the output that says whether seals have something to do.
     """
-    stops = {"lower": 0.0, "upper": p.stroke, "stiffness": p.stop_stiffness, "damping": p.stop_damping}
+    stops = {"lower": 0.0, "upper": size.stroke, "stiffness": size.stop_stiffness, "damping": size.stop_damping}
     children["stops"] = scene.make(EndStop, **stops)
     bodies.append("stops.a")
     rods.append("stops.b")
-    if p.seal_friction == "on":
-        children["seal"] = scene.make(Contact, curve=1.0, normal_force=p.seal_force)
+    if seals == "on":
+        children["seal"] = scene.make(Contact, curve=1.0, normal_force=size.seal_force)
         if loose:
-            children["seals"] = scene.make(SealForce, force=p.seal_force)
+            children["seals"] = scene.make(SealForce, force=size.seal_force)
             joins += [(loose, "seals.loose"), ("seals.normal", "seal.normal")]
         bodies.append("seal.a")
         rods.append("seal.b")

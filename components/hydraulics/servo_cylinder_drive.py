@@ -97,7 +97,7 @@ def throttled_expansion(p, scene, children, shown):
     children["oil"] = scene.make(ThrottledCylinder, cap_area=p.cap_area, rod_area=p.rod_area, fluid=p.fluid,
                                  bore=p.cylinder.port_diameter, **valve)  # fmt: skip
     joins = [("spool.opening", "oil.opening")]
-    moving(p, scene, children, joins, ["oil.body"], ["oil.rod"], "oil.loose")
+    mechanics(p.cylinder, p.seal_friction, scene, children, joins, ["oil.body"], ["oil.rod"], "oil.loose")
     ports = {name: f"oil.{name}" for name in ("supply", "tank", "body", "rod")}
     return Expansion(children, joins, ports, {**shown, "level_a": "oil.level_a", "level_b": "oil.level_b",
                                               "travel": "stops.travel"})  # fmt: skip
@@ -109,18 +109,7 @@ def rigid_expansion(p, scene, children, shown, ports, joins):
     children["rod_side"] = scene.make(RigidChamber, side="rod", area=p.rod_area)
     children["leak"] = scene.make(Leak, conductance=p.cylinder.internal_leakage)
     joins += [("lands.a", "cap.port", "leak.a"), ("lands.b", "rod_side.port", "leak.b")]
-    moving(p, scene, children, joins, ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"])
+    bodies, rods = ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"]
+    mechanics(p.cylinder, p.seal_friction, scene, children, joins, bodies, rods)
     return Expansion(children, joins, {**ports, "body": "cap.body", "rod": "cap.rod"}, {
         **shown, "level_a": "cap.level", "level_b": "rod_side.level", "travel": "stops.travel"})  # fmt: skip
-
-
-class _Parts:
-    """The parameters of stops and seals, as `mechanics` reads them."""
-
-    def __init__(self, p):
-        vars(self).update({name: getattr(p.cylinder, name) for name in CYLINDER}, seal_friction=p.seal_friction)
-
-
-def moving(p, scene, children, joins, bodies, rods, loose=""):
-    """Stops and seals."""
-    mechanics(_Parts(p), scene, children, joins, bodies, rods, loose)
