@@ -94,7 +94,6 @@ def test_an_effect_of_a_line_that_is_off_is_not_in_the_compiled_scene(kind, effe
     model, settings = ON_A_ROUTE[kind, effect]
     systems = {word: fairlead.load(model, set={**settings, f"effects.{effect}": word}).system for word in ("on", "off")}
     on, off = Size.of(systems["on"]), Size.of(systems["off"])
-    pairs = [(getattr(on, name), getattr(off, name)) for name in ("unknowns", "entries", "zones", "guards")]
     if effect == "planar_slip":  # one zone for both slips, or one for each, so that only the equations are simpler
         assert off.unknowns <= on.unknowns
         assert off.entries < on.entries
