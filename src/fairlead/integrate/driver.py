@@ -161,7 +161,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
         memory.array["controlled"][:] = controlled(problem)
         for name, values in {**held_entries(problem), **neighbours(problem)}.items():
             memory.point(name, values, np.int64)
-            if f"n_{name}" in LAYOUT.names:
+            if f"n_{name}" in (LAYOUT.names or ()):
                 memory.number[f"n_{name}"] = len(values)
     calls = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}
     if not calls["call_guards"] or not calls["call_switch"]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import importlib
 import importlib.resources
 from collections.abc import Callable
 from typing import Any
@@ -77,7 +78,7 @@ def compiled_sundials() -> dict[str, Callable[..., int]]:
 def _build_sundials() -> native.Build:
     import numba
 
-    from fairlead.integrate import sundials_kernels
+    sundials_kernels = importlib.import_module("fairlead.integrate.sundials_kernels")
 
     kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
     functions = {}
