@@ -1,0 +1,173 @@
+"""`fairlead cost`: what it says of a scene whose motion is known in closed form, and that its advice holds."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import fairlead
+from fairlead.analysis.choice import choose, front, knee
+from fairlead.analysis.cost import Study, cost
+from fairlead.analysis.kept_runs import KeptRuns
+from fairlead.analysis.ladder import Ladder
+from fairlead.cli import app
+from tests.reference.belt import StickSlipBelt
+
+STOP = {"run.stop": "4 s"}
+LADDER = Ladder(accuracies=(1e-2, 1e-4), engines=("rodas",), treatments=("binding",))
+
+
+def belt(more):
+    return fairlead.load("belt", set={**STOP, **more})
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("kept")
+
+
+@pytest.fixture(scope="module")
+def study(folder):
+    return cost(belt, LADDER, budget=120.0, signals=["block.x", "block.v"], kept=KeptRuns(folder), full=True)
+
+
+def test_two_methods_agree_on_the_reference(study):
+    assert study.reference is not None
+    assert study.reference.agrees
+    assert not study.sensitive
+
+
+def test_the_three_errors_are_apart(study):
+    """Tight runs of a law that creeps have no numerical error and yet a modelling error."""
+    exact = next(row for row in study.rows if row.rung.equations.exact and row.rung.accuracy == 1e-4)
+    creeping = next(row for row in study.rows if not row.rung.equations.exact and row.rung.accuracy == 1e-4)
+    assert study.size(exact.modelling) == 0
+    assert study.size(creeping.modelling) > 10 * study.size(creeping.numerical)
+    assert exact.discretisation is None  # the scene has no elements
+
+
+def test_an_error_is_what_it_says_against_the_closed_form(study):
+    """The numerical error of block.x is the distance from the closed form, up to the floor."""
+    closed = StickSlipBelt()
+    times = np.linspace(0.0, 4.0, 1001)
+    exact = np.asarray(closed.position(times))
+    for row in study.rows:
+        if row.rung.equations.exact:
+            rms = float(np.sqrt(np.mean((row.timed.values[:, study.outputs.index("block.x")] - exact) ** 2)))
+            found = next(one for one in row.numerical if one.name == "block.x")
+            assert found.rms == pytest.approx(rms, rel=0.02, abs=study.floor * found.scale)
+
+
+def test_the_advice_holds_when_it_is_followed(study, tmp_path):
+    """A run with the settings advised for 1 % is within 1 % of the closed form."""
+    choice = choose(study, 0.01)
+    assert choice.row is not None, choice.sentence
+    result = belt(choice.settings).run(out=tmp_path / "run")
+    span = np.ptp(StickSlipBelt().position(np.linspace(0.0, 4.0, 1001)))
+    rms = np.sqrt(np.mean((result["block.x"] - StickSlipBelt().position(result.t)) ** 2))
+    assert rms < 0.01 * span
+
+
+def test_nothing_is_faster_and_more_exact_than_the_front(study):
+    points = front(study)
+    assert [seconds for seconds, _, _ in points] == sorted(seconds for seconds, _, _ in points)
+    assert [size for _, size, _ in points] == sorted((size for _, size, _ in points), reverse=True)
+    assert knee(points) is None or any(row is knee(points) for _, _, row in points)
+
+
+def test_a_study_goes_on_where_it_stopped(folder, study):
+    """The second time all runs come from the folder: even no time at all is enough."""
+    again = cost(belt, LADDER, budget=1e-9, signals=["block.x", "block.v"], kept=KeptRuns(folder), full=True)
+    assert [row.rung.label for row in again.rows] == [row.rung.label for row in study.rows]
+    assert again.left_out == []
+    other = cost(belt, LADDER, budget=1e-9, signals=["block.x"], kept=KeptRuns(folder), full=True)
+    assert other.rows == []  # other outputs, other runs
+    assert other.left_out
+
+
+def test_ctrl_c_keeps_what_was_measured(monkeypatch, folder):
+    import fairlead.analysis.cost as module
+
+    def pressed(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(module, "timed_run", pressed)
+    found = cost(belt, LADDER, budget=60.0, signals=["block.v"], kept=KeptRuns(folder), full=True)
+    assert found.interrupted
+    assert found.rows == []
+
+
+CHAOS = """
+    components:
+      belt: {type: MotionSource, velocity: 0.3 m/s}
+      ground: {type: Ground}
+      shaker: {type: MotionSource, position: {sine: {amplitude: 0.5 m, frequency: 0.25 Hz}}}
+      one: {type: Mass, mass: 1 kg, position: 0.1 m, velocity: 0 m/s}
+      two: {type: Mass, mass: 1.3 kg, position: 0 m, velocity: 0 m/s}
+      spring_one: {type: Spring, stiffness: 1 N/m}
+      spring_two: {type: Spring, stiffness: 1 N/m}
+      between: {type: Spring, stiffness: 0.3 N/m}
+      pad_one: {type: Contact, normal_force: 1 N, curve: {curve: coulomb, stiction: 1.0, coulomb: 0.4}}
+      pad_two: {type: Contact, normal_force: 1.4 N, curve: {curve: coulomb, stiction: 1.0, coulomb: 0.4}}
+    connections:
+      - [shaker.flange, spring_one.a]
+      - [ground.flange, spring_two.a]
+      - [spring_one.b, one.flange, between.a, pad_one.b]
+      - [spring_two.b, two.flange, between.b, pad_two.b]
+      - [belt.flange, pad_one.a, pad_two.a]
+    friction: {method: hold}
+    run: {stop: 3000 s, accuracy: 1e-3}
+"""
+
+
+def test_a_scene_that_is_sensitive_to_everything_is_said_to_be(scene, monkeypatch):
+    """Two shaken stick-slip blocks on a belt: nearby motions part, so that only statistics can be compared."""
+    monkeypatch.setattr("fairlead.analysis.cost.engines_here", lambda: ["rodas"])  # the second method is rodas3p
+    path = scene(CHAOS).netlist.path
+    found = cost(lambda more: fairlead.load(path, set=more), Ladder((1e-2,), ("rodas",), (), (), ()), budget=60.0,
+                 signals=["one.x", "two.x"], full=True)  # fmt: skip
+    assert found.sensitive
+    row = next(row for row in found.rows if row.numerical)
+    assert all(one.relative > 0.1 for one in row.numerical)  # moment by moment it is another motion
+    assert found.size(row.numerical) < 0.1  # and yet its mean and its spread are those of the reference
+
+
+def test_the_command_writes_table_figure_and_settings_that_run_accepts(tmp_path):
+    words = ["cost", "belt", "--set", "run.stop=2 s", "--accuracy", "1e-3", "--engine", "rodas", "--friction", "hold",
+             "--output", "block.x", "--budget", "60s", "--fresh", "--out", str(tmp_path), "--target", "5%"]  # fmt: skip
+    done = CliRunner().invoke(app, [*words, "--write", str(tmp_path / "chosen.yaml")])
+    assert done.exit_code == 0, done.output
+    assert "5 %: accuracy 1e-3 with rodas" in done.output
+    assert (tmp_path / "cost.png").read_bytes().startswith(b"\x89PNG")
+    record = json.loads((tmp_path / "cost.json").read_text())
+    assert record["rows"][0]["numerical"][0]["name"] == "block.x"
+    run = ["run", "belt", "--settings", str(tmp_path / "chosen.yaml"), "--out", str(tmp_path / "run"), "--json"]
+    done = CliRunner().invoke(app, run)
+    assert done.exit_code == 0, done.output
+    told = json.loads(done.stdout)
+    assert told["settings"]["accuracy"] == 1e-3
+    assert told["settings"]["engine"] == "rodas"
+    assert told["end_time"] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--output", "block.y"], "--output block.y: the netlist records no such signal. Did you mean block.x?"),
+        (["--engine", "rodos"], "--engine rodos: there is no such engine. Did you mean rodas?"),
+        (["--accuracy", "1"], "--accuracy 1 is not between 1e-10 and 0.1"),
+        (["--budget", "0 s"], "--budget 0 s: it must be above zero"),
+        (["--budget", "3 m"], "length, not a time"),
+    ],
+)
+def test_a_wrong_option_is_told(words, told):
+    done = CliRunner().invoke(app, ["cost", "belt", *words])
+    assert done.exit_code == 2
+    assert told in " ".join(done.output.replace("│", " ").split())
+
+
+def test_without_a_reference_nothing_is_advised():
+    choice = choose(Study("empty", (0.0, 1.0), True), 0.01)
+    assert choice.settings == {}
+    assert choice.sentence == "1 %: cannot be told, there is no reference."
