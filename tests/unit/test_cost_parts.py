@@ -1,0 +1,129 @@
+"""The parts of a study of cost, by themselves: errors, meshes, kept runs, settings files."""
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.analysis.deviation import output_errors, switching
+from fairlead.analysis.kept_runs import KeptRuns, key_of
+from fairlead.analysis.meshes import correspondence, meshes
+from fairlead.analysis.timed_run import Timed
+from fairlead.errors import ModelError, UsageError
+from fairlead.netlist.settings_file import read_settings, write_settings
+
+T = np.linspace(0.0, 1.0, 1001)
+
+
+def errors(mine, theirs, name="a.x", unit="m"):
+    return output_errors([name], [unit], np.reshape(mine, (-1, 1)), np.reshape(theirs, (-1, 1)))
+
+
+def test_a_sine_out_of_phase_has_the_error_of_the_closed_form():
+    """sin(w t + p) - sin(w t) has the magnitude 2 sin(p/2), over whole cycles the rms sqrt(2) sin(p/2)."""
+    phase = 0.01
+    (found,) = errors(np.sin(2 * np.pi * T + phase), np.sin(2 * np.pi * T))
+    assert found.rms == pytest.approx(np.sqrt(2) * np.sin(phase / 2), rel=1e-3)
+    assert found.worst == pytest.approx(2 * np.sin(phase / 2), rel=1e-3)
+    assert found.end == pytest.approx(np.sin(phase), rel=1e-3)
+    assert found.relative == pytest.approx(found.rms / 2, rel=1e-3)
+    assert found.statistical < found.relative / 50  # mean and spread of the two are the same
+
+
+def test_a_constant_output_is_not_compared_and_a_flag_neither():
+    assert errors(np.ones(1001), np.ones(1001)) == []
+    assert errors(np.round(T), np.round(T), unit="1") == []
+
+
+def test_what_is_constant_in_one_of_two_is_wrong_by_all_of_its_range():
+    (found,) = errors(T, np.zeros(1001))
+    assert found.worst / found.scale == 1.0
+
+
+def test_elements_that_hardly_move_are_measured_by_their_family():
+    values = np.stack([T, 1e-9 * T], axis=1)
+    _, still = output_errors(["l.node[0].x", "l.node[1].x"], ["m", "m"], values + 1e-9, values)
+    assert still.relative == pytest.approx(1e-9, rel=1e-3)
+
+
+def test_switches_are_paired_by_component_zones_and_order():
+    mine = [(0.1, "pad", "stuck", "slip"), (0.5, "pad", "slip", "stuck"), (0.7, "pad", "stuck", "slip")]
+    theirs = [(0.11, "pad", "stuck", "slip"), (0.5, "pad", "slip", "stuck"), (0.2, "other", "a", "b")]
+    found = switching(mine, theirs)
+    assert (found.mine, found.theirs, found.paired) == (3, 3, 2)
+    assert found.worst == pytest.approx(0.01)
+
+
+def test_nodes_and_elements_of_two_meshes_are_matched():
+    """Node i is node 2 i; element i is the mean of elements 2 i and 2 i + 1; the friction of one node is nobody's."""
+    coarse = [f"l.node[{i}].x" for i in range(4)] + [f"l.rod[{i}].tension" for i in range(3)]
+    fine = [f"l.node[{i}].x" for i in range(7)] + [f"l.rod[{i}].tension" for i in range(6)]
+    alone = ["l.outer[0].friction", "l.outer[1].friction", "haul.force"]
+    found = correspondence(coarse + alone, fine + alone)
+    assert found["l.node[3].x"] == ["l.node[6].x"]
+    assert found["l.rod[2].tension"] == ["l.rod[4].tension", "l.rod[5].tension"]
+    assert found["haul.force"] == ["haul.force"]
+    assert "l.outer[0].friction" not in found
+
+
+def test_a_finer_mesh_is_one_of_smaller_elements_or_of_more_blocks():
+    (coarse, fine) = meshes(fairlead.load("capstan"), [0.5, 2])
+    assert (dict(coarse.settings), dict(fine.settings)) == ({"element": "0.25"}, {"element": "0.0625"})
+    (more,) = meshes(fairlead.load("hundred_blocks"), [2])
+    assert dict(more.settings) == {"blocks": "200"}
+    assert meshes(fairlead.load("belt"), [2]) == []
+
+
+def test_a_run_is_kept_whole_or_not_at_all(tmp_path):
+    kept = KeptRuns(tmp_path)
+    timed = Timed("finished", cpu=0.5, values=np.eye(2), events=((0.1, "pad", "stuck", "slip"),))
+    kept.put("one", timed)
+    again = kept.get("one", 1.0)
+    assert np.array_equal(again.values, timed.values)
+    assert (again.events, again.cpu) == (timed.events, 0.5)
+    (tmp_path / "one.npz").write_bytes((tmp_path / "one.npz").read_bytes()[:100])
+    assert kept.get("one", 1.0) is None
+
+
+def test_a_run_that_was_cut_off_is_made_again_when_there_is_more_time(tmp_path):
+    kept = KeptRuns(tmp_path)
+    kept.put("slow", Timed("budget", cap=2.0))
+    assert kept.get("slow", 1.0) is not None
+    assert kept.get("slow", 5.0) is None
+
+
+def test_another_netlist_setting_or_library_is_another_run(tmp_path):
+    library = tmp_path / "own.py"
+    library.write_text("a = 1")
+    keys = [key_of("d", ["a"]), key_of("e", ["a"]), key_of("d", ["b"]), key_of("d", ["a"], [str(library)])]
+    library.write_text("a = 2")
+    keys.append(key_of("d", ["a"], [str(library)]))
+    assert len(set(keys)) == 5
+    assert key_of("d", ["a"]) == keys[0]
+
+
+def test_settings_that_are_written_are_read_again(tmp_path):
+    settings = {"run.accuracy": "0.001", "run.engine": "rodas", "pad.normal_force": "12 N"}
+    file = write_settings(tmp_path / "chosen.yaml", settings, "Made by hand.\nTwice.")
+    assert read_settings(file) == settings
+    assert fairlead.load("belt", set=read_settings(file)).netlist.run.accuracy == 1e-3
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("run:\n  accuracy: 1e-3\n", r"2:3: run: a map of 1 is not a value\n    .*run.accuracy: 1e-3"),
+        ("- 1\n", "1:1: a list of 1 is not a map of settings"),
+        ("run.acuracy: 1e-3\n", r"1:\d+: .*acuracy"),
+        ("pd.normal_force: 3 N\n", r"1:\d+: pd.normal_force: there is no component or block pd\n.*Did you mean pad\?"),
+    ],
+)
+def test_a_wrong_settings_file_is_told_by_line(tmp_path, text, told):
+    file = tmp_path / "chosen.yaml"
+    file.write_text(text)
+    with pytest.raises(ModelError, match=told):
+        fairlead.load("belt", set=read_settings(file)).check()
+
+
+def test_a_settings_file_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(UsageError, match="No such file"):
+        read_settings(tmp_path / "none.yaml")
