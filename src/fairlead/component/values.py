@@ -110,8 +110,9 @@ class Variant:
 
     @property
     def label(self) -> str:
-        """Class name with its words and parts, for listings: `Contact[hold, Stribeck]`."""
-        inside = [word for _, word in self.words] + [part.label for _, part in self.parts]
+        """Class name with its words and parts, for listings: `Hold[Stribeck]`; a switch says what it is when off."""
+        words = [f"{name} off" if word == "off" else word for name, word in self.words if word != "on"]
+        inside = words + [part.label for _, part in self.parts]
         return self.type.__name__ + (f"[{', '.join(inside)}]" if inside else "")
 
 

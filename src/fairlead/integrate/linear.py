@@ -11,7 +11,7 @@ pivots does not depend on units.
 
 from __future__ import annotations
 
-from fairlead.integrate.core import factorise_core, solve_core
+from fairlead.integrate.condensed import factorise_core, solve_core
 from fairlead.integrate.foreign import compiled, indices, reals
 
 DONE, SINGULAR, INACCURATE = 0, 1, 2
