@@ -1,6 +1,6 @@
 """The published claim put to the test: binding at 60 % of the run time of a Stribeck law, naive laws far behind.
 
-    python benchmarks/published_claim.py                 ten minutes; writes the table of docs/friction.md
+    python benchmarks/published_claim.py                 quarter of an hour; writes the table of docs/friction.md
     python benchmarks/published_claim.py --scene belt    one scene, nothing is written
 
 Every law runs on the same engine (`rodas`), over the same scenes. A law with a creep is given the largest creep with
@@ -208,7 +208,7 @@ def ends(results: list[dict]) -> Iterator[str]:
     for name in LAWS:
         where = [r["scene"] for r in results if name in r["failures"]]
         if where:
-            yield f"{name} never arrives in: {'; '.join(where)}."
+            yield f"{name} arrives with none of the settings tried in: {'; '.join(where)}."
 
 
 def main() -> None:
