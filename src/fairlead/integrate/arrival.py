@@ -150,7 +150,9 @@ def finish_settling(m, starting):
         keep_differential(m, m.at_slope, m.at_u)
         speed = weighted_norm(m, m.at_u)
         keep_differential(m, m.at_curvature, m.at_u)
-        m.h_next = restart(m, speed, weighted_norm(m, m.at_u))
+        bend = weighted_norm(m, m.at_u)
+        keep_algebraic(m, m.at_curvature, m.at_u)
+        m.h_next = restart(m, speed, bend, weighted_norm(m, m.at_u))
         if starting and m.first_step > 0.0:
             m.h_next = m.first_step
         m.h_next = max(min(m.h_next, 0.1 * (m.stop - m.start)), 4.0 * smallest_step(m))
@@ -166,6 +168,14 @@ def finish_settling(m, starting):
     if starting:
         m.grid_next = 1
     m.phase = TRY
+
+
+@compiled
+def keep_algebraic(m, at_v, at_u):
+    """U = v where y_i is algebraic, else 0."""
+    v, u, differential = reals(at_v, m.n), reals(at_u, m.n), indices(m.at_differential, m.n)
+    for k in range(m.n):
+        u[k] = v[k] if differential[k] == 0 else 0.0
 
 
 @compiled

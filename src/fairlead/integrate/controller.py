@@ -88,14 +88,15 @@ def step_after_acceptance(m, h):
 
 
 @compiled
-def restart(m, slope_size, curvature_size):
-    """The first step after a switch, from the weighted norms s of y' and c of y''.
+def restart(m, slope_size, curvature_size, force_size):
+    """The first step after a switch, from the weighted norms s of y' and c of y'', and a of y' of the algebraic.
 
     s/c is the time scale T of the motion, s T its amplitude A (over the weight); a smooth motion of
     that scale has a leading error RESTART_ERROR A (h/T)^q, and h makes it one. A straight motion
-    (c = 0) takes any step. Where the last step was set by its error, and not idle, the time scale is
-    known better than two derivatives tell: the step is at most what it would have been, and at least
-    a third of that. Letting it be twice as long cost a chain of 100 blocks 0.4 rejections a switch.
+    (c = 0) takes any step. In any case s h, c h^2 and a h may come near one: where all is held, y' and y'' are
+    rounding, and their ratio a time scale of nothing. Where the last step was set by its error, and not idle,
+    the time scale is known better than two derivatives tell: the step is at most what it would have been, and at
+    least a third of that. Letting it be twice as long cost a chain of 100 blocks 0.4 rejections a switch.
     """
     if curvature_size == 0.0:
         return inf
@@ -105,6 +106,7 @@ def restart(m, slope_size, curvature_size):
         scale = slope_size / curvature_size
         amplitude = slope_size * scale
         suggested = scale * max(RESTART_ERROR * amplitude, 1e-30) ** -m.error_exponent
+    suggested = max(suggested, 0.5 / max(sqrt(curvature_size), max(slope_size, 0.03 * force_size)))
     if m.error > IDLE_ERROR and suggested < STRAIGHT * m.h_next:
         suggested = min(max(suggested, m.h_next / 3.0), m.h_next)
     return suggested

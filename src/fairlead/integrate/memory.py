@@ -23,8 +23,8 @@ INTEGERS = (
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is
-    "phase", "crossed", "companion", "judged", "landing", "jacobian_fresh", "retried", "mended", "worst", "n_fired",
-    "passes",
+    "phase", "crossed", "companion", "judged", "landing", "jacobian_fresh", "retried", "mended", "meters_off",
+    "worst", "n_fired", "passes",
     "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
     # the settlement: which violators change, since which pass, the fewest there were, passes since, whether
     # guards have inertias

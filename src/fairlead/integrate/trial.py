@@ -25,6 +25,7 @@ from fairlead.integrate.crossing import COMPANION, CROSSING, first_crossing
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import INACCURATE, SINGULAR
+from fairlead.integrate.meters import judge_meters, meter_piece
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
 from fairlead.integrate.settling import all_fall, begin_settling
@@ -54,6 +55,7 @@ def attempt(m):
         m.error = inf
     else:
         m.error = estimate_error(m)
+        judge_meters(m)
     if m.error <= 1.0 or m.adaptive == 0:
         prepare_interpolant(m)
         if m.n_algebraic > 0 and m.adaptive == 1:
@@ -167,7 +169,12 @@ def accept(m, h, crossed):
         m.landing = 0
         m.t_piece = m.t + m.theta * h
         interpolate(m, m.theta, m.at_y_piece)
+        if m.meters_off == 1:
+            meter_piece(m, h)
     else:
         m.t_piece = m.t_land if m.landing == 1 else m.t + h
         copy(reals(m.at_y_end, m.n), reals(m.at_y_piece, m.n))
+        if m.meters_off == 1:
+            m.theta = 1.0
+            meter_piece(m, h)
     m.phase = RECORD
