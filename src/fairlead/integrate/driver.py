@@ -52,13 +52,13 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     advance = loop_of(problem, run, memory)
     blocks: list[Block] = []
     take = on_block if on_block is not None else blocks.append
-    status, inside, attempts, replanned_at = Status.PAUSED, 0.0, FIRST_ATTEMPTS, -1
+    status, inside, worked, attempts, replanned_at = Status.PAUSED, 0.0, 0.0, FIRST_ATTEMPTS, -1
     try:
         while status in (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN):
-            entered = time.perf_counter()
+            entered, working = time.perf_counter(), time.process_time()
             status = Status(advance(memory.address, attempts))
             spent = time.perf_counter() - entered
-            inside += spent
+            inside, worked = inside + spent, worked + time.process_time() - working
             if status != Status.REPLAN:
                 flush(memory, run, take)
             if status == Status.REPLAN:
@@ -85,6 +85,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         counters=count(memory),
         wall=time.perf_counter() - begun,
         loop_wall=inside,
+        loop_cpu=worked,
         blocks=tuple(blocks),
     )
 

@@ -255,6 +255,8 @@ class Outcome:
     """Seconds spent, all included."""
     loop_wall: float
     """Seconds spent inside the compiled loop."""
+    loop_cpu: float
+    """The same in seconds of processor time, which other programs on the machine do not disturb."""
     blocks: tuple[Block, ...] = field(default=(), repr=False)
     """What was recorded, when no `on_block` took it."""
 
