@@ -167,7 +167,16 @@ def test_a_wrong_option_is_told(words, told):
     assert told in " ".join(done.output.replace("│", " ").split())
 
 
+def test_a_mesh_that_cannot_be_made_is_left_out_with_a_reason(monkeypatch):
+    """Elements of five times the size do not fit the bend; the study goes on."""
+    monkeypatch.setattr("fairlead.analysis.cost.engines_here", lambda: ["rodas"])
+    found = cost(lambda more: fairlead.load("capstan", set={"run.stop": "20 ms", "element": "0.25 m", **more}),
+                 Ladder((1e-2,), ("rodas",), (), (), (0.2,)), budget=600.0, full=True)  # fmt: skip
+    assert found.rows
+    assert any("element 1.25 is left out" in remark for remark in found.remarks)
+
+
 def test_without_a_reference_nothing_is_advised():
     choice = choose(Study("empty", (0.0, 1.0), True), 0.01)
     assert choice.settings == {}
-    assert choice.sentence == "1 %: cannot be told, there is no reference."
+    assert choice.sentence == "1 %: cannot be told, there are no two references."

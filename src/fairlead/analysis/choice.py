@@ -44,7 +44,8 @@ def choose(study: Study, target: float) -> Choice:
     good = sorted((row for row in known if found[id(row)] <= target), key=lambda row: row.timed.cpu)
     head = f"{100 * target:g} %: "
     if study.floor > target:
-        what = "there is no reference" if math.isinf(study.floor) else f"the references agree to {percent(study.floor)}"
+        agree = f"the references agree to {percent(study.floor)}"
+        what = "there are no two references" if math.isinf(study.floor) else agree
         return Choice(target, None, f"{head}cannot be told, {what}.")
     if good:
         near = [row for row in good if FASTER * row.timed.cpu <= good[0].timed.cpu]

@@ -14,7 +14,7 @@ The reference of the scene are two runs by independent engines, or failing that 
 spread is the floor: no error below it can be told. Runs that do not come closer when they are made tighter are
 sensitive to everything; then means and standard deviations over time are compared instead.
 
-A scene that takes more than a fiftieth of the budget is studied over the part of its time that it reaches in that.
+A scene that takes more than a twenty-fifth of the budget is studied over the part of its time that it reaches in that.
 """
 
 from __future__ import annotations
@@ -43,11 +43,12 @@ from fairlead.analysis.ladder import (
 )
 from fairlead.analysis.meshes import Mesh, correspondence
 from fairlead.analysis.timed_run import Load, Timed, timed_run
+from fairlead.errors import FairleadError
 from fairlead.results.signal import family, matching
 
 TIGHTER = 1e-2  # accuracy of references over the smallest of the ladder
 TIGHTEST = 1e-9
-PROBE = 0.02  # share of the budget in which a scene must finish, or else it is studied over less time
+PROBE = 0.04  # share of the budget in which a scene must finish, or else it is studied over less time
 LONGEST = 0.2  # share of the budget that one run may take
 SHORTEST = 0.2  # s; with less time left no run is begun
 SLOWER = 8.0  # times the scene as it is: a run that takes longer is cut off and called slow
@@ -110,10 +111,10 @@ class Study:
 
     @property
     def floor(self) -> float:
-        """The relative error below which nothing can be told; infinite without a reference."""
-        if self.reference is None:
+        """The relative error below which nothing can be told; infinite without two references."""
+        if self.reference is None or self.reference.spread is None:
             return math.inf
-        return self.reference.spread or 0.0
+        return self.reference.spread
 
     def size(self, errors: Sequence[OutputError] | None) -> float | None:
         """The error of the output known worst, as the study counts it; None when it was not measured."""
@@ -335,16 +336,15 @@ class _Maker:
 
     def _meshes(self, own: Equations) -> None:
         """The discretisation error of the scene's elements, and lines of other meshes with theirs."""
-        found = other_meshes(self.model, self.ladder)
+        possible = {mesh: has for mesh in other_meshes(self.model, self.ladder) if (has := self._names_of(mesh))}
+        found = list(possible)
         if not found or found[-1].finer <= 1:
             return
         finest, coarser = found[-1], [Mesh("", {}, 1.0), *found[:-1]]
         names: dict[str, list[str]] = {}
-        fine_names = _recorded(self.load(finest.settings))
         kept: dict[str, list[str]] = {}
         for mesh in coarser:
-            mine = self.all_names if mesh.finer == 1.0 else _recorded(self.load(mesh.settings))
-            pairs = correspondence(mine, fine_names)
+            pairs = correspondence(possible.get(mesh, self.all_names), possible[finest])
             wanted = self.names if mesh.finer == 1.0 else _thinned(list(pairs))
             kept[mesh.label] = [name for name in wanted if name in pairs]
             names |= {f"{mesh.label}|{name}": pairs[name] for name in kept[mesh.label]}
@@ -355,6 +355,14 @@ class _Maker:
             return
         for mesh in coarser:
             self._mesh(mesh, own, kept[mesh.label], list(names), reference)
+
+    def _names_of(self, mesh: Mesh) -> list[str]:
+        """What a mesh records; nothing, and a remark, where a scene cannot be divided so."""
+        try:
+            return _recorded(self.load(mesh.settings))
+        except FairleadError as error:
+            self.made.remarks.append(f"{mesh.label} is left out. {str(error).splitlines()[0]}")
+            return []
 
     def _mesh(self, mesh: Mesh, own: Equations, names: list[str], columns: list[str], reference: Timed) -> None:
         equations = own if mesh.finer == 1.0 else Equations(mesh.label, mesh.settings, "mesh", own.exact)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from fairlead.quantities import QuantityError, si
@@ -24,7 +24,7 @@ class Mesh:
     """A size or number of elements: settings that give it, and how much finer than the scene's it is."""
 
     label: str
-    settings: Mapping[str, str]
+    settings: Mapping[str, str] = field(hash=False)
     finer: float
 
 
