@@ -46,7 +46,7 @@ RELAXED = 4.0
 START_ERROR = 0.1
 """Error of the first step after a restart, in weights: it is of order one and has no estimate to correct it."""
 RETREAT = 1e-3
-"""After a failure IDA is started again once from the last good point, with this share of the step that failed."""
+"""After a failure IDA is started again from the last good point, with this share of the step that failed."""
 LEAST_STEP = 1e-14
 """First step of a restart over the span, at least."""
 
@@ -132,13 +132,14 @@ class SundialsLoop:
         return float(max(min(h, 0.1 * (self.run.stop - self.run.start), rest), LEAST_STEP * rest))
 
     def failed(self, address: int) -> Status | None:
-        """IDA made no step: start it again once from here with a short step, then give up."""
+        """IDA made no step: start it again from here with a much shorter one, until there is none."""
         number = self.memory.number
-        if not self.fresh:
-            span = self.run.stop - self.run.start
-            self.restart(max(RETREAT * self.last_step, LEAST_STEP * span, self.least_step))
+        tried = self.started_with if self.fresh else self.last_step
+        floor = max(LEAST_STEP * (self.run.stop - self.run.start), 4e-15 * abs(number["t"]), self.least_step)
+        if tried > floor:
+            self.restart(max(RETREAT * tried, floor))
             return None
-        number["h"] = max(self.started_with, 4e-15 * abs(number["t"]))
+        number["h"] = floor
         return Status(self.kernels["find_culprit"](address))
 
 
