@@ -7,7 +7,7 @@ VENV := .venv
 RUN := $(VENV)/bin/python
 MODEL ?= single_bend
 TESTS ?= tests
-BENCH ?= compare.py
+BENCH ?= everything.py
 
 .PHONY: help demo test lint types bench docs clean
 .DEFAULT_GOAL := help
@@ -30,7 +30,7 @@ lint: $(VENV)/lint.done link-tree  ## look for mistakes and style with ruff
 types: $(VENV)/lint.done link-tree  ## check types with mypy
 	MYPYPATH=typing $(RUN) -m mypy -p fairlead
 
-bench: $(VENV)/bench.done  ## error, time and counters beside scipy (minutes; all methods with BENCH="compare.py --full")
+bench: $(VENV)/bench.done  ## error, time and counters beside peers (a quarter of an hour; all with BENCH="everything.py --full")
 	$(RUN) benchmarks/$(BENCH)
 
 docs: $(VENV)/fairlead.done  ## make the pages and figures about friction again, from the classes

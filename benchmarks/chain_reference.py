@@ -1,7 +1,7 @@
 """Reference motion of the chain, by two engines that share only parameters, stored in `data/chain_<N>.npz`.
 
 Up to 200 blocks the stored positions come from event-driven integration (DOP853, every switch located,
-zones exact; `peers.event_driven`) at a tolerance where two of its runs agree far below what any benchmark
+zones exact; `peer_scipy.event_driven`) at a tolerance where two of its runs agree far below what any benchmark
 asks. The second engine is a set-valued time stepping without any events,
 
     (M + h th C + h^2 th^2 K) v1 = b - h lambda,     lambda_i in f_i Sgn(v1_i),     th = 1/2,
@@ -19,7 +19,8 @@ from pathlib import Path
 
 import numpy as np
 from peer_cases import SCALE, Chain
-from peers import DATA, Peer, error, event_driven, sample_times
+from peer_scipy import event_driven
+from peers import DATA, Peer, error, sample_times
 from scipy.linalg import solveh_banded
 
 LONG = 200  # blocks; above, events are left to the check
@@ -50,7 +51,7 @@ def set_valued(case: Chain, step: float, theta: float = 0.5) -> Peer:
         x, v, passes = x + step * ((1.0 - theta) * v + theta * after), after, passes + used
         if (i + 1) % every == 0:
             states[(i + 1) // every, 0::2], states[(i + 1) // every, 1::2] = x, v
-    return Peer(times, states, 0.0, {"steps": i + 1, "solves": passes})
+    return Peer(times, states, {"steps": i + 1, "solves": passes})
 
 
 def contacts(matrix: np.ndarray, load: np.ndarray, limit: np.ndarray, impulse: np.ndarray, v: np.ndarray) -> tuple:
@@ -119,8 +120,8 @@ def compute(blocks: int, rtol: float) -> dict:
 
 def compute_short(case: Chain, rtol: float) -> dict:
     """Event-driven with DOP853 at two tolerances, judged by the second engine."""
-    best = event_driven(case, "DOP853", rtol, wall=36_000.0, careful=True)
-    coarser = event_driven(case, "DOP853", 30.0 * rtol, wall=36_000.0, careful=True)
+    best = event_driven(case, "DOP853", rtol, limit=36_000.0, careful=True)
+    coarser = event_driven(case, "DOP853", 30.0 * rtol, limit=36_000.0, careful=True)
     positions = best.y[:, 0::2]
     statement = {
         "engine": "events, DOP853",
@@ -138,7 +139,7 @@ def compute_long(case: Chain, rtol: float) -> dict:
     runs = {h: set_valued(case, h) for h in LONG_STEPS}
     best = runs[LONG_STEPS[-1]]
     positions = best.y[:, 0::2]
-    events = event_driven(case, "LSODA", rtol, wall=36_000.0)
+    events = event_driven(case, "LSODA", rtol, limit=36_000.0)
     statement = {
         "engine": "set-valued stepping",
         "step": LONG_STEPS[-1],

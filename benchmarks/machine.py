@@ -19,7 +19,7 @@ from typing import NamedTuple
 for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(variable, "1")
 
-PACKAGES = ("fairlead", "numpy", "scipy", "numba", "networkx", "matplotlib")
+PACKAGES = ("fairlead", "numpy", "scipy", "numba", "scikit-sundae", "mujoco", "pathsim", "networkx", "matplotlib")
 
 
 class Timed(NamedTuple):

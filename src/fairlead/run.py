@@ -21,6 +21,7 @@ from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.widths import too_wide
+from fairlead.choice import choose
 from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
@@ -155,20 +156,11 @@ def _signals(chosen: list[OutputSignal]) -> list[Signal]:
     return [Signal(signal.name, signal.unit, signal.doc) for signal in chosen]
 
 
-MANY_CONTACTS, FINE = 200, 1e-6
-"""What `auto` goes by, measured by `benchmarks/engines.py` on the chain: at 300 contacts `stepping` takes a tenth
-of the time of `rodas` at any error from 1e-3 to 1e-6, at 30 about the same, at 10 more. Below this number rodas
-takes a second at most, and dates every switch. Laws that are not linear between switches are left to rodas."""
-
-
 def _engine(settings: RunSettings, system: System) -> tuple[Literal["rodas", "stepping", "ida"], str]:
     """The engine and why."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
-    contacts = int(np.count_nonzero(system.holder >= 0))
-    if contacts >= MANY_CONTACTS and system.linear and settings.accuracy >= FINE:
-        return "stepping", f"auto: {contacts} contacts that hold exactly, laws linear between switches"
-    return "rodas", "auto: it locates every switch, and serves every law"
+    return choose(int(np.count_nonzero(system.holder >= 0)), system.linear, settings.accuracy)
 
 
 def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) -> Run:

@@ -26,6 +26,7 @@ ALLOWED = {
     "integrate": {"errors", "native"},
     "results": {"errors", "quantities"},
     "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results"},
+    "choice": set(),
     "report": {"errors", "quantities", "results", "analysis"},
 }
 LAST = {"", "run", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before

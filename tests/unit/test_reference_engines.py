@@ -18,7 +18,9 @@ from convex_bend import ConvexBend
 from convex_bend import integrate as integrate_convex
 from independent_bend import integrate as integrate_scipy
 from peer_cases import Belt, Chain
-from peers import belt_positions, error, event_driven, reference_positions, sample_times
+from peer_cvode import cvode
+from peer_scipy import event_driven
+from peers import belt_positions, error, reference_positions, sample_times
 
 from tests.reference.belt import StickSlipBelt
 
@@ -98,6 +100,14 @@ def test_event_driven_integration_of_the_belt_meets_the_closed_form() -> None:
     run = event_driven(belt, "DOP853", 1e-10)
     assert error(belt, run, reference_positions(belt)) < 1e-7
     assert run.counters["switches"] == 99  # 50 breakaways and 49 captures; the run ends inside the last slip
+
+
+def test_the_root_functions_of_cvode_lead_the_short_chain_along_its_reference() -> None:
+    pytest.importorskip("sksundae.cvode", reason="needs scikit-sundae: pip install 'fairlead[ida]'")
+    chain = Chain(10)
+    run = cvode(chain, "Adams", 1e-7)
+    assert error(chain, run, reference_positions(chain)) < 1e-5
+    assert run.counters["switches"] == 116  # as often as scipy's methods switch
 
 
 def test_the_peak_of_the_smooth_belt_law_is_the_stiction_force() -> None:

@@ -129,7 +129,8 @@ class SundialsLoop:
         bend = np.where(differential, array["curvature"], 0.0) / weight
         size = float(np.sqrt(np.sum(bend * bend)))
         h = np.sqrt(2.0 * START_ERROR / size) if size > 0.0 else rest
-        return float(max(min(h, 0.1 * (self.run.stop - self.run.start), rest), LEAST_STEP * rest))
+        least = max(LEAST_STEP * (self.run.stop - self.run.start), 4e-15 * abs(number["t"]))
+        return float(min(max(min(h, 0.1 * (self.run.stop - self.run.start)), least), rest))
 
     def failed(self, address: int) -> Status | None:
         """IDA made no step: start it again from here with a much shorter one, until there is none."""
