@@ -91,4 +91,4 @@ class Sliding(Contact, abstract=True):
     def sliding(p, a, b, grip, zone):
         """The curve gives the force, against the slip."""
         slip = b.v - a.v
-        return opposing(slip, sliding_friction(p, zone, slip, grip))
+        return opposing(slip, sliding_friction(p, zone, slip, grip), creep_rate=0)

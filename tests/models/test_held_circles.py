@@ -249,3 +249,23 @@ def test_a_load_that_swings_for_an_hour_moves_nothing(simulate: Scene, engine: s
         load = 5 * np.sin(2 * np.pi * result.t / 100)
         assert result["three.friction"] == pytest.approx(2 / 3 * load, abs=5e-3)
         assert result["one.friction"] == pytest.approx(1 / 3 * load, abs=5e-3)
+
+
+def test_a_damped_node_without_mass_is_held_and_one_without_damping_is_refused_by_name(scene: Scene, simulate) -> None:
+    """wall, pad, node, damper, block: while the pad holds, the block's speed decays at the rate c/m."""
+    text = """
+    components:
+      wall: {type: Ground}
+      block: {type: Mass, mass: 2 kg, velocity: 1 m/s}
+      pad: {type: Contact, method: hold, normal_force: 10 N, curve: 0.5}
+      other: {type: Damper, damping: 3 N*s/m}
+    connections: [[wall.flange, pad.a], [pad.b, other.a], [other.b, block.flange]]
+    run: {stop: 1 s, accuracy: 1e-7, engine: rodas}
+    """
+    result = simulate(text)
+    assert not result.events
+    assert result["block.v"][-1] == pytest.approx(np.exp(-1.5), rel=1e-6)
+    assert np.abs(result["pad.slip"]).max() < 1e-12
+    with pytest.raises(ModelError, match=r"node \{other.a, pad.b\} has no mass .* while pad holds") as refused:
+        scene(text.replace("{type: Damper, damping: 3 N*s/m}", "{type: Spring, stiffness: 3 N/m}")).check()
+    assert "Add a Mass there, or a damper" in str(refused.value)

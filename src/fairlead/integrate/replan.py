@@ -14,7 +14,7 @@ from fairlead.integrate.protocol import Problem
 
 def replan(memory: Memory, problem: Problem) -> bool:
     """Give the loop fresh pivots for the matrix it could not factorise; False if that matrix is singular."""
-    plan = fresh_plan(memory, problem)
+    plan = None if memory.number["dense"] else fresh_plan(memory, problem)  # a full matrix has all pivots to choose
     if plan is None:
         return False
     for name, values in plan.arrays.items():
