@@ -81,7 +81,7 @@ class _On:
         two = bool(self.line.inner) and i not in self.line.mesh.connectors
         bulkhead = (self.line.bulkheads or {}).get(i) if two else None
         squeezed = self.clamps(i, body, reach)
-        slots = [self.contact(surface, i, body, reach, squeezed) for surface in self.route.surfaces]
+        slots = [made for surface in self.route.surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
         if bulkhead is not None:
             self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
         self.twist(i, body)
@@ -92,7 +92,7 @@ class _On:
         self.drag(i, body, reach)
 
     def contact(self, surface: Surface, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
-        """Loads and contact of a node with one surface; returns the name of the contact."""
+        """Loads and contact of a node with one surface; the name of the contact, none where nothing ever presses."""
         name = f"outer_{surface.name}" if surface.name else "outer"
         load, told = "", [one.name for one, _ in surface.devices]
         pressed = surface.pressed(self.line.load)
@@ -105,6 +105,8 @@ class _On:
             kind = RoundLoad if surface.all_round else LateralLoad
             curved, layers = surface.curved(), self.line.layers
             load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, curved, layers, load)
+        if not load:
+            return ""
         two = self.line.inner and i not in self.line.mesh.connectors
         masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
         self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)

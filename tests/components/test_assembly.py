@@ -43,7 +43,8 @@ def test_the_jacobian_equals_differences_in_random_zone_patterns(system):
         assert [(names[i], names[j], have[i, j], want[i, j]) for i, j in wrong[:5]] == []
         h = 1e-6
         slope = (called.rhs(t + h, y) - called.rhs(t - h, y)) / (2 * h)
-        assert close_by_rows(ft, slope).all()
+        rounding = np.abs(called.rhs(t, y)) * np.finfo(float).eps / h  # of the difference: some powers are 1e11 W here
+        assert (close_by_rows(ft, slope) | (np.abs(ft - slope) <= 2 * rounding)).all()
 
 
 def held_rows(system):
