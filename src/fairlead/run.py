@@ -160,7 +160,19 @@ def _engine(settings: RunSettings, system: System) -> tuple[Literal["rodas", "st
     """The engine and why."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
-    return choose(int(np.count_nonzero(system.holder >= 0)), system.linear, settings.accuracy)
+    smooth = system.linear and not _let_go_with_a_jump(system)
+    return choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
+
+
+def _let_go_with_a_jump(system: System) -> bool:
+    """True if the stiction of some contact is above its sliding friction: `stepping` is of order one there."""
+    for block in system.blocks:
+        names = block.kernel.structure.parameters
+        if block.kernel.structure.holds and "curve.rest" in names and "curve.coulomb" in names:
+            rest, coulomb = (block.parameters[:, names.index(f"curve.{name}")] for name in ("rest", "coulomb"))
+            if (rest > coulomb).any():
+                return True
+    return False
 
 
 def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) -> Run:
