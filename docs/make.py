@@ -75,6 +75,8 @@ def index(contact: Any, members: dict[str, Any], base: Any) -> Iterator[str]:
     curve: Any = contact.members["hold"].declaration.parameters["curve"].family
     yield from ("", "## Curves", "", *block(inspect.getdoc(curve) or ""), "", "| `curve` | |", "|---|---|")
     for word, member in curve.members.items():
+        if not member.__module__.startswith("fairlead."):
+            continue  # of a user's library that happens to be loaded
         yield f"| `{word}` | {cell(first_line(member))} |"
     yield ""
 
