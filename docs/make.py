@@ -32,7 +32,8 @@ FLAT = ("bristle",)  # nothing to draw over slip speed: its friction does not de
 def pages() -> dict[pathlib.Path, str]:
     """Every page and its text."""
     contact: Any = known_types()["Contact"]
-    members = {word: member for word, member in contact.members.items() if member.__module__.startswith("fairlead.")}
+    known = sorted(contact.members.items())  # by name: the order of imports differs from process to process
+    members = {word: member for word, member in known if member.__module__.startswith("fairlead.")}
     base = shared(member.declaration for member in members.values())
     found = {PAGES / f"{word}.md": "\n".join(page(word, member, base)) for word, member in members.items()}
     return {PAGES / "README.md": "\n".join(index(contact, members, base)), **found}
@@ -74,7 +75,7 @@ def index(contact: Any, members: dict[str, Any], base: Any) -> Iterator[str]:
     yield from ("", "Parameters:", "", *block("\n".join(parameter_rows(base.parameters, 0))))
     curve: Any = contact.members["hold"].declaration.parameters["curve"].family
     yield from ("", "## Curves", "", *block(inspect.getdoc(curve) or ""), "", "| `curve` | |", "|---|---|")
-    for word, member in curve.members.items():
+    for word, member in sorted(curve.members.items()):
         if not member.__module__.startswith("fairlead."):
             continue  # of a user's library that happens to be loaded
         yield f"| `{word}` | {cell(first_line(member))} |"
