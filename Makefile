@@ -8,8 +8,9 @@ RUN := $(VENV)/bin/python
 MODEL ?= single_bend
 TESTS ?= tests
 BENCH ?= everything.py
+HARD ?=
 
-.PHONY: help demo test lint types bench docs clean
+.PHONY: help demo test hard lint types bench docs clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -23,6 +24,9 @@ demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to 
 
 test: $(VENV)/test.done  ## install with what the tests need, run all tests
 	$(RUN) -m pytest $(TESTS)
+
+hard: $(VENV)/test.done  ## play all hard cases on all engines, write docs/stability.md (more with HARD="--only tether --table")
+	$(RUN) -m tests.hard $(HARD)
 
 lint: $(VENV)/lint.done link-tree  ## look for mistakes and style with ruff
 	$(RUN) -m ruff check .

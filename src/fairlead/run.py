@@ -156,8 +156,8 @@ def _signals(chosen: list[OutputSignal]) -> list[Signal]:
     return [Signal(signal.name, signal.unit, signal.doc) for signal in chosen]
 
 
-def _engine(settings: RunSettings, system: System) -> tuple[Literal["rodas", "stepping", "ida"], str]:
-    """The engine and why."""
+def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "stepping", "ida"], str]:
+    """The engine of a run and why, as run.json tells them."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
     smooth = system.linear and not _let_go_with_a_jump(system)
@@ -180,7 +180,7 @@ def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) ->
     types = [instance.type for instance in system.flat.instances]
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
-        engine=_engine(settings, system)[0],
+        engine=engine_of(settings, system)[0],
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
         max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,
@@ -192,7 +192,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
     return {
         "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
         "description": netlist.description, "settings": settings.model_dump(),
-        "engine": _engine(settings, system)[0], "engine_reason": _engine(settings, system)[1],
+        "engine": engine_of(settings, system)[0], "engine_reason": engine_of(settings, system)[1],
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
         "unknowns": system.n, "machines": len(system.zones),
