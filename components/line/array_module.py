@@ -140,9 +140,8 @@ def hose_kind(p):
 def _element(p, layer, each):
     """Parameters of an element of a layer whose length under the starting tension is `each`."""
     free = each / (1 + p.tension / (p.hose.stiffness + p.core.stiffness))
-    ratio = layer.damping_ratio if p.line_damping == "on" else 0.0
-    damping = 2 * ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
-    return {"axial_stiffness": layer.stiffness, "length": free, "damping": damping}
+    damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
+    return {"axial_stiffness": layer.stiffness, "length": free, "damping": damping, "line_damping": p.line_damping}
 
 
 def _tidy(length):

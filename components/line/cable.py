@@ -97,9 +97,9 @@ class Cable(Composite):
 
 def _element(p, scene, each):
     """An element whose length under the starting tension is `each`."""
-    ratio = p.damping_ratio if p.line_damping == "on" else 0.0
-    damping = 2 * ratio * math.sqrt(p.stiffness / each * p.mass * each)
-    given = {"axial_stiffness": p.stiffness, "length": each / (1 + p.tension / p.stiffness), "damping": damping}
+    damping = 2 * p.damping_ratio * math.sqrt(p.stiffness / each * p.mass * each)
+    given = {"axial_stiffness": p.stiffness, "length": each / (1 + p.tension / p.stiffness), "damping": damping,
+             "line_damping": p.line_damping}  # fmt: skip
     if p.compression == "none":
         return scene.make(Core, **given)
     if p.ruck_force is None:

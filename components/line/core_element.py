@@ -1,6 +1,8 @@
 """One element of core: the load-bearing rope inside, which cannot push."""
 
-from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
+from fairlead.components.line.hose_element import damped
+
+from fairlead.component import Component, Effect, Law, Output, Parameter, Translational, Zones, guard, zone
 
 PLAY = 1e-9  # strain beyond which a loose element is taut again, so that one at rest without stretch is in one zone
 
@@ -20,6 +22,7 @@ class Core(Component):
     axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)
     length = Parameter("m", "Length without tension.", above=0)
     damping = Parameter("N*s/m", "Tension per speed of separation.", default=0.0, least=0)
+    line_damping = Effect("Damping of the element; off: none.")
     tension = Output("N", "Tension, never negative.")
     slack = Output("1", "1 while slack.")
     zones = Zones("taut", "loose")
@@ -29,10 +32,9 @@ class Core(Component):
         """Carries load."""
         stretch, rate = b.x - a.x - p.length, b.v - a.v
         elastic = p.axial_stiffness / p.length * stretch
-        tension = elastic + p.damping * rate
-        return Law(
-            a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2
-        )
+        lossy = damped(p, rate)
+        tension = elastic + lossy
+        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=lossy * rate)
 
     @zone("loose")
     def loose(p, a, b):
@@ -47,10 +49,12 @@ class Core(Component):
     @guard("taut", to="loose", unit="N")
     def would_push(p, a, b):
         """Closing so fast that the damping would push."""
-        return -(p.axial_stiffness / p.length * (b.x - a.x - p.length) + p.damping * (b.v - a.v))
+        if p.line_damping == "off":
+            return None
+        return -(p.axial_stiffness / p.length * (b.x - a.x - p.length) + damped(p, b.v - a.v))
 
     @guard("loose", to="taut", unit="N")
     def tightens(p, a, b):
         """Stretched, and the tension would be positive."""
         elastic = p.axial_stiffness * ((b.x - a.x) / p.length - 1 - PLAY)
-        return elastic, elastic + p.damping * (b.v - a.v)
+        return (elastic, elastic + damped(p, b.v - a.v)) if p.line_damping == "on" else elastic

@@ -1,6 +1,6 @@
 """One element of hose: the outer layer of a line, which may be compressed."""
 
-from fairlead.component import Component, Law, Output, Parameter, Translational
+from fairlead.component import Component, Effect, Law, Output, Parameter, Translational
 
 
 class Hose(Component):
@@ -14,13 +14,18 @@ class Hose(Component):
     axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)
     length = Parameter("m", "Length without tension.", above=0)
     damping = Parameter("N*s/m", "Tension per speed of separation.", default=0.0, least=0)
+    line_damping = Effect("Damping of the element; off: none.")
     tension = Output("N", "Tension; negative when compressed.")
 
     def law(p, a, b):
         """Stiffness and damping side by side."""
         stretch, rate = b.x - a.x - p.length, b.v - a.v
         elastic = p.axial_stiffness / p.length * stretch
-        tension = elastic + p.damping * rate
-        return Law(
-            a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=p.damping * rate**2
-        )
+        lossy = damped(p, rate)
+        tension = elastic + lossy
+        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=lossy * rate)
+
+
+def damped(p, rate):
+    """What the damper of an element adds to its tension [N]; no term when damping is off."""
+    return p.damping * rate if p.line_damping == "on" else 0

@@ -63,6 +63,7 @@ class LaidLine:
                 add.node(i)
         add.ends()
         add.loops()
+        add.bare()
         return []
 
 
@@ -299,9 +300,15 @@ class _On:
             for layer in self.line.layers:
                 for k in range(self.line.mesh.elements):
                     old = instances[f"{path}.{layer}[{k}]"].values
-                    given = {name: old.given[name] for name in ("axial_stiffness", "length", "damping")}
+                    given = {name: old.given[name] for name in ("axial_stiffness", "length", "damping", "line_damping")}
                     self.to.child(f"{layer}[{k}]", looped[old.type], **given, behind=table, ahead=table)
                     self.to.join_to(f"{layer}[{k}].carriage", f"{self.path}.{one.name}.carriage.flange")
+
+    def bare(self) -> None:
+        """Standing devices that nothing presses on, as guides of a line without weight, need no ground."""
+        ground = f"{self.path}.surface"
+        if not any(ref.instance == ground for join in self.to.assembly.joins for ref in join.ports):
+            self.to.assembly.instances.pop(ground, None)
 
     def table(self, reach: Reach, *windows: Window) -> Any:
         """The sum of windows; the same table for all nodes of the same reach."""

@@ -8,7 +8,7 @@ wherever the nodes are. The forces follow from the work of the tension T:
 """
 
 from fairlead.components.line.core_element import PLAY
-from fairlead.components.line.hose_element import Hose
+from fairlead.components.line.hose_element import Hose, damped
 
 from fairlead.component import Law, Output, Table, Translational, Zones, guard, zone
 from fairlead.component.piecewise import PiecewisePolynomial, pieces
@@ -56,15 +56,17 @@ class LoopedCore(LoopedHose):
     @guard("taut", to="loose", unit="N")
     def would_push(p, a, b, carriage):
         """Closing so fast that the damping would push."""
+        if p.line_damping == "off":
+            return None
         way, rate = stretch(p, a, b, carriage)
-        return -(p.axial_stiffness / p.length * way + p.damping * rate)
+        return -(p.axial_stiffness / p.length * way + damped(p, rate))
 
     @guard("loose", to="taut", unit="N")
     def tightens(p, a, b, carriage):
         """Stretched, and the tension would be positive."""
         way, rate = stretch(p, a, b, carriage)
         elastic = p.axial_stiffness * (way / p.length - PLAY)
-        return elastic, elastic + p.damping * rate
+        return (elastic, elastic + damped(p, rate)) if p.line_damping == "on" else elastic
 
 
 def stretch(p, a, b, carriage):
@@ -78,9 +80,9 @@ def stretch(p, a, b, carriage):
 def along(p, a, b, carriage):
     """The law of an element whose stretch counts the loop."""
     way, rate = stretch(p, a, b, carriage)
-    elastic = p.axial_stiffness / p.length * way
-    tension = elastic + p.damping * rate
+    elastic, lossy = p.axial_stiffness / p.length * way, damped(p, rate)
+    tension = elastic + lossy
     grows_a, grows_b = (1 + 2 * carriage.x * table.rate(x) for table, x in ((p.behind, a.x), (p.ahead, b.x)))
     drawn = 2 * tension * (p.ahead(b.x) - p.behind(a.x))
     return Law(a=-tension * grows_a, b=tension * grows_b, carriage=drawn, tension=tension, stored=elastic * way / 2,
-               dissipated=p.damping * rate**2)  # fmt: skip
+               dissipated=lossy * rate)  # fmt: skip

@@ -1,6 +1,6 @@
 """Elements of hose that are watched for rucking: compressed beyond a limit, and softer there if wanted."""
 
-from fairlead.components.line.hose_element import Hose
+from fairlead.components.line.hose_element import Hose, damped
 
 from fairlead.component import Law, Output, Parameter, State, Zones, derived, guard, zone
 
@@ -22,10 +22,10 @@ class WatchedHose(Hose):
     def law(p, a, b, zone):
         """The same stiffness on both sides of the limit."""
         stretch, rate = b.x - a.x - p.length, b.v - a.v
-        elastic = p.axial_stiffness / p.length * stretch
-        return Law(a=-(elastic + p.damping * rate), b=elastic + p.damping * rate, tension=elastic + p.damping * rate,
-                   compressed=1 if zone == "beyond" else 0, stored=elastic * stretch / 2,
-                   dissipated=p.damping * rate**2)  # fmt: skip
+        elastic, lossy = p.axial_stiffness / p.length * stretch, damped(p, rate)
+        tension = elastic + lossy
+        return Law(a=-tension, b=+tension, tension=tension, compressed=1 if zone == "beyond" else 0,
+                   stored=elastic * stretch / 2, dissipated=lossy * rate)  # fmt: skip
 
     @guard("sound", to="beyond", unit="N")
     def gives_in(p, a, b):
@@ -65,10 +65,11 @@ class RuckingHose(Hose):
         """What is folded is no stretch; folding takes work."""
         rate, elastic = b.v - a.v, _elastic(p, a, b, folded)
         folding = (1 - p.softening) * rate if zone == "rucking" else 0
-        tension = elastic + p.damping * rate
+        lossy = damped(p, rate)
+        tension = elastic + lossy
         return Law(a=-tension, b=+tension, folded=folding, tension=tension, compressed=0 if zone == "sound" else 1,
                    stored=elastic**2 * p.length / p.axial_stiffness / 2,
-                   dissipated=p.damping * rate**2 + elastic * folding)  # fmt: skip
+                   dissipated=lossy * rate + elastic * folding)  # fmt: skip
 
     @guard("sound", to="drawn", unit="N")
     def gives_in(p, a, b, folded):

@@ -8,7 +8,7 @@ from typing import Any
 from fairlead.components.line.mesh import Mesh
 from fairlead.components.rotation.inertia import Inertia
 
-from fairlead.component import Component, Input, Law, Output, Parameter, Rotational
+from fairlead.component import Component, Effect, Input, Law, Output, Parameter, Rotational
 
 TORSION = {
     "stiffness": Parameter("N*m^2", "GJ, torque per twist per length.", above=0),
@@ -34,14 +34,16 @@ class TwistElement(Component):
     damping = Parameter("N*m*s/rad", "Torque per rate of twist.", default=0.0, least=0)
     coupling = Parameter("m", "Torque per tension.", default=0.0)
     tension = Input("N", "Tension of the element.", default=0.0)
+    line_damping = Effect("Damping of the element; off: none.")
     torque = Output("N*m", "Torque carried, positive when b is turned ahead of a.")
 
     def law(p, a, b, tension):
         """A spring, a damper, and what the lay of the rope adds."""
         twist, rate = b.angle - a.angle, b.speed - a.speed
         elastic, lay = p.stiffness / p.length * twist, p.coupling * tension
-        torque = elastic + p.damping * rate + lay
-        return Law(a=-torque, b=+torque, torque=torque, stored=elastic * twist / 2, dissipated=p.damping * rate**2,
+        lossy = p.damping * rate if p.line_damping == "on" else 0
+        torque = elastic + lossy + lay
+        return Law(a=-torque, b=+torque, torque=torque, stored=elastic * twist / 2, dissipated=lossy * rate,
                    supplied=-lay * rate)  # fmt: skip
 
 
@@ -63,7 +65,7 @@ def twisting(p: Any, scene: Any, mesh: Mesh, layers: tuple[str, ...]) -> Made:
         if each not in made:
             damping = 2 * given.damping_ratio * math.sqrt(given.stiffness * given.inertia)
             made[each] = scene.make(TwistElement, stiffness=given.stiffness, length=each, damping=damping,
-                                    coupling=given.coupling)  # fmt: skip
+                                    coupling=given.coupling, line_damping=p.line_damping)  # fmt: skip
         children[f"torsion[{k}]"] = made[each]
         joins += [(f"twist[{k}].shaft", f"torsion[{k}].a"), (f"torsion[{k}].b", f"twist[{k + 1}].shaft")]
         if given.coupling:

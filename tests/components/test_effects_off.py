@@ -82,12 +82,12 @@ def test_an_effect_that_is_off_leaves_no_unknown_zone_guard_or_term(kind, effect
     assert gone, f"nothing goes when {effect} is off"
 
 
-A_ZERO = pytest.mark.xfail(strict=True, reason="the elements keep their damper, with a rate of zero")
+
 
 
 @pytest.mark.parametrize(
     ("kind", "effect"),
-    [pytest.param(*pair, marks=A_ZERO if pair[1] == "line_damping" else ()) for pair in ON_A_ROUTE],
+    list(ON_A_ROUTE),
     ids=[f"{k}-{e}" for k, e in ON_A_ROUTE],
 )
 def test_an_effect_of_a_line_that_is_off_is_not_in_the_compiled_scene(kind, effect):

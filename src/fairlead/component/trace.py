@@ -220,6 +220,8 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     for label, mark in has.guards.items():
         if name in mark.zones:
             said = _run(mark.function, arguments)
+            if said is None:
+                continue  # an effect that is off takes the guard with it
             values = [_expression(v, mark.function) for v in (said if isinstance(said, tuple) else (said,))]
             zone.guards.append(TracedGuard(label, mark.to, mark.unit, values))
     return zone
