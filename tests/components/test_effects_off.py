@@ -82,14 +82,7 @@ def test_an_effect_that_is_off_leaves_no_unknown_zone_guard_or_term(kind, effect
     assert gone, f"nothing goes when {effect} is off"
 
 
-
-
-
-@pytest.mark.parametrize(
-    ("kind", "effect"),
-    list(ON_A_ROUTE),
-    ids=[f"{k}-{e}" for k, e in ON_A_ROUTE],
-)
+@pytest.mark.parametrize(("kind", "effect"), list(ON_A_ROUTE), ids=[f"{k}-{e}" for k, e in ON_A_ROUTE])
 def test_an_effect_of_a_line_that_is_off_is_not_in_the_compiled_scene(kind, effect):
     model, settings = ON_A_ROUTE[kind, effect]
     systems = {word: fairlead.load(model, set={**settings, f"effects.{effect}": word}).system for word in ("on", "off")}
