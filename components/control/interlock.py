@@ -17,6 +17,7 @@ from fairlead.component import (
 class Trip(Component, abstract=True):
     """Half-model: once tripped the reference is zero for the rest of the run."""
 
+    passes = "target"
     target = Input("1", "Reference that is to pass.", signed=True)
     period = Parameter("s", "Time between samples.", default=0.01, above=0)
     patience = Parameter("s", "How long the limit must be broken without a break.", default=0.0, least=0)
@@ -67,6 +68,7 @@ class ZeroTensionHold(Component):
     It passes again when the tension is back above `release`. Hauling in is never held up. Sampled.
     """
 
+    passes = "target"
     target = Input("m/s", "Speed reference, pay-out positive.", signed=True)
     tension = Input("N", "Tension watched.", signed=True)
     low = Parameter("N", "Tension below which it holds.", least=0)

@@ -23,6 +23,7 @@ from fairlead.component import (
 class Pi(Component, abstract=True):
     """Half-model: what both forms are given."""
 
+    follows = ("reference", "measured")  # steadily the second is the first
     reference = Input("1", "Value wanted.", signed=True)
     measured = Input("1", "Value measured.", signed=True)
     ahead = Input("1", "What else is fed forward, such as the speed of a line that is held tight.", 0.0, signed=True)

@@ -10,6 +10,7 @@ class TensionTrim(Component):
     tension is that of one sample ago, and the integral stops gathering beyond the limit (back-calculation).
     """
 
+    keeps = "wanted"
     line_speed = Input("m/s", "Speed of the line, positive when paid out.", signed=True)
     tension = Input("N", "Tension at the winch.")
     wanted = Parameter("N", "Tension to be kept.", least=0)
@@ -42,6 +43,7 @@ class TensionTorque(Component):
     torque = -wanted * radius + friction * tanh(speed/slow),  pay-out positive; sampled, held in between.
     """
 
+    keeps = "wanted"
     radius = Input("m", "Radius at which the line leaves the drum.", default="drum_radius")
     speed = Input("rad/s", "Speed of the shaft, positive when it pays out.", signed=True)
     wanted = Parameter("N", "Tension to be kept.", least=0)

@@ -6,6 +6,7 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 class Spring(Component):
     """Linear spring:  tension = stiffness * (b.x - a.x - free_length)."""
 
+    transmits = True  # in steady motion its ends move alike
     a = Translational("one end")
     b = Translational("the other end, at larger x when the spring is stretched")
     stiffness = Parameter("N/m", "Tension per stretch.", above=0)

@@ -6,6 +6,7 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 class SpringDamper(Component):
     """Kelvin-Voigt element:  tension = stiffness * stretch + damping * rate of stretch."""
 
+    transmits = True  # in steady motion its ends move alike
     a = Translational("one end")
     b = Translational("the other end")
     stiffness = Parameter("N/m", "Tension per stretch.", above=0)

@@ -14,6 +14,7 @@ class Mesh(Component):
     in an `EndStop`.
     """
 
+    transmits = True  # in steady motion its ends move alike
     a = Rotational("driving side")
     b = Rotational("driven side")
     stiffness = Parameter("N*m/rad", "Of the teeth in contact.", above=0)

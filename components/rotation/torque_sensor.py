@@ -10,6 +10,7 @@ class TorqueSensor(Component):
     one speed. `size` is the torque without sign, rounded at zero: sqrt(torque^2 + rounding^2) - rounding.
     """
 
+    transmits = True  # in steady motion its ends move alike
     a = Rotational("one end")
     b = Rotational("the other end")
     rounding = Parameter("N*m", "Torque below which `size` is rounded.", default=1e-3, above=0)

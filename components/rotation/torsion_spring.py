@@ -6,6 +6,7 @@ from fairlead.component import Component, Law, Output, Parameter, Rotational
 class TorsionSpring(Component):
     """A shaft that twists:  torque = stiffness * (b.angle - a.angle - rest) + damping * (b.speed - a.speed)."""
 
+    transmits = True  # in steady motion its ends move alike
     a = Rotational("one end")
     b = Rotational("the other end")
     stiffness = Parameter("N*m/rad", "Torque per twist.", above=0)

@@ -10,6 +10,7 @@ class ForceSensor(Component):
     the link holds its ends to one speed.
     """
 
+    transmits = True  # in steady motion its ends move alike
     a = Translational("one end")
     b = Translational("the other end")
     carried = Unknown("N", "Tension carried.")

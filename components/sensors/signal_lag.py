@@ -17,6 +17,7 @@ class PerfectSignal(Component):
 class SignalLag(Component):
     """A sensor with a lag:  lag d(signal)/dt = value - signal."""
 
+    passes = "value"
     value = Input("1", "What is measured.", signed=True)
     sensor_lag = Effect("The sensor takes its time.", off=PerfectSignal)
     lag = Parameter("s", "Time constant.", above=0)

@@ -17,9 +17,10 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from fairlead.errors import Fault, ModelError
+from fairlead.errors import Fault, ModelError, UsageError
 
 if TYPE_CHECKING:
+    from fairlead.analysis.statics import Statics
     from fairlead.component.instantiate import Assembly
     from fairlead.flatten.flat_model import FlatModel
     from fairlead.netlist.netlist import Netlist
@@ -127,6 +128,19 @@ class Model:
         from fairlead.flatten.drawing import draw
 
         return draw(self.flat, format)
+
+    def statics(self, speed: float | None = None) -> list[Statics]:
+        """Every line on a route, solved for steady motion and for rest; nothing is compiled.
+
+        `speed` [m/s] is taken both ways instead of what the references say. Raises UsageError without such a line.
+        """
+        from fairlead.analysis.statics import statics
+
+        found = statics(self.flat, speed)
+        if not found:
+            what = f"{self.netlist.name} has no line on a route, so there is nothing to solve."
+            raise UsageError(f"{what}\n    A line is laid on a route by joining their paths; see docs/routes.md.")
+        return found
 
     def run(self, out: str | os.PathLike[str] | None = None, force: bool = False, progress: Progress | None = None,
             profile: bool = False, **settings: Any) -> Result:  # fmt: skip

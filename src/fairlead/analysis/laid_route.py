@@ -1,0 +1,198 @@
+"""A line on its route as statics sees it: where what touches it, what moves it, and what pulls at its ends.
+
+Read from the flat model, which knows all numbers; nothing is compiled.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from fairlead.analysis.machines import Machine, machine
+from fairlead.analysis.schedule import Schedule, scaled
+from fairlead.component.instantiate import Line, PortRef
+from fairlead.component.values import Wave, steady
+from fairlead.flatten.flat_model import FlatModel
+
+AMBIENT = 293.15  # K, of a contact that nothing warms
+
+
+@dataclass(frozen=True)
+class Device:
+    """A station with a surface, a slope or a drive, between `begin` and `end` [m]; `machine` moves its surface."""
+
+    name: str
+    word: str
+    begin: float
+    end: float
+    station: Any
+    machine: Machine | None = None
+
+    @property
+    def curvature(self) -> float:
+        """1/m."""
+        radius = self.station.bend_radius()
+        return 1 / radius if radius else 0.0
+
+    def friction(self, slip: float) -> float:
+        """Coefficient at a slip speed [m/s] of the line, outboard positive; 0: that from rest."""
+        curve = self.station.rubs()
+        return 0.0 if curve is None else coefficient(curve, slip)
+
+
+def coefficient(curve: Any, slip: float) -> float:
+    """Coefficient of a curve at a slip speed and at the temperature of the surroundings; 0: that from rest."""
+    backward = slip < 0 and curve.backward is not None
+    if slip == 0:
+        plain = float(curve.breakaway())
+    else:
+        plain = float(curve.backward(-slip) if backward else curve.coefficient(abs(slip)))
+    cold = curve.softening is None
+    return plain if cold else plain * math.exp(-curve.softening * (AMBIENT - curve.reference_temperature))
+
+
+@dataclass(frozen=True)
+class LaidRoute:
+    """One line on one route. `inboard` acts at `first`, where the line leaves the drum or begins."""
+
+    flat: FlatModel
+    line: Line
+    route: Line
+    devices: tuple[Device, ...]
+    inboard: Machine
+    outboard: Machine
+    winch: Device | None
+    seas: tuple[Device, ...]
+
+    @property
+    def values(self) -> Any:
+        """Parameters of the line."""
+        return self.line.values
+
+    @property
+    def mass(self) -> float:
+        """Mass per length [kg/m]."""
+        p = self.values
+        return float(p.hose.mass + p.core.mass) if hasattr(p, "hose") else float(p.mass)
+
+    @property
+    def layers(self) -> tuple[float, float]:
+        """EA of hose and core [N]; of a line of one layer its own and none."""
+        p = self.values
+        two = self.line.line.inner and p.hose_core_slip == "on"
+        return (float(p.hose.stiffness), float(p.core.stiffness)) if two else (self.stiffness, 0.0)
+
+    @property
+    def stiffness(self) -> float:
+        """EA of all layers [N]."""
+        p = self.values
+        return float(p.hose.stiffness + p.core.stiffness) if hasattr(p, "hose") else float(p.stiffness)
+
+    @property
+    def pushes(self) -> bool:
+        """True when the line can carry compression."""
+        return hasattr(self.values, "hose") or self.values.compression == "carried"
+
+    def ends(self, way: float) -> tuple[float, float]:
+        """Where the line lies on the route [m] after `way` was paid out: from the drum, or its inboard end."""
+        begin, end = self.values.start + way, self.values.start + self.values.length + way
+        return (max(begin, self.winch.end), end) if self.winch is not None else (begin, end)
+
+    def connectors(self, way: float) -> list[float]:
+        """Places of the end connectors on the route [m]."""
+        mesh = self.line.line.mesh
+        return [self.values.start + way + mesh.places[node] for node in sorted(mesh.connectors)]
+
+    def stored(self, way: float) -> float:
+        """Line on the drum [m]."""
+        return max(self.ends(way)[0] - self.values.start - way, 0.0)
+
+    def radius(self, way: float) -> float:
+        """Radius at which the line leaves the drum [m]; 1 when there is none."""
+        if self.winch is None:
+            return 1.0
+        station = self.winch.station
+        if station.layers == "off":
+            return float(station.radius)
+        return float(station.wound().radius_at(station.filled + self.stored(way)))
+
+    def drivers(self) -> Iterator[tuple[str, Machine]]:
+        """All that takes whatever force its motion needs, inboard first."""
+        if self.inboard.drives:
+            yield self.winch.name if self.winch else "inboard end", self.inboard
+        for one in self.devices:
+            if one.machine is not None and one.machine.drives:
+                yield one.name, one.machine
+        if self.outboard.drives:
+            yield "outboard end", self.outboard
+
+    def schedule(self) -> Schedule | None:
+        """Speed of the line in time, as the outmost drive that is given one gives it."""
+        run = self.flat.assembly.netlist.run
+        for _, drive in reversed(list(self.drivers())):
+            if drive.speed is not None:
+                return Schedule(self.line_speed(drive), run.start, run.stop, drive.by)
+        return None
+
+    def line_speed(self, drive: Machine) -> Wave:
+        """The speed of the line [m/s] that a machine gives."""
+        assert drive.speed is not None
+        return scaled(drive.speed, self.radius(0.0)) if self._turns(drive) else drive.speed
+
+    def pull(self, drive: Machine, t: float, speed: float, way: float) -> float:
+        """Force outboard [N] that a machine gives to the line."""
+        lever = self.radius(way) if self._turns(drive) else 1.0
+        return drive.effort(t, speed / lever) / lever
+
+    def inertia(self, drive: Machine, way: float) -> float:
+        """Mass of a machine at the line [kg]."""
+        return drive.inertia / self.radius(way) ** 2 if self._turns(drive) else drive.inertia
+
+    def _turns(self, drive: Machine) -> bool:
+        """True for a drum with layers, whose port is its shaft."""
+        return self.winch is not None and self.winch.station.layers == "on" and drive is self.inboard
+
+    def signal(self, device: Device, t: float) -> float:
+        """Speed of the ship at a sea [m/s]."""
+        wave: Wave = device.station.speed if device.station.speed is not None else steady(0.0)
+        return wave(t)
+
+
+def laid_routes(flat: FlatModel) -> list[LaidRoute]:
+    """Every line of a model that lies on a route."""
+    lines = flat.assembly.lines
+    found = []
+    for one, two, _ in flat.assembly.routings:
+        ends = sorted((lines[path] for path in (one, two)), key=lambda end: not hasattr(end.line, "lay"))
+        if hasattr(ends[0].line, "lay") and not hasattr(ends[1].line, "lay"):
+            found.append(_laid(flat, *ends))
+    return found
+
+
+def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
+    without, placed = (line.path, route.path), route.line.placed
+    devices = []
+    for one in sorted(placed, key=lambda one: (one.begin, one.end)):
+        word = one.station.type.word
+        made = route.line.machinery.get(one.name)
+        moved = made is not None and made.surface and word != "Winch"
+        port = _port(f"{route.path}.{one.name}.{made.surface}") if moved else None
+        mover = machine(flat, port, without) if port is not None else None
+        devices.append(Device(one.name, word, one.begin, one.end, one.station, mover))
+    aliases = flat.assembly.aliases
+    winch = next((one for one in devices if one.word == "Winch" and line.values.start < one.end), None)
+    inboard = aliases[f"{line.path}.inboard"]
+    if winch is not None:
+        inboard = _port(f"{route.path}.{winch.name}.{route.line.machinery[winch.name].surface}")
+    return LaidRoute(
+        flat, line, route, tuple(one for one in devices if one.word not in ("Winch", "Sea")),
+        machine(flat, inboard, without), machine(flat, aliases[f"{line.path}.outboard"], without), winch,
+        tuple(one for one in devices if one.word == "Sea"),
+    )  # fmt: skip
+
+
+def _port(path: str) -> PortRef:
+    instance, _, port = path.rpartition(".")
+    return PortRef(instance, port)

@@ -1,0 +1,86 @@
+"""The route cut into pieces on which nothing changes, for one state of the line; and what pulls at its end."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+from fairlead.analysis.laid_route import Device, LaidRoute
+from fairlead.analysis.sliding import Piece
+
+Laid = tuple[Device | None, Piece, float]
+"""A device (None between devices), its piece of line, and d mu: friction with the sign of the sliding."""
+
+
+def pieces(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> Iterator[Laid]:
+    """From the drum, or the inboard end of the line, to its outboard end; `speed` 0 gives the friction from rest."""
+    first, last = route.ends(way)
+    inertia = route.mass * acceleration
+    borders = {first, last}
+    for one in (*route.devices, *route.seas):
+        borders |= {place for place in (one.begin, one.end) if first < place < last}
+    for begin, end in itertools.pairwise(sorted(borders)):
+        middle = (begin + end) / 2
+        device = next((one for one in route.devices if one.begin < middle < one.end), None)
+        flow = sum(drag(route, sea, t, speed) for sea in route.seas if sea.begin < middle)
+        load = flow - inertia
+        if device is None:
+            yield None, Piece(begin, end, load=load), 0.0
+            continue
+        p, weight = device.station, route.line.line.load
+        pressed = p.squeeze() + (weight * math.cos(p.slope) if p.bears_weight() else 0.0)
+        if device.word == "Deployer":
+            pressed += 2 * p.clamp(t)
+        load += weight * math.sin(p.slope)
+        piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round())
+        slid = 0.0 if device.machine is not None else device.friction(speed) * _grip(route, device, piece)
+        yield device, piece, math.copysign(slid, speed)
+
+
+def _grip(route: LaidRoute, device: Device, piece: Piece) -> float:
+    """Factor of the friction of a curve that depends on the load, which is that of one element of the mesh."""
+    curve = device.station.rubs()
+    if curve is None or curve.load_exponent is None or not (piece.pressed or piece.curvature):
+        return 1.0
+    element = max(route.line.line.mesh.lengths)
+    load = (piece.pressed + abs(float(route.values.tension)) * piece.curvature) * element
+    return float((load / curve.load_reference) ** (curve.load_exponent - 1)) if load > 0 else 1.0
+
+
+def drag(route: LaidRoute, sea: Device, t: float, speed: float) -> float:
+    """Drag per length in a sea whose drag is distributed [N/m], positive outboard."""
+    if sea.station.form != "distributed":
+        return 0.0
+    flow = route.signal(sea, t) - speed
+    return float(sea.station.per_length(route.values.diameter) * abs(flow) * flow)
+
+
+def tail(route: LaidRoute, t: float, speed: float, way: float) -> float:
+    """Tension at the outboard end [N]: what pulls there, tail and drogue, and drag that is lumped there."""
+    total = route.pull(route.outboard, t, speed, way)
+    for sea in route.seas:
+        s, flow = sea.station, route.signal(sea, t) - speed
+        area = 0.5 * s.density * s.drogue
+        if s.form == "lumped":
+            area += s.per_length(route.values.diameter) * (s.beyond + way)
+        total += float(s.tail) + area * abs(flow) * flow
+    return total
+
+
+def bearing(device: Device, tension: float) -> float:
+    """What the bearing of a wheel takes of the tension [N]: torque mu r Q over the radius, Q = 2 T sin(angle/2).
+
+    T is the mean of both sides, which differ by just that much: T = tension + half of it at the slack side.
+    """
+    p = device.station
+    if device.word != "Pulley" or p.bearing is None:
+        return 0.0
+    lever = p.bearing.radius / p.radius
+    share = coefficient_of(p) * lever * 2 * math.sin(min(p.angle, math.pi) / 2)
+    return abs(tension) * share / (1 - share / 2) if share < 2 else math.inf
+
+
+def coefficient_of(station: object) -> float:
+    """Coefficient of a bearing at low speed."""
+    return float(station.bearing.friction.breakaway())  # type: ignore[attr-defined]

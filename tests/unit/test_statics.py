@@ -1,0 +1,272 @@
+"""Statics of a line on its route, against closed forms worked out here by hand (physics sections 4, 7b and 8)."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import fairlead
+from fairlead.analysis.shares import shares
+from fairlead.cli import app
+from fairlead.errors import UsageError
+
+ROPE = "{type: Cable, mass: 1 kg/m, stiffness: 200 kN, length: 30 m, element: 0.25 m, start: 0 m, tension: 100 N%s}"
+HAND, LOAD = "{type: MotionSource, velocity: %s}", "{type: ForceSource, force: 100 N}"
+
+
+def scene_of(*stations, speed="-0.2 m/s", rope=", weight: 20 N/m", more=""):
+    listed = "\n".join(f"      - {station}" for station in stations)
+    return f"""
+components:
+  rope: {ROPE % rope}
+  route:
+    type: Route
+    stations:
+{listed}
+  haul: {HAND % speed}
+  load: {LOAD}
+connections:
+  - [rope.path, route.path]
+  - [haul.flange, rope.inboard]
+  - [load.flange, rope.outboard]
+run: {{stop: 4 s}}
+{more}"""
+
+
+def one(model, speed=None):
+    (found,) = model.statics(speed)
+    return found
+
+
+def passage(state, name):
+    (found,) = [each for each in state.passages if each.name == name]
+    return found
+
+
+def share_of(state, name):
+    return next(share for share, each in zip(shares(state).shares, state.passages, strict=True) if each.name == name)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.2, 0.35, 0.6])
+def test_the_guidance_route_is_a_product_of_capstans_both_ways(mu):
+    found = one(fairlead.load("guidance_route", set={"mu": str(mu)}))
+    assert [state.speed for state in found.moving] == [0.5, -0.5]
+    for state in found.moving:
+        way = math.copysign(1, state.speed)
+        length = 12 + 12.25 - 10  # m: the line ends at 12 m; belts run 0.25 m in the first second, 0.5 m/s for 24 s
+        sea = 150 + length * 0.5 * 1025 * 0.003 * math.pi * 0.085 * (4 - state.speed) ** 2
+        before, after = 200 * math.exp(way * mu * math.pi / 2), sea * math.exp(-way * mu * math.pi / 3)
+        places = [state.tension(place) for place in (1.0, 4.2, 7.2, 9.7)]
+        np.testing.assert_allclose(places, [200, before, after, sea], rtol=1e-9)
+        (deployer,) = [drive for drive in state.drives if drive.name == "deployer"]
+        assert deployer.force == pytest.approx(before - after)
+        assert deployer.capacity == pytest.approx(2 * 0.6 * 1500 * 1.5)
+        assert deployer.power == pytest.approx((before - after) * state.speed)
+
+
+def test_side_wall_load_is_the_tension_over_the_radius_where_it_is_greatest(scene):
+    found = one(scene(scene_of("{type: Bend, start: 3 m, angle: 90 deg, radius: 2 m, friction: 0.3}")))
+    (state,) = found.moving
+    assert passage(state, "bend").side_wall == pytest.approx(100 * math.exp(0.3 * math.pi / 2) / 2)
+
+
+def test_a_guide_and_a_slope_add_the_friction_of_the_weight_and_its_fall(scene):
+    found = one(scene(scene_of("{type: Guide, start: 3 m, length: 4 m, friction: 0.3, slope: 10 deg}")))
+    (state,) = found.moving
+    slope, weight = math.radians(10), 20 * 4
+    want = 100 + 0.3 * weight * math.cos(slope) + weight * math.sin(slope)  # hauled up against friction and weight
+    assert passage(state, "guide").inboard == pytest.approx(want)
+
+
+def test_a_curved_tube_that_the_line_lies_in_solves_the_linear_equation(scene):
+    tube = "{type: Tube, start: 3 m, length: 2 m, radius: 4 m, friction: 0.3, squeezes: 5 N/m}"
+    (state,) = one(scene(scene_of(tube))).moving
+    theta, pressed = 2 / 4, (20 + 5) * 4  # dT/dtheta = mu (T + pressed R)
+    want = (100 + pressed) * math.exp(0.3 * theta) - pressed
+    assert passage(state, "tube").inboard == pytest.approx(want)
+
+
+def test_compression_in_a_tube_grows_along_its_outer_wall(scene):
+    text = scene_of("{type: Tube, start: 3 m, length: 2 m, radius: 1 m, friction: 0.3}", speed="0.2 m/s", rope="")
+    text = text.replace("force: 100 N", "force: -100 N").replace("tension: 100 N", "compression: carried")
+    (state,) = one(scene(text)).moving
+    assert passage(state, "tube").inboard == pytest.approx(-100 * math.exp(0.3 * 2))
+
+
+def test_a_free_wheel_takes_what_its_bearing_takes(scene):
+    bearing = "{friction: 0.1, radius: 0.05 m}"
+    wheel = f"{{type: Pulley, start: 3 m, angle: 90 deg, radius: 0.5 m, friction: 0.5, bearing: {bearing}}}"
+    (state,) = one(scene(scene_of(wheel))).moving
+    tight = passage(state, "pulley").inboard
+    load = (tight + 100) / 2 * 2 * math.sin(math.pi / 4)
+    assert (tight - 100) * 0.5 == pytest.approx(0.1 * 0.05 * load)
+
+
+def test_without_friction_of_its_bearing_a_free_wheel_takes_nothing(scene):
+    wheel = "{type: Pulley, start: 3 m, angle: 90 deg, radius: 0.5 m, friction: 0.5}"
+    (state,) = one(scene(scene_of(wheel))).moving
+    assert passage(state, "pulley").inboard == pytest.approx(100)
+
+
+def test_the_friction_of_a_curve_is_that_of_the_speed_and_at_rest_that_from_rest(scene):
+    curve = "{curve: stribeck, stiction: 0.5, coulomb: 0.2, velocity: 0.1 m/s}"
+    found = one(scene(scene_of(f"{{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: {curve}}}")))
+    mu = 0.2 + 0.3 * math.exp(-4)
+    assert passage(found.moving[0], "bend").inboard == pytest.approx(100 * math.exp(mu))
+    (bend,) = [each for each in found.standing.passages if each.name == "bend"]
+    assert bend.inboard == pytest.approx((100 * math.exp(-0.5), 100 * math.exp(0.5)))
+
+
+def test_the_cones_of_two_bends_multiply_and_a_clamp_adds_what_it_carries():
+    found = one(fairlead.load("guidance_route", set={"mu": "0.6", "clamp": "20 N/m"}))
+    (bend,) = [each for each in found.standing.passages if each.name == "bend_a"]
+    (deployer,) = [each for each in found.standing.passages if each.name == "deployer"]
+    low, high = 200 * math.exp(-0.3 * math.pi), 200 * math.exp(0.3 * math.pi)
+    sea = 150 + 14.5 * 0.5 * 1025 * 0.003 * math.pi * 0.085 * 16
+    outer = sea * math.exp(-0.2 * math.pi), sea * math.exp(0.2 * math.pi)
+    clamp = 2 * 0.6 * 20 * 1.5
+    assert deployer.inboard == pytest.approx((max(low, outer[0] - clamp), min(high, outer[1] + clamp)))
+    assert bend.inboard == pytest.approx((200, 200))
+
+
+def test_a_pull_beyond_the_cone_says_how_much_is_missing(scene):
+    text = scene_of("{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}", rope="")
+    text = text.replace(HAND % "-0.2 m/s", "{type: ForceSource, force: -150 N}")
+    found = one(scene(text))
+    assert not found.moving
+    assert not found.standing.holds
+    assert found.standing.missing == pytest.approx(150 - 100 * math.exp(0.3))
+
+
+def test_drag_that_is_lumped_and_drag_along_the_line_pull_alike(scene):
+    def tension(form):
+        sea = f"{{type: Sea, start: 20 m, speed: 4 m/s, tail: 50 N, drogue: 0.01 m^2{form}}}"
+        text = scene_of(sea).replace("  - [load.flange, rope.outboard]\n", "").replace(f"  load: {LOAD}\n", "")
+        (state,) = one(scene(text), 0.5).moving[:1]
+        return state.tension(10.0)
+
+    flow, line = 4 - 0.5, 10.0
+    want = 50 + (0.5 * 1025 * 0.003 * math.pi * 0.02 * line + 0.5 * 1025 * 0.01) * flow**2
+    assert tension("") == pytest.approx(want)
+    assert tension(", form: lumped, beyond: 10 m") == pytest.approx(want)
+
+
+def test_a_drum_with_layers_tells_its_torque_at_the_layer_the_line_leaves(scene):
+    drum = "{type: Winch, radius: 0.5 m, layers: on, width: 0.5 m, line_diameter: 0.1 m, moment: 10 kg*m^2}"
+    text = scene_of(drum, "{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}", rope="")
+    text = text.replace("start: 0 m", "start: -20 m")
+    text = text.replace(HAND % "-0.2 m/s", "{type: TorqueSource, torque: -60 N*m}")
+    text = text.replace("[haul.flange, rope.inboard]", "[haul.shaft, route.winch.shaft]")
+    (state, _) = one(scene(text), 0.2).moving
+    radius = 0.55 + 0.1 * math.sqrt(3) / 2  # 17.3 m lie in the first layer of 5 wraps, the rest in the second
+    assert passage(state, "bend").inboard == pytest.approx(60 / radius)
+    (winch,) = [drive for drive in state.drives if drive.name == "winch"]
+    assert winch.force * winch.lever == pytest.approx(-60)
+
+
+def test_between_two_drives_the_tension_is_told_to_be_open(scene):
+    belts = "{type: Deployer, start: 6 m, length: 2 m, friction: 0.5, clamp: 500 N/m}"
+    text = scene_of("{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}", belts, rope="")
+    text = text.replace("  load:", "  run: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
+    text = text.replace("connections:\n", "connections:\n  - [run.flange, route.deployer.belt]\n")
+    (state,) = one(scene(text)).moving
+    assert "two drives hold the line, at its inboard end and at deployer" in state.remarks[0]
+    assert passage(state, "bend").inboard == pytest.approx(100)
+    assert passage(state, "deployer").outboard == pytest.approx(100)
+
+
+def test_a_drive_under_control_is_found_through_valve_gear_and_signals(tmp_path):
+    """The deployer follows the reference of its controller, the winch keeps its tension by torque."""
+    parts = "parts/array_route.yaml, parts/electrohydraulic_drives.yaml"
+    text = f"schema: 1\nname: eh\ninclude: [{parts}]\nrun: {{stop: 50 s}}\n"
+    (tmp_path / "parts").mkdir()
+    folder = fairlead.load("guidance_route").netlist.path.parent / "parts"
+    for part in folder.glob("*.yaml"):
+        (tmp_path / "parts" / part.name).write_text(part.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "eh.yaml").write_text(text, encoding="utf-8")
+    found, ideal = one(fairlead.load(tmp_path / "eh.yaml")), one(fairlead.load("guidance_route"))
+    for mine, theirs in zip(found.moving, ideal.moving, strict=True):
+        assert (mine.speed, mine.way) == (pytest.approx(theirs.speed), pytest.approx(theirs.way))
+        assert [each.inboard for each in mine.passages] == pytest.approx([each.inboard for each in theirs.passages])
+
+
+def test_to_speed_up_the_line_takes_its_mass_times_the_acceleration(scene):
+    text = scene_of("{type: Straight, length: 3 m}", speed="{ramp: {to: -0.3 m/s, over: 2 s}}", rope="")
+    (start,) = one(scene(text)).starts
+    (hand, _) = start.drives
+    assert hand.force == pytest.approx(-(100 + 30 * 0.15))
+
+
+def test_hose_and_core_share_a_slipping_bend_as_the_closed_form_says():
+    """Physics 7a: T_hose behind the bend from equal lengths of hose and core between the connectors."""
+    settings = {"mu": "0.6", "line.bulkhead_friction": "0.5"}
+    (state,) = one(fairlead.load("single_bend", set=settings)).moving
+    layers = shares(state)
+    hose, core, theta = 8e3, 5e5, math.pi / 2
+    inner, outer = 4.5 - (1.5 - 0.15) - 1.5, 16.5 - 0.15 - (3 + theta)  # m: straight on both sides of the bend
+    along = np.linspace(0, theta, 20001)
+
+    def excess(low):  # of the length of the hose over that of the core, for a core tension 800 - low outboard
+        core_tension, total = (800 - low) * np.exp(0.5 * along), 800 * np.exp(0.6 * along)
+        strain = (total - core_tension) / hose - core_tension / core
+        return strain[0] * outer + strain[-1] * inner + np.trapezoid(strain, along)
+
+    low = -100.0
+    for _ in range(3):  # linear in what is sought
+        low -= excess(low) / (excess(low + 1) - excess(low))
+    behind = 800 * math.exp(0.6 * theta) - (800 - low) * math.exp(0.5 * theta)
+    bend = share_of(state, "bend")
+    assert bend.slips
+    assert layers.lowest == pytest.approx(low, rel=2e-3)  # the trapezoids of 33 points
+    assert bend.hose[0] == pytest.approx(behind, rel=2e-3)
+
+
+def test_below_the_threshold_of_slip_hose_and_core_share_by_stiffness():
+    threshold = 0.5 * 500 / 508  # mu_bulkhead T_core/(T_core + T_hose), from rest
+    for mu, slips in ((threshold * 0.999, False), (threshold * 1.001, True)):
+        (state,) = one(fairlead.load("single_bend", set={"mu": str(mu)})).moving
+        bend = share_of(state, "bend")
+        assert bend.slips is slips
+        if not slips:
+            np.testing.assert_allclose(bend.hose, passage(state, "bend").tension * 8 / 508)
+
+
+def test_drag_on_the_hose_is_shared_with_the_core_at_the_ends_only():
+    """The core's tension in the water is the mean of the total, so that both stay as long as each other."""
+    state = one(fairlead.load("guidance_route")).moving[0]
+    sea, end = state.tension(9.5), 150.0
+    free, wet = 10 - (8 + math.pi / 3), 14.25
+    mean = (sea * free + (sea + end) / 2 * wet) / (free + wet)
+    layers = shares(state)
+    assert layers.shares[-1].core == pytest.approx(mean * 500 / 508, rel=1e-6)
+    assert layers.lowest == pytest.approx(end - mean * 500 / 508, rel=1e-6)
+
+
+def test_a_scene_without_a_route_says_so():
+    with pytest.raises(UsageError, match="belt has no line on a route"):
+        fairlead.load("belt").statics()
+    answer = CliRunner().invoke(app, ["statics", "belt"])
+    assert answer.exit_code == 2
+    assert "docs/routes.md" in answer.output
+
+
+ROUTES = ["capstan", "slack_start", "crustacean", "long_deployment", "friction_anchor", "torsion"]
+
+
+@pytest.mark.parametrize("model", ROUTES)
+def test_every_bundled_route_is_solved_and_shown(model):
+    answer = CliRunner().invoke(app, ["statics", model])
+    assert answer.exit_code == 0, answer.output
+    assert "standing still" in answer.output
+
+
+def test_json_has_the_numbers_of_the_table():
+    answer = CliRunner().invoke(app, ["statics", "guidance_route", "--json"])
+    (told,) = json.loads(answer.output)
+    (out, back) = told["states"]
+    assert [row["station"] for row in out["stations"]] == ["winch", "bend_a", "deployer", "bend_b", "sea", "tail"]
+    assert out["stations"][1]["outboard"] == pytest.approx(200 * math.exp(0.35 * math.pi / 2))
+    assert back["stations"][1]["outboard"] == pytest.approx(200 * math.exp(-0.35 * math.pi / 2))
+    assert {row["drive"] for row in told["drives"]} == {"winch", "deployer"}
