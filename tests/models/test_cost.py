@@ -8,9 +8,10 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.analysis.choice import choose, front, knee
-from fairlead.analysis.cost import Study, cost
+from fairlead.analysis.cost import cost
 from fairlead.analysis.kept_runs import KeptRuns
 from fairlead.analysis.ladder import Ladder
+from fairlead.analysis.study import Study
 from fairlead.cli import app
 from tests.reference.belt import StickSlipBelt
 
@@ -87,7 +88,7 @@ def test_a_study_goes_on_where_it_stopped(folder, study):
 
 
 def test_ctrl_c_keeps_what_was_measured(monkeypatch, folder):
-    import fairlead.analysis.cost as module
+    import fairlead.analysis.boxed_runs as module
 
     def pressed(*_, **__):
         raise KeyboardInterrupt
@@ -123,7 +124,7 @@ CHAOS = """
 
 def test_a_scene_that_is_sensitive_to_everything_is_said_to_be(scene, monkeypatch):
     """Two shaken stick-slip blocks on a belt: nearby motions part, so that only statistics can be compared."""
-    monkeypatch.setattr("fairlead.analysis.cost.engines_here", lambda: ["rodas"])  # the second method is rodas3p
+    monkeypatch.setattr("fairlead.analysis.references.engines_here", lambda: ["rodas"])  # the second method is rodas3p
     path = scene(CHAOS).netlist.path
     found = cost(lambda more: fairlead.load(path, set=more), Ladder((1e-2,), ("rodas",), (), (), ()), budget=60.0,
                  signals=["one.x", "two.x"], full=True)  # fmt: skip
@@ -169,7 +170,7 @@ def test_a_wrong_option_is_told(words, told):
 
 def test_a_mesh_that_cannot_be_made_is_left_out_with_a_reason(monkeypatch):
     """Elements of five times the size do not fit the bend; the study goes on."""
-    monkeypatch.setattr("fairlead.analysis.cost.engines_here", lambda: ["rodas"])
+    monkeypatch.setattr("fairlead.analysis.references.engines_here", lambda: ["rodas"])
     found = cost(lambda more: fairlead.load("capstan", set={"run.stop": "20 ms", "element": "0.25 m", **more}),
                  Ladder((1e-2,), ("rodas",), (), (), (0.2,)), budget=600.0, full=True)  # fmt: skip
     assert found.rows

@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fairlead.analysis.cost import Row, Study
+from fairlead.analysis.study import Row, Study
 
 TARGETS = (0.05, 0.01, 0.001)
 FASTER = 0.9  # of the time: a line that is only a little faster does not win over one that is more exact

@@ -14,10 +14,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from fairlead.analysis.timed_run import Load
 from fairlead.analysis.treatments import EXACT, treatment, treatment_of
 from fairlead.component.base import Family
 from fairlead.component.declare import Block, Choice, Effect, Parameter, Table
 from fairlead.component.scene import FRAMEWORK_EFFECTS
+from fairlead.errors import FairleadError, ModelError
 
 NO_STICKING = "tanh"
 NOT_PHYSICS = ("name", "start", "width", "bend_radius", "position", "velocity", "angle", "speed", "method", "creep",
@@ -46,11 +48,23 @@ def switches(model: Any) -> list[Switch]:
     return [*_effects(model), *_treatments(model), *_words(model), *_parts(model)]
 
 
-def all_off(found: list[Switch]) -> Switch | None:
-    """Every effect that is on switched off together; None when there are fewer than two."""
+def all_off(load: Load, found: list[Switch]) -> Switch | None:
+    """Every effect that is on switched off together; None when there are fewer than two.
+
+    A component that goes with one effect takes its own effects with it: the netlist is then not to name them.
+    """
     on = [one for one in found if one.kind == "effect" and one.then == "off"]
     together = {name: word for one in on for name, word in one.settings.items()}
-    return Switch("all effects", "on", "off", together) if len(on) > 1 else None
+    if len(on) < 2:
+        return None
+    try:
+        load(together).check()
+    except ModelError as error:
+        gone = {name for name in together for fault in error.faults if fault.what.startswith(f"{name}:")}
+        together = {name: word for name, word in together.items() if name not in gone}
+    except FairleadError:
+        pass  # it is told by the run
+    return Switch("all effects", "on", "off", together)
 
 
 def _effects(model: Any) -> Iterator[Switch]:

@@ -10,6 +10,7 @@ make an engine look slow; of repeats the median counts.
 
 from __future__ import annotations
 
+import math
 import statistics
 import tempfile
 import time
@@ -25,6 +26,8 @@ from fairlead.errors import FairleadError
 GRID = 1000  # intervals between the common times
 REPEATS = 5
 BRIEF = 0.2  # s; when the runs together took longer, their time is known well enough
+TURNS = 9
+SCATTER = 0.05  # of the ratio of two times that were taken one after the other, on a machine that others share
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 Members = Mapping[str, Sequence[str]]  # an output -> the signals whose mean it is, where it is of another mesh
 
@@ -44,6 +47,8 @@ class Timed:
     reached: float = 0.0  # s, simulated
     creep: float | None = None  # m/s, the worst of all contacts
     repeats: int = 1
+    beside: float | None = None  # s, CPU time of the scene as it is when it was run in turns with this
+    scatter: float = SCATTER  # of the ratio of the two times
     values: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)), repr=False)
     events: tuple[tuple[float, str, str, str], ...] = field(default=(), repr=False)  # t, component, from, to
 
@@ -99,6 +104,27 @@ def timed_run(
     return replace(
         first, cap=cap, setup=setup, wall=statistics.median(walls), cpu=statistics.median(cpus), repeats=len(walls)
     )
+
+
+def in_turns(
+    load: Load, settings: Mapping[str, str], span: tuple[float, float], cap: float
+) -> tuple[float, float, float]:
+    """CPU time with settings and as the scene is, run in turns, so that whatever else the machine does slows both.
+
+    Medians in s, and half the range between the quartiles of their ratio.
+    """
+    models = [load(on_grid(one, span)) for one in (settings, {})]
+    cpus: list[list[float]] = [[], []]
+    for _ in range(TURNS):
+        for model, times in zip(models, cpus, strict=True):
+            result, share = _once(model, cap)
+            if isinstance(result, str):
+                return math.nan, math.nan, math.inf
+            times.append(result.run["solve_time"] * share)
+    ratios = [one / other for one, other in zip(*cpus, strict=True)]
+    low, middle, high = statistics.quantiles(ratios, n=4)
+    beside = statistics.median(cpus[1])
+    return middle * beside, beside, (high - low) / 2
 
 
 def _once(model: Any, cap: float) -> tuple[Any, float]:

@@ -7,30 +7,28 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.study import Budget, Fresh, Outputs, number, say, write_record
+from fairlead.cli.verb import INTERRUPTED
 
 if TYPE_CHECKING:
     from fairlead.analysis.choice import Choice
-    from fairlead.analysis.cost import Study
     from fairlead.analysis.ladder import Ladder
-
-INTERRUPTED = 130
+    from fairlead.analysis.study import Study
 
 
 def cost(
     netlist: Netlist,
     settings: Settings,
     libraries: Libraries,
-    budget: Annotated[str, typer.Option(metavar="TIME", help="Time the study may take, compiling apart.")] = "60 s",
-    outputs: Annotated[
-        list[str] | None, typer.Option("--output", metavar="PATTERN", help="Recorded outputs to compare. Repeatable.")
-    ] = None,
+    budget: Budget = "60 s",
+    outputs: Outputs = None,
     accuracy: Annotated[str, typer.Option(metavar="A,B,C", help="Accuracies to try.")] = "1e-2,1e-3,1e-4,1e-5",
     engine: Annotated[str, typer.Option(metavar="A,B", help="Engines to try. Default: all installed.")] = "",
     friction: Annotated[str, typer.Option(metavar="A,B", help="Treatments to try. Default: hold,binding.")] = "",
     creep: Annotated[str, typer.Option(metavar="A,B", help="Creeps to try. Default: 10 and 0.1 times it.")] = "",
     finer: Annotated[str, typer.Option(metavar="A,B", help="How much finer elements to try. Default: 0.5,2.")] = "",
     full: Annotated[bool, typer.Option("--full", help="Study all of the scene's time, however long it takes.")] = False,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from an earlier study.")] = False,
+    fresh: Fresh = False,
     write: Annotated[
         pathlib.Path | None, typer.Option(metavar="FILE", help="Write the choice as a settings file for run.")
     ] = None,
@@ -60,14 +58,14 @@ def cost(
     folder = out or pathlib.Path("results") / f"{study.name}-cost"
     figure = draw(study, folder / "cost.png")
     record = _record(study, choices)
-    (folder / "cost.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    written = write_record(folder, "cost.json", record)
     if as_json:
         typer.echo(json.dumps(record, indent=1))
     elif not quiet:
         from fairlead.cli.cost_table import print_study
 
         print_study(study, choices)
-        typer.echo(f"wrote {figure} and {folder / 'cost.json'} (every output by itself)")
+        typer.echo(f"wrote {figure} and {written} (every output by itself)")
     if write is not None:
         _write(write, next(choice for choice in choices if choice.target == aim), study, fixed)
     if study.interrupted:
@@ -87,30 +85,6 @@ def _ladder(accuracy: str, engine: str, friction: str, creep: str, finer: str) -
 
 def _words(text: str) -> list[str]:
     return [word.strip() for word in text.split(",") if word.strip()]
-
-
-def number(option: str, text: str, unit: str) -> float:
-    """A number of an option. `60s` is as good as `60 s` on a command line."""
-    import re
-
-    from fairlead.quantities import QuantityError, si
-
-    try:
-        value = si(re.sub(r"(?<=[0-9.])(?=(?![eE][-+]?[0-9])[a-zA-Z%])", " ", text.strip()), unit)
-    except QuantityError as error:
-        raise typer.BadParameter(f"{option}: {error}") from None
-    if value <= 0:
-        raise typer.BadParameter(f"{option} {text}: it must be above zero.")
-    return value
-
-
-def say(text: str) -> None:
-    """What is being done, over the last such line, where somebody watches."""
-    import sys
-
-    if sys.stderr.isatty():
-        sys.stderr.write(f"\r\033[K{text} ...\r")
-        sys.stderr.flush()
 
 
 def _write(path: pathlib.Path, choice: "Choice", study: "Study", fixed: dict[str, str]) -> None:
@@ -145,7 +119,8 @@ def _record(study: "Study", choices: list["Choice"]) -> dict[str, Any]:
     return {
         "name": study.name, "span": study.span, "whole": study.whole, "sensitive": study.sensitive,
         "interrupted": study.interrupted, "reference": None if reference is None else reference.label,
-        "floor": None if reference is None else reference.spread, "remarks": study.remarks,
+        "floor": None if reference is None else reference.spread,
+        "dissent": "" if reference is None else reference.dissent, "remarks": study.remarks,
         "left_out": study.left_out, "rows": rows,
         "choices": [{"target": c.target, "sentence": c.sentence, "settings": dict(c.settings)} for c in choices],
     }  # fmt: skip

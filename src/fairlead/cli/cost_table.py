@@ -2,11 +2,11 @@
 
 from typing import TYPE_CHECKING
 
-import typer
+from fairlead.cli.study import print_table
 
 if TYPE_CHECKING:
     from fairlead.analysis.choice import Choice
-    from fairlead.analysis.cost import Row, Study
+    from fairlead.analysis.study import Row, Study
 
 COLUMNS = (
     "equations", "engine", "accuracy", "numerical", "modelling", "elements", "worst output", "at end", "at worst",
@@ -17,17 +17,7 @@ LEFT = ("equations", "engine", "worst output")
 
 def print_study(study: "Study", choices: list["Choice"]) -> None:
     """Print table, reference, remarks, choices."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
-    console = Console(highlight=False, width=None if typer.get_text_stream("stdout").isatty() else 190)
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for name in COLUMNS:
-        table.add_column(name, no_wrap=True, justify="left" if name in LEFT else "right")
-    for row in ordered(study):
-        table.add_row(*_cells(study, row))
-    console.print(table)
+    console = print_table(COLUMNS, LEFT, (_cells(study, row) for row in ordered(study)), 190)
     for line in _below(study):
         console.print(line, markup=False)
     for choice in choices:
@@ -73,7 +63,6 @@ def _switches(row: "Row") -> str:
 
 def _below(study: "Study") -> list[str]:
     from fairlead.analysis.choice import front, knee, percent
-    from fairlead.analysis.cost import reasons
 
     lines = []
     if not study.whole:
@@ -91,7 +80,9 @@ def _below(study: "Study") -> list[str]:
             )
         elif reference.spread is not None and not reference.agrees:
             lines.append("The references do not agree better than that; errors below it cannot be told.")
-    lines += [*study.remarks, *reasons(study)]
+        if reference.dissent:
+            lines.append(f"{reference.dissent[0].upper()}{reference.dissent[1:]}.")
+    lines += [*study.remarks, *study.unfinished()]
     if study.left_out:
         lines.append(f"{'Interrupted' if study.interrupted else 'Out of budget'}; not begun: {len(study.left_out)} "
                      "runs. The same command goes on from here.")  # fmt: skip

@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairlead.cli.cost import INTERRUPTED, number, say
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.study import Budget, Fresh, Outputs, number, print_table, say, write_record
+from fairlead.cli.verb import INTERRUPTED
 
 if TYPE_CHECKING:
-    from fairlead.analysis.effects import Effects, Row, Size
+    from fairlead.analysis.effect_row import Row, Size
+    from fairlead.analysis.effects import Effects
 
 COLUMNS = (
     "switched", "unknowns", "terms", "zones", "guards", "kernels", "switches", "CPU", "saved", "changes by", "of",
@@ -22,11 +24,9 @@ def effects(
     netlist: Netlist,
     settings: Settings,
     libraries: Libraries,
-    budget: Annotated[str, typer.Option(metavar="TIME", help="Time the study may take.")] = "60 s",
-    outputs: Annotated[
-        list[str] | None, typer.Option("--output", metavar="PATTERN", help="Recorded outputs to compare. Repeatable.")
-    ] = None,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from an earlier study.")] = False,
+    budget: Budget = "60 s",
+    outputs: Outputs = None,
+    fresh: Fresh = False,
     out: Annotated[
         pathlib.Path | None, typer.Option(metavar="DIR", help="effects.json goes here. Default: results/NAME-effects.")
     ] = None,
@@ -47,35 +47,27 @@ def effects(
         note=None if quiet or as_json else say,
     )  # fmt: skip
     folder = out or pathlib.Path("results") / f"{found.name}-effects"
-    folder.mkdir(parents=True, exist_ok=True)
     record = _record(found)
-    (folder / "effects.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    written = write_record(folder, "effects.json", record)
     if as_json:
         typer.echo(json.dumps(record, indent=1))
     elif not quiet:
         _print(found)
-        typer.echo(f"wrote {folder / 'effects.json'} (every output by itself)")
+        typer.echo(f"wrote {written} (every output by itself)")
     if found.interrupted:
         raise typer.Exit(INTERRUPTED)
 
 
 def _print(found: "Effects") -> None:
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
-    console = Console(highlight=False, width=None if typer.get_text_stream("stdout").isatty() else 170)
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for name in COLUMNS:
-        table.add_column(name, justify="left" if name in ("switched", "of") else "right")
-    table.add_row("the scene as it is", *_sizes(found.size), str(found.base.switches), _time(found.base.cpu))
-    for row in found.rows:
-        table.add_row(*_cells(row))
-    console.print(table)
+    first = ["the scene as it is", *_sizes(found.size), str(found.base.switches), _time(found.base.cpu)]
+    empty = [""] * (len(COLUMNS) - len(first))
+    console = print_table(COLUMNS, ("switched", "of"), ([*first, *empty], *map(_cells, found.rows)), 170)
     if not found.whole:
         console.print(f"Studied is t = {found.span[0]:g} ... {found.span[1]:g} s only, to keep within the budget.")
     for row in found.rows:
         console.print(row.sentence, markup=False)
+    if found.untouched:
+        console.print(f"Nothing in the scene is concerned by: {', '.join(found.untouched)}.", markup=False)
     if found.left_out:
         console.print(f"Not begun: {', '.join(found.left_out)}. The same command goes on from here.", markup=False)
 
@@ -85,7 +77,7 @@ def _cells(row: "Row") -> list[str]:
 
     sizes = _sizes(row.size) if row.size is not None else [""] * 5
     if row.change is None or row.saved is None:
-        return [row.switch.label, *sizes, row.timed.status]
+        return [row.switch.label, *sizes, row.timed.status, *[""] * (len(COLUMNS) - 7)]
     return [
         row.switch.label, *sizes, str(row.timed.switches), _time(row.timed.cpu), f"{100 * row.saved:.0f} %",
         percent(row.change), row.most.name if row.most is not None else "", percent(row.peak),
@@ -116,6 +108,6 @@ def _record(found: "Effects") -> dict[str, Any]:
     ]  # fmt: skip
     return {
         "name": found.name, "span": found.span, "whole": found.whole, "floor": found.floor,
-        "interrupted": found.interrupted, "left_out": found.left_out, "size": asdict(found.size),
-        "run": found.base.plain(), "rows": rows,
+        "interrupted": found.interrupted, "untouched": found.untouched, "left_out": found.left_out,
+        "size": asdict(found.size), "run": found.base.plain(), "rows": rows,
     }  # fmt: skip

@@ -14,7 +14,7 @@ from fairlead.report.figures import DOTS_PER_INCH, STYLE
 from fairlead.report.panel import COLOURS
 
 if TYPE_CHECKING:
-    from fairlead.analysis.cost import Row, Study
+    from fairlead.analysis.study import Row, Study
 
 LEAST = 1e-8  # relative; an error below it is drawn there
 MARKS = {"rodas": "o", "stepping": "s", "ida": "^"}

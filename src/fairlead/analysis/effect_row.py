@@ -1,0 +1,104 @@
+"""One switch of a scene, judged: how large the system is with it, what it saves and changes, and a sentence."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairlead.analysis.choice import percent
+from fairlead.analysis.deviation import OutputError, worst
+from fairlead.analysis.switches import Switch
+from fairlead.analysis.timed_run import Timed
+
+NEGLIGIBLE, NOTICEABLE = 1e-3, 1e-2  # relative change: can be left out, must be kept
+WORTH = 0.1  # share of the time that is worth a change of the model
+
+
+@dataclass(frozen=True)
+class Size:
+    """How large a compiled system is."""
+
+    unknowns: int
+    entries: int  # in the pattern of df/dy: terms of the equations
+    zones: int  # machines that switch
+    guards: int
+    kernels: int
+
+    @classmethod
+    def of(cls, system: Any) -> Size:
+        """Count a System. Each unknown has one equation."""
+        return cls(
+            system.n, len(system.pattern.rows), len(system.zones), len(system.guard_tolerance), len(system.blocks)
+        )
+
+
+@dataclass(frozen=True)
+class Row:
+    """One switch: the system and the run with it, and how far they are from the scene as it is."""
+
+    switch: Switch
+    timed: Timed
+    size: Size | None = None
+    saved: float | None = None  # share of the time
+    errors: list[OutputError] = field(default_factory=list)
+    peak: float | None = None  # of the output that changes most
+    floor: float = 0.0
+
+    @property
+    def most(self) -> OutputError | None:
+        """The output that changes most; None when none does."""
+        found = worst(self.errors)
+        return found if found is not None and found.rms > 0 else None
+
+    @property
+    def change(self) -> float | None:
+        """Relative change of that output; None when it was not measured."""
+        if not self.timed.finished:
+            return None
+        return self.most.relative if self.most is not None else 0.0
+
+    @property
+    def measurable(self) -> bool:
+        """Whether the time is another one by more than it scatters."""
+        return self.saved is not None and abs(self.saved) > self.timed.scatter
+
+    @property
+    def gain(self) -> float:
+        """Time saved for each part of change; what lines are sorted by."""
+        if self.change is None or self.saved is None:
+            return -math.inf
+        return (self.saved if self.measurable else 0.0) / max(self.change, self.floor, 1e-9)
+
+    @property
+    def sentence(self) -> str:
+        """The advice."""
+        if self.change is None:
+            return f"{self.switch.label}: {self.timed.reason or self.timed.status}"
+        return f"{self.switch.label}: {self._facts()}{self._verdict()}"
+
+    def _facts(self) -> str:
+        assert self.change is not None
+        assert self.saved is not None
+        what = f"changes {self.most.name} by {percent(self.change)}" if self.most is not None else "changes nothing"
+        if self.most is not None and self.peak is not None:
+            what += f" (its peak by {percent(self.peak)})"
+        if self.change <= self.floor:
+            what = f"changes no output by more than the error of the run itself, {percent(self.floor)},"
+        if not self.measurable:
+            return f"{what} and takes the same time; "
+        return f"{what} and {'saves' if self.saved >= 0 else 'costs'} {100 * abs(self.saved):.0f} % of the time; "
+
+    def _verdict(self) -> str:
+        assert self.change is not None
+        assert self.saved is not None
+        settings = " ".join(f"--set {name}={value}" for name, value in self.switch.settings.items())
+        if self.change > max(NOTICEABLE, self.floor):
+            if self.switch.then == "on":
+                return "it matters, and the scene leaves it out."
+            return "it matters: a change of what is modelled."
+        if self.saved <= WORTH or not self.measurable:
+            return "not worth a change."
+        if self.change <= max(NEGLIGIBLE, self.floor):
+            return f"worth it: {settings}"
+        return f"worth it where that is exact enough: {settings}"

@@ -1,0 +1,101 @@
+"""The discretisation errors of a study: tight runs of every mesh against one of the finest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from fairlead.analysis.boxed_runs import BoxedRuns
+from fairlead.analysis.compared_outputs import recorded, thinned
+from fairlead.analysis.deviation import output_errors, switching
+from fairlead.analysis.ladder import Equations, Ladder, other_meshes, rungs
+from fairlead.analysis.meshes import Mesh, correspondence
+from fairlead.analysis.references import References
+from fairlead.analysis.study import Row, Study
+from fairlead.analysis.timed_run import Timed
+from fairlead.errors import FairleadError
+from fairlead.results.signal import family
+
+
+@dataclass
+class MeshErrors:
+    """Adds to a study the lines of other meshes, and to all lines what their elements leave."""
+
+    study: Study
+    runs: BoxedRuns
+    references: References
+    model: Any
+    ladder: Ladder
+    all_names: list[str]
+
+    def measure(self, own: Equations) -> None:
+        """The discretisation error of the scene's elements, and lines of other meshes with theirs."""
+        possible = {mesh: has for mesh in other_meshes(self.model, self.ladder) if (has := self._names_of(mesh))}
+        found = list(possible)
+        if not found or found[-1].finer <= 1:
+            return
+        finest, coarser = found[-1], [Mesh("", {}, 1.0), *found[:-1]]
+        kept, columns = self._shared(coarser, possible, finest)
+        fine = Equations(finest.label, finest.settings, "mesh")
+        reference = self.runs.tightly(fine, "rodas", names=list(columns), members=columns)
+        if reference is None or not reference.finished:
+            self.references.complain(finest.label, reference)
+            return
+        for mesh in coarser:
+            places = [list(columns).index(f"{mesh.label}|{name}") for name in kept[mesh.label]]
+            self._mesh(mesh, own, kept[mesh.label], reference.values[:, places])
+
+    def _shared(self, coarser: list[Mesh], possible: Mapping[Mesh, list[str]], finest: Mesh) -> Any:
+        """Per mesh the outputs that the finest has too; and the columns "mesh|output" with what they are in it."""
+        kept: dict[str, list[str]] = {}
+        columns: dict[str, list[str]] = {}
+        for mesh in coarser:
+            pairs = correspondence(possible.get(mesh, self.all_names), possible[finest])
+            wanted = self.runs.names if mesh.finer == 1.0 else thinned(list(pairs))
+            kept[mesh.label] = [name for name in wanted if name in pairs]
+            columns |= {f"{mesh.label}|{name}": pairs[name] for name in kept[mesh.label]}
+        return kept, columns
+
+    def _names_of(self, mesh: Mesh) -> list[str]:
+        """What a mesh records; nothing, and a remark, where a scene cannot be divided so."""
+        try:
+            return recorded(self.runs.load(mesh.settings))
+        except FairleadError as error:
+            self.study.remarks.append(f"{mesh.label} is left out. {str(error).splitlines()[0]}")
+            return []
+
+    def _mesh(self, mesh: Mesh, own: Equations, names: list[str], fine: Any) -> None:
+        equations = own if mesh.finer == 1.0 else Equations(mesh.label, mesh.settings, "mesh", own.exact)
+        units = [self._unit(name) for name in names]
+        tight = self.runs.tightly(equations, "rodas", names=names)
+        if tight is None or not tight.finished:
+            self.references.complain(mesh.label or "the scene", tight)
+            return
+        errors = output_errors(names, units, tight.values, fine)
+        if mesh.finer != 1.0:
+            self._line(equations, names, units, tight)
+        for row in self.study.rows:
+            if row.rung.equations == equations:
+                row.discretisation = errors
+        if mesh.finer == 1.0:
+            self.study.elements = errors
+
+    def _line(self, equations: Equations, names: list[str], units: list[str], tight: Timed) -> None:
+        """One run of another mesh."""
+        scene = [row for row in self.study.rows if row.rung.equations.axis == "scene"]
+        for rung in list(rungs(equations, self.ladder, self.model))[:1]:
+            self.runs.note(rung.label)
+            timed = self.runs.run(rung.settings, self.runs.patience(), names)
+            if timed is None:
+                self.study.left_out.append(rung.label)
+                continue
+            row = Row(rung, timed, modelling=scene[0].modelling if scene else None)
+            if timed.finished:
+                row.numerical = output_errors(names, units, timed.values, tight.values)
+                row.switching = switching(timed.events, tight.events)
+            self.study.rows.append(row)
+
+    def _unit(self, name: str) -> str:
+        known = dict(zip((family(one)[0] for one in self.study.outputs), self.study.units, strict=True))
+        return known.get(family(name)[0], "")

@@ -1,0 +1,129 @@
+"""What a study measures against: tight runs by independent engines that must agree, or the spread that they have.
+
+    rodas, then the first of ida, stepping, and rodas3p (a second method of rodas, which shares the location of
+    switches) that finishes in its share of the budget. They are the reference when they agree to AGREE.
+
+    Otherwise runs of rodas at a hundred and ten times the accuracy tell whether it converges at all. If not, the
+    scene is sensitive to everything. If it does, the next engine is asked too, and the two that agree best are
+    the reference: the third is said to dissent.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from fairlead.analysis.boxed_runs import BoxedRuns
+from fairlead.analysis.deviation import OutputError, output_errors, worst
+from fairlead.analysis.ladder import Equations, engines_here
+from fairlead.analysis.study import AGREE, Reference
+from fairlead.analysis.timed_run import Timed
+
+BDF = 0.01  # share of the budget that the scene may take for ida to be tried as a reference: it is slow at switches
+CONVERGING = 0.5  # the spread of tight runs over that of less tight ones; with more they do not converge
+ENOUGH = 3  # engines asked when two do not agree
+
+
+@dataclass
+class References:
+    """Makes references; `remarks` collects what did not work."""
+
+    runs: BoxedRuns
+    units: list[str]
+    remarks: list[str]
+
+    def of_scene(self, equations: Equations) -> Reference | None:
+        """Tight runs by two engines, or three where two do not agree; None when rodas does not finish."""
+        runs = self.finished(equations)
+        engine, first = next(runs)
+        if first is None:
+            return None
+        found = {engine: first}
+        for engine, timed in runs:
+            assert timed is not None
+            found[engine] = timed
+            if self.apart(timed, first)[0] <= AGREE or len(found) == ENOUGH:
+                break
+            if len(found) == 2 and not self.converges(equations, first):
+                return self.sensitive(first, engine, timed)
+        return self.best_pair(found)
+
+    def finished(self, equations: Equations) -> Iterator[tuple[str, Timed | None]]:
+        """Engines with their tight runs: rodas, even if it failed, then the others that finish."""
+        first = self.runs.tightly(equations, "rodas")
+        if first is None or not first.finished:
+            self.complain("rodas", first)
+            first = None
+        yield "rodas", first
+        here = [e for e in reversed(engines_here()) if e == "stepping" or (e == "ida" and self.brief())]
+        for engine in [*here, "rodas3p"]:
+            timed = self.runs.tightly(equations, engine)
+            if timed is not None and timed.finished:
+                yield engine, timed
+
+    def brief(self) -> bool:
+        """Whether ida can be asked in time."""
+        return self.runs.full or self.runs.usual < BDF * self.runs.budget
+
+    def best_pair(self, found: dict[str, Timed]) -> Reference:
+        """The two that are nearest to each other; rodas is the solution if it is one of them."""
+        accuracy = f"at accuracy {self.runs.tight:g}"
+        if len(found) == 1:
+            (name,) = found
+            self.remarks.append("Only one tight run finished in its share of the budget: the floor is not known.")
+            return Reference(f"{name} {accuracy}", found[name])
+        pairs = {(a, b): self.apart(found[b], found[a]) for a, b in itertools.combinations(found, 2)}
+        one, two = min(pairs, key=lambda pair: pairs[pair][0])
+        spread, name = pairs[one, two]
+        odd = [engine for engine in found if engine not in (one, two)]
+        dissent = ""
+        if odd and spread <= AGREE:
+            away, of = self.apart(found[odd[0]], found[one])
+            dissent = f"{odd[0]} is {100 * away:.2g} % from them ({of})"
+        elif odd:
+            apart = (f"{a} and {b} are {100 * gap:.2g} % apart" for (a, b), (gap, _) in pairs.items())
+            dissent = f"three engines were asked: {', '.join(apart)}"
+        return Reference(f"{one} and {two} {accuracy}", found[one], spread, name, dissent=dissent)
+
+    def sensitive(self, first: Timed, engine: str, second: Timed) -> Reference:
+        """A reference of which only statistics mean something."""
+        found = worst(self.errors(second, first), statistical=True)
+        spread, name = (found.statistical, found.name) if found else (0.0, "")
+        label = f"rodas and {engine} at accuracy {self.runs.tight:g}"
+        return Reference(label, first, spread, name, sensitive=True)
+
+    def converges(self, equations: Equations, first: Timed) -> bool:
+        """Whether less tight runs are farther apart than tight ones; of two tight ones of the same engine."""
+        tight = self.runs.tight
+        looser = {**equations.settings, "run.engine": "rodas", "run.accuracy": f"{min(1e2 * tight, 1e-2):g}"}
+        tighter = {**looser, "run.accuracy": f"{min(1e1 * tight, 1e-2):g}"}
+        runs = [self.runs.run(settings, math.inf) for settings in (looser, tighter)]
+        if any(one is None or not one.finished for one in runs):
+            return True
+        far, near = (self.apart(one, first)[0] for one in runs if one is not None)
+        return near <= AGREE or near < CONVERGING * far
+
+    def of_variant(self, equations: Equations, scene: Reference | None) -> Reference | None:
+        """One tight run of other equations, known as well as the reference of the scene."""
+        tight = self.runs.tightly(equations, "rodas")
+        if tight is None or not tight.finished:
+            self.complain(equations.label, tight)
+            return None
+        spread, sensitive = (None, False) if scene is None else (scene.spread, scene.sensitive)
+        return Reference(f"rodas at accuracy {self.runs.tight:g}", tight, spread, sensitive=sensitive)
+
+    def errors(self, one: Timed, other: Timed) -> list[OutputError]:
+        """Every output of a run against another."""
+        return output_errors(self.runs.names, self.units, one.values, other.values)
+
+    def apart(self, one: Timed, other: Timed) -> tuple[float, str]:
+        """How far two runs are from each other, and in which output."""
+        found = worst(self.errors(one, other))
+        return (found.relative, found.name) if found else (0.0, "")
+
+    def complain(self, what: str, timed: Timed | None) -> None:
+        """Say that a reference is missing, and why."""
+        why = "the budget was used up before" if timed is None else timed.reason or timed.status
+        self.remarks.append(f"No reference ({what}): {why}")

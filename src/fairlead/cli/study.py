@@ -1,0 +1,65 @@
+"""What `fairlead cost` and `fairlead effects` share: options, notes while they work, where they write, the table."""
+
+import json
+import pathlib
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+Budget = Annotated[str, typer.Option(metavar="TIME", help="Time the study may take, compiling apart.")]
+Outputs = Annotated[
+    list[str] | None, typer.Option("--output", metavar="PATTERN", help="Recorded outputs to compare. Repeatable.")
+]
+Fresh = Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from an earlier study.")]
+
+
+def number(option: str, text: str, unit: str) -> float:
+    """A number of an option. `60s` is as good as `60 s` on a command line."""
+    import re
+
+    from fairlead.quantities import QuantityError, si
+
+    try:
+        value = si(re.sub(r"(?<=[0-9.])(?=(?![eE][-+]?[0-9])[a-zA-Z%])", " ", text.strip()), unit)
+    except QuantityError as error:
+        raise typer.BadParameter(f"{option}: {error}") from None
+    if value <= 0:
+        raise typer.BadParameter(f"{option} {text}: it must be above zero.")
+    return value
+
+
+def say(text: str) -> None:
+    """What is being done, over the last such line, where somebody watches."""
+    import sys
+
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r\033[K{text} ...\r")
+        sys.stderr.flush()
+
+
+def write_record(folder: pathlib.Path, name: str, record: dict[str, Any]) -> pathlib.Path:
+    """Write all of a study as JSON. Returns the file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / name
+    path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    return path
+
+
+def print_table(columns: Iterable[str], left: Iterable[str], rows: Iterable[list[str]], width: int) -> "Console":
+    """Print a table whose columns in `left` are text, as wide as it is where nobody watches. Returns the console."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False, width=None if typer.get_text_stream("stdout").isatty() else width)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for name in columns:
+        table.add_column(name, no_wrap=True, justify="left" if name in left else "right")
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)
+    return console
