@@ -64,6 +64,7 @@ class ArrayModule(Composite):
     diameter = Parameter("m", "Outside diameter.", default=0.085, above=0)
     weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)
     bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0)
+    side_wall = Parameter("N/m", "Load per length, tension over radius, that it bears.", default=None, above=0)
     hose = Block(LAYER, "The outer layer.")
     core = Block(LAYER, "The rope that carries the load.")
     bulkhead_friction = Part(Curve, "Friction of the bulkheads in the hose.", default=0.5)

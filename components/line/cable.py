@@ -51,6 +51,7 @@ class Cable(Composite):
     diameter = Parameter("m", "Outside diameter.", default=0.02, above=0)
     weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)
     bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0)
+    side_wall = Parameter("N/m", "Load per length, tension over radius, that it bears.", default=None, above=0)
     mass = Parameter("kg/m", "Mass per length.", above=0)
     stiffness = Parameter("N", "EA, tension per strain.", above=0)
     damping_ratio = Parameter("1", "Damping of an element relative to critical.", default=0.05, least=0)

@@ -19,8 +19,8 @@ from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
+from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
-from fairlead.analysis.widths import too_wide
 from fairlead.choice import choose
 from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
@@ -196,7 +196,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
         "unknowns": system.n, "machines": len(system.zones),
-        "remarks": [str(remark) for remark in too_wide(system.flat)],
+        "remarks": [str(remark) for remark in remarks(system.flat)],
     }  # fmt: skip
 
 

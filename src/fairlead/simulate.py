@@ -91,7 +91,7 @@ class Model:
         """
         from fairlead.analysis.names import unknown_signals
         from fairlead.analysis.recording import unreasonable
-        from fairlead.analysis.widths import too_wide
+        from fairlead.analysis.remarks import remarks
         from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
@@ -116,7 +116,7 @@ class Model:
                 faults += error.faults
         if faults:
             raise ModelError(_in_order(faults))
-        return too_wide(self.flat)
+        return remarks(self.flat)
 
     def describe(self, stage: str = "flatten") -> str:
         """What the model has become after a stage."""

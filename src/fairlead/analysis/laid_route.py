@@ -12,6 +12,7 @@ from typing import Any
 
 from fairlead.analysis.machines import Machine, machine
 from fairlead.analysis.schedule import Schedule, scaled
+from fairlead.analysis.tracing import trace
 from fairlead.component.instantiate import Line, PortRef
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
@@ -21,7 +22,10 @@ AMBIENT = 293.15  # K, of a contact that nothing warms
 
 @dataclass(frozen=True)
 class Device:
-    """A station with a surface, a slope or a drive, between `begin` and `end` [m]; `machine` moves its surface."""
+    """A station with a surface, a slope or a drive, between `begin` and `end` [m]; `machine` moves its surface.
+
+    `clamps` add up to the load of each belt of a deployer [N/m]; None where a signal adds what cannot be told.
+    """
 
     name: str
     word: str
@@ -29,6 +33,11 @@ class Device:
     end: float
     station: Any
     machine: Machine | None = None
+    clamps: tuple[Wave, ...] | None = ()
+
+    def squeeze(self, t: float) -> float:
+        """Load with which it presses on the line all round [N/m], as far as it can be told."""
+        return float(self.station.squeeze()) + 2 * sum(wave(t) for wave in self.clamps or ())
 
     @property
     def curvature(self) -> float:
@@ -139,20 +148,21 @@ class LaidRoute:
     def line_speed(self, drive: Machine) -> Wave:
         """The speed of the line [m/s] that a machine gives."""
         assert drive.speed is not None
-        return scaled(drive.speed, self.radius(0.0)) if self._turns(drive) else drive.speed
+        return scaled(drive.speed, self.lever(drive, 0.0))
 
     def pull(self, drive: Machine, t: float, speed: float, way: float) -> float:
         """Force outboard [N] that a machine gives to the line."""
-        lever = self.radius(way) if self._turns(drive) else 1.0
+        lever = self.lever(drive, way)
         return drive.effort(t, speed / lever) / lever
 
     def inertia(self, drive: Machine, way: float) -> float:
         """Mass of a machine at the line [kg]."""
-        return drive.inertia / self.radius(way) ** 2 if self._turns(drive) else drive.inertia
+        return drive.inertia / self.lever(drive, way) ** 2
 
-    def _turns(self, drive: Machine) -> bool:
-        """True for a drum with layers, whose port is its shaft."""
-        return self.winch is not None and self.winch.station.layers == "on" and drive is self.inboard
+    def lever(self, drive: Machine, way: float) -> float:
+        """Way of the line over that of the machine's port: the radius of a drum with layers [m], else 1."""
+        shaft = self.winch is not None and self.winch.station.layers == "on" and drive is self.inboard
+        return self.radius(way) if shaft else 1.0
 
     def signal(self, device: Device, t: float) -> float:
         """Speed of the ship at a sea [m/s]."""
@@ -172,15 +182,15 @@ def laid_routes(flat: FlatModel) -> list[LaidRoute]:
 
 
 def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
-    without, placed = (line.path, route.path), route.line.placed
-    devices = []
-    for one in sorted(placed, key=lambda one: (one.begin, one.end)):
+    ends, devices = (line.path, route.path), []
+    for one in sorted(route.line.placed, key=lambda one: (one.begin, one.end)):
         word = one.station.type.word
         made = route.line.machinery.get(one.name)
         moved = made is not None and made.surface and word != "Winch"
         port = _port(f"{route.path}.{one.name}.{made.surface}") if moved else None
-        mover = machine(flat, port, without) if port is not None else None
-        devices.append(Device(one.name, word, one.begin, one.end, one.station, mover))
+        mover = machine(flat, port, *ends) if port is not None else None
+        clamps = _clamps(flat, f"{route.path}.{one.name}", one.station) if made is not None and made.clamp else ()
+        devices.append(Device(one.name, word, one.begin, one.end, one.station, mover, clamps))
     aliases = flat.assembly.aliases
     winch = next((one for one in devices if one.word == "Winch" and line.values.start < one.end), None)
     inboard = aliases[f"{line.path}.inboard"]
@@ -188,9 +198,16 @@ def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
         inboard = _port(f"{route.path}.{winch.name}.{route.line.machinery[winch.name].surface}")
     return LaidRoute(
         flat, line, route, tuple(one for one in devices if one.word not in ("Winch", "Sea")),
-        machine(flat, inboard, without), machine(flat, aliases[f"{line.path}.outboard"], without), winch,
+        machine(flat, inboard, *ends), machine(flat, aliases[f"{line.path}.outboard"], *ends), winch,
         tuple(one for one in devices if one.word == "Sea"),
     )  # fmt: skip
+
+
+def _clamps(flat: FlatModel, path: str, station: Any) -> tuple[Wave, ...] | None:
+    """What presses each belt: as given, and what a signal adds."""
+    added = trace(flat, flat.assembly.aliases[f"{path}.clamp"])
+    told = added.told() if added is not None else None
+    return None if told is None else (station.clamp, told)
 
 
 def _port(path: str) -> PortRef:

@@ -55,56 +55,69 @@ class Machine:
         return [float(t) for wave in waves for t in wave.polynomial.rows[1:, 0]]
 
 
-def machine(flat: FlatModel, port: PortRef, without: tuple[str, ...]) -> Machine:
-    """What stands behind `port`; instances below the paths `without`, (line, route), do not count."""
+def bodies(flat: FlatModel, port: PortRef, without: tuple[str, ...] = ()) -> dict[int, float]:
+    """Groups of bodies that move with a port in steady motion, and how fast they do when it moves with 1."""
     group, ratio, _ = flat.place(port)
-    ratios, waiting, efforts = {group: 1 / ratio}, [group], []
+    ratios, waiting = {group: 1 / ratio}, [group]
+    while waiting:
+        here = waiting.pop()
+        for instance, name, own in _attached(flat, here, without):
+            if not getattr(instance.type, "transmits", False):
+                continue
+            (other,) = (end for end in instance.type.declaration.ports if end != name)
+            beyond, other_ratio, _ = flat.place(PortRef(instance.path, other))
+            if beyond not in ratios:
+                ratios[beyond] = own * ratios[here] / other_ratio
+                waiting.append(beyond)
+    return ratios
+
+
+def machine(flat: FlatModel, port: PortRef, line: str, route: str) -> Machine:
+    """What stands behind `port`; instances that belong to the line or the route (their paths) do not count."""
+    without = (line, route)
+    ratios = bodies(flat, port, without)
+    efforts: list[tuple[Instance, str, float, Wave | None]] = []
     unknown: list[str] = []
     left_out: list[str] = []
     speed: Wave | None = None
     tension: float | None = None
     by = ""
-    while waiting:
-        here = waiting.pop()
-        made = flat.groups[here]
-        if made.prescribed is not None:
-            speed, by = _prescribed(flat, made.prescribed, ratios[here]), made.prescribed.by.instance
+    for here, ratio in ratios.items():
+        prescribed = flat.groups[here].prescribed
+        if prescribed is not None:
+            speed, by = _prescribed(flat, prescribed, ratio), prescribed.by.instance
+            unknown += [by] if speed is None else []
         for instance, name, own in _attached(flat, here, without):
-            others = [other for other in instance.type.declaration.ports if other != name]
             if getattr(instance.type, "transmits", False):
-                beyond, other_ratio, _ = flat.place(PortRef(instance.path, others[0]))
-                if beyond not in ratios:
-                    ratios[beyond] = own * ratios[here] / other_ratio
-                    waiting.append(beyond)
-            elif others:
+                continue
+            if len(instance.type.declaration.ports) > 1:
                 (left_out if _mechanical(instance) else unknown).append(instance.path)
+                continue
+            found = _effort(flat, instance, name)
+            if found is None:
+                unknown.append(instance.path)
+            elif found.kept is not None:
+                tension, by = found.kept, found.by
             else:
-                found = _effort(flat, instance, name)
-                if found is None:
-                    unknown.append(instance.path)
-                elif found.kept is not None:
-                    tension, by = found.kept, found.by
-                else:
-                    efforts.append((instance, name, own * ratios[here], found.told()))
-    inertia = sum(_inertia(flat, g, without[0]) * r**2 for g, r in ratios.items())
+                efforts.append((instance, name, own * ratio, found.told()))
+    inertia = sum(_inertia(flat, g, line) * r**2 for g, r in ratios.items())
     held = _controlled(flat, ratios) if speed is None else None
     if held is not None:
         speed, tension, by = held.told(), held.kept, held.by
-    elif unknown and speed is None and tension is None:
-        by = unknown[0]
-    acting = [one for one in efforts if _acts(one)]
-    lone = speed is None and tension is None and not unknown
-    by = by or (acting[0][0].path if acting else "")
-    return Machine(port, ratios, inertia, speed, tension, tuple(acting) if lone else (),
-                   bool(unknown) and speed is None and tension is None, by, tuple(dict.fromkeys(left_out)))  # fmt: skip
+    at_a_loss = bool(unknown) and speed is None and tension is None
+    acting = tuple(one for one in efforts if _acts(one)) if speed is None and tension is None and not unknown else ()
+    by = by or (unknown[0] if at_a_loss else acting[0][0].path if acting else "")
+    return Machine(port, ratios, inertia, speed, tension, acting, at_a_loss, by, tuple(dict.fromkeys(left_out)))
 
 
-def _prescribed(flat: FlatModel, prescribed: Any, ratio: float) -> Wave:
-    """Speed of the port when its group is driven as given."""
+def _prescribed(flat: FlatModel, prescribed: Any, ratio: float) -> Wave | None:
+    """Speed of the port when its group is driven as given; None for a class that does not tell its motion."""
     if prescribed.outputs is None:
         return steady(0.0)
     values = flat.assembly.instances[prescribed.by.instance].values
     _, own, _ = flat.place(prescribed.by)
+    if not hasattr(values, "motion"):
+        return None
     given = values.velocity if getattr(values, "velocity", None) is not None else rate(values.motion)
     return scaled(given, 1 / (own * ratio))
 

@@ -29,9 +29,7 @@ def pieces(route: LaidRoute, t: float, speed: float, way: float, acceleration: f
             yield None, Piece(begin, end, load=load), 0.0
             continue
         p, weight = device.station, route.line.line.load
-        pressed = p.squeeze() + (weight * math.cos(p.slope) if p.bears_weight() else 0.0)
-        if device.word == "Deployer":
-            pressed += 2 * p.clamp(t)
+        pressed = device.squeeze(t) + (weight * math.cos(p.slope) if p.bears_weight() else 0.0)
         load += weight * math.sin(p.slope)
         piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round())
         slid = 0.0 if device.machine is not None else device.friction(speed) * _grip(route, device, piece)

@@ -86,7 +86,7 @@ def _squeezed(one: Passage) -> float:
     """Load of clamps and tight tubes on the bulkheads [N/m]."""
     if one.device is None:
         return 0.0
-    return one.piece.pressed if one.device.word == "Deployer" else float(one.device.station.squeeze())
+    return one.piece.pressed if one.device.clamps else float(one.device.station.squeeze())
 
 
 def _slips(state: State, one: Passage, together: float) -> bool:

@@ -322,8 +322,9 @@ def _end_tension(march: _March, acceleration: float, *, inboard: bool) -> float:
 
 
 def capacity(device: Device, piece: Piece) -> float | None:
-    """Largest force of belts on the line, 2 mu q length [N]; None for what is not clamped."""
-    return device.friction(0.0) * piece.pressed * piece.length if device.word == "Deployer" else None
+    """Largest force of belts on the line, 2 mu q length [N]; None for what is not clamped, or nobody knows how."""
+    known = device.word == "Deployer" and device.clamps is not None
+    return device.friction(0.0) * piece.pressed * piece.length if known else None
 
 
 def lever(device: Device) -> float | None:

@@ -1,0 +1,80 @@
+"""What `check` and the start of a run remark about a scene that can run, but not well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fairlead.analysis.laid_route import LaidRoute
+from fairlead.analysis.slow_drives import slow_drives
+from fairlead.analysis.statics import WANTED, State, Statics, statics
+from fairlead.analysis.widths import too_wide
+from fairlead.errors import Fault, Location
+from fairlead.flatten.flat_model import FlatModel
+
+
+def remarks(flat: FlatModel) -> list[Fault]:
+    """Contacts that are too wide, clamps too weak, curves too tight for the tension, drives too slow."""
+    solved = statics(flat)
+    found = list(too_wide(flat))
+    for one in solved:
+        found += [*weak_clamps(one), *side_walls(one)]
+    return [*found, *slow_drives(flat, solved)]
+
+
+def weak_clamps(found: Statics) -> Iterator[Fault]:
+    """Deployers whose belts hold less than `WANTED` times the force they must give."""
+    for device in found.route.devices:
+        needs = [
+            (abs(drive.force), drive.capacity, state)
+            for state in (*found.moving, *found.starts)
+            for drive in state.drives
+            if drive.name == device.name and drive.capacity is not None
+        ]
+        if not needs:
+            continue
+        worst, holds, state = max(needs, key=lambda need: need[0] / need[1] if need[1] else need[0] * 1e30)
+        steady = max((force for force, _, state in needs if not state.acceleration), default=0.0)
+        if worst <= 0 or holds >= WANTED * worst:
+            continue
+        name = f"{found.route.route.path}.{device.name}"
+        what = (
+            f"{name}: its belts hold {holds:.4g} N (2 mu q length), {_needed(worst, steady, state)}: a factor of "
+            f"{holds / worst:.2g}, {WANTED:g} is wanted."
+        )
+        grip = 2 * device.friction(0.0) * (device.end - device.begin)  # force per load of each belt
+        cure = f"A clamp of {WANTED * worst / grip:.3g} N/m for each belt would do." if grip else "Give them friction."
+        yield Fault(where(found.route, device.name), what, f"{'They will slip. ' if holds < worst else ''}{cure}")
+
+
+def _needed(worst: float, steady: float, state: State) -> str:
+    """What the belts must give, steadily and while the speed changes."""
+    if not state.acceleration:
+        return f"and {'paying out' if state.speed > 0 else 'hauling'} takes {worst:.4g} N"
+    change = f"a change of speed of {abs(state.acceleration):.3g} m/s^2 at {state.t:.4g} s"
+    return f"steady motion takes up to {steady:.4g} N and {change} {worst:.4g} N"
+
+
+def side_walls(found: Statics) -> Iterator[Fault]:
+    """Curves in which the line is pressed harder than it bears."""
+    most = getattr(found.route.values, "side_wall", None)
+    if most is None:
+        return
+    worst: dict[str, tuple[float, State]] = {}
+    for state in (*found.moving, *found.starts):
+        for one in state.passages:
+            if one.device is not None and one.side_wall > max(most, worst.get(one.name, (0.0, state))[0]):
+                worst[one.name] = one.side_wall, state
+    for name, (load, state) in worst.items():
+        device = f"{found.route.route.path}.{name}"
+        what = f"{device}: at {state.speed:.3g} m/s the line is pressed with {load:.4g} N/m (tension over radius), "
+        bears = f"more than {found.route.line.path} bears, {most:.4g} N/m."
+        yield Fault(where(found.route, name), what + bears, "Use a larger radius, or a line that bears more.")
+
+
+def where(route: LaidRoute, name: str) -> Location:
+    """Where a device stands in the netlist; the route itself when it was not written there."""
+    number = next(one.number for one in route.route.line.placed if one.name == name)
+    entry = route.flat.assembly.netlist.components.get(route.route.path)
+    listed = entry.parameters.get("stations") if entry is not None else None
+    items = listed.content if listed is not None and isinstance(listed.content, list) else []
+    return items[number].where if number < len(items) else route.route.where
