@@ -85,6 +85,7 @@ class _On:
         slots = [made for surface in self.route.surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
         if bulkhead is not None:
             self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
+        self.readings(i, body, reach)
         self.twist(i, body)
         bodies = [body] + ([f"{self.line.inner}[{i}]"] if two else [])
         for one in bodies:
@@ -112,12 +113,26 @@ class _On:
         masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
         self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
         self.meter(f"{name}[{i}]")
-        total_of = self.route.machinery[surface.name].total if surface.name in self.route.machinery else ""
-        if total_of:
-            tells = self.to.child(f"{name}_tells[{i}]", Told)
-            self.to.join(f"{load}.force", f"{tells}.value")
-            self.to.join_to(f"{tells}.sum", f"{self.path}.{surface.name}.{total_of}")
+        if surface.name in self.route.machinery:
+            self.tell(surface.name, f"{name}_tells[{i}]", load)
         return f"{name}[{i}]"
+
+    def tell(self, station: str, name: str, load: str) -> None:
+        """Add the load of a node to the sum of a device, if it keeps one."""
+        total_of = self.route.machinery[station].total
+        if total_of:
+            tells = self.to.child(name, Told)
+            self.to.join(f"{load}.force", f"{tells}.value")
+            self.to.join_to(f"{tells}.sum", f"{self.path}.{station}.{total_of}")
+
+    def readings(self, i: int, body: str, reach: Reach) -> None:
+        """What a node counts in the means of tensions that devices tell."""
+        for one in self.route.placed:
+            counts = one.station.reads()
+            if counts:
+                name, windows = f"reading_{one.name}", [one.window(counts)]
+                read = self.tension_load(f"{name}[{i}]", LateralLoad, i, body, reach, windows, self.line.layers, "")
+                self.tell(one.name, f"{name}_tells[{i}]", read)
 
     def rub(self, name: str, i: int, surface: str, body: str, load: str, curve: Any, masses: dict[str, float]) -> None:
         """The contact itself; for a line that twists, one in two directions or one in each."""

@@ -69,6 +69,10 @@ class Station(Family, abstract=True):
         """Load with which it presses on the line all round [N/m]."""
         return 0.0
 
+    def reads(p):
+        """What a metre of line counts in a mean of tensions that the device tells [1/m]; 0 when it tells none."""
+        return 0.0
+
     def machinery(p, scene):
         """The bodies that move; None for a device that stands."""
         return None
