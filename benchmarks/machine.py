@@ -46,7 +46,7 @@ def machine() -> dict[str, object]:
         "load_average": [round(load, 1) for load in os.getloadavg()] if hasattr(os, "getloadavg") else [],
         "python": platform.python_version(),
         "versions": {name: importlib.metadata.version(name) for name in PACKAGES},
-        "commit": _commit(),
+        "commit": commit(),
     }
 
 
@@ -69,7 +69,8 @@ def _processor() -> str:
     return names[0] if names else platform.processor() or "unknown processor"
 
 
-def _commit() -> str:
+def commit() -> str:
+    """The commit that is measured."""
     here = pathlib.Path(__file__).parent
     try:
         found = subprocess.run(
