@@ -148,7 +148,7 @@ def _explained(outcome: Outcome, system: System) -> Outcome:
 
 def _patterns(netlist: Netlist) -> list[str]:
     """What to record: what is asked for, and what plots and limits need."""
-    plotted = [pattern for plot in netlist.record.plots for pattern in plot.signals]
+    plotted = [pattern for plot in netlist.record.plots for pattern in (*plot.signals, plot.along) if pattern]
     return [*netlist.record.signals, *plotted, *netlist.limits]
 
 

@@ -128,6 +128,7 @@ SEEDED = [
     ("block.x, pad", "blok.x, pad", "scene.yaml:22:20: record: no signal has the name blok.x. Did you mean block.x?"),
     ("pad.*", "pod.*", "scene.yaml:22:29: record: no signal has the name pod.*. Did you mean pad.*?"),
     ("[block.x, pad.*]", "[block.x], plots: [{signals: [block.z]}]", "scene.yaml:22:49: record: no signal has the name block.z.\n    block gives x, v."),
+    ("[block.x, pad.*]", "[block.x], plots: [{signals: [block.x], kind: map, along: block.z}]", "scene.yaml:22:77: record: no signal has the name block.z."),
     ("spring.tension:", "spring.tenson:", "scene.yaml:23:10: limits.spring.tenson: no signal has this name. Did you mean spring.tension?"),
     ("below: 50 N", "below: 50 m", "scene.yaml:23:34: limits.spring.tension.below = 50 m is a length, not a force."),
     ("below:", "belw:", "scene.yaml:23:27: limits.spring.tension.belw: a limit is above or below. Did you mean below?"),

@@ -21,7 +21,8 @@ from fairlead.system.compile import compile
 LOOSE, TIGHT = 1e-4, 1e-6
 MODELS = sorted(path.stem for path in Path(fairlead.models.__file__).parent.glob("*.yaml"))
 SPAN = {"belt": 5.0, "block_and_spring": 4.0, "sandwich": 2.0, "hundred_blocks": 0.5, "single_bend": 2.0,
-        "guidance_route": 0.2, "weak_clamp": 0.1, "slack_start": 0.1, "long_deployment": 0.05}  # fmt: skip
+        "guidance_route": 0.1, "guidance_route_ideal": 0.1, "guidance_route_electric": 0.1,
+        "weak_clamp": 0.1, "slack_start": 0.1, "long_deployment": 0.05}  # fmt: skip
 """Seconds of each model that are compared: some whole cycles, or the first hundreds of switches."""
 SHORT = 0.5
 

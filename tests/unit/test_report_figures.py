@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fairlead.errors import UsageError
-from fairlead.report import figures, page, panel
+from fairlead.report import figures, map, page, panel
 from fairlead.results import Result, RunDirectory, Signal
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -142,3 +142,28 @@ def test_the_page_tells_run_limits_zones_and_ranges(result: Result) -> None:
 def test_the_page_of_a_run_without_signals_says_so(tmp_path: Path) -> None:
     RunDirectory.create(tmp_path / "run", (), {}).finish("failed", {})
     assert "Nothing was recorded." in page.write(Result.open(tmp_path / "run")).read_text(encoding="utf-8")
+
+
+def test_a_map_has_values_between_places_and_none_beyond_them() -> None:
+    places, values = np.array([[1.0, 2.0, 4.0], [2.0, 3.0, 5.0]]), np.array([[10.0, 20.0, 40.0]] * 2)
+    found = map.gridded(places, values, np.array([0.5, 1.5, 3.0, 4.5]))
+    np.testing.assert_allclose(found, [[np.nan, 15.0, 30.0, np.nan], [np.nan, np.nan, 20.0, 35.0]])
+
+
+@pytest.mark.parametrize("along", ["", "line.core[*].tension"])
+def test_a_map_becomes_a_picture(result: Result, along: str) -> None:
+    plot = {"signals": ["line.core[*].tension"], "kind": "map", "along": along, "file": "map.png"}
+    (path,) = figures.draw(result, [plot | ({"between": [2.0, 12.0]} if along else {})])
+    assert is_picture(path)
+
+
+def test_places_of_a_map_may_be_one_more_than_its_values(result: Result) -> None:
+    found = map._places(result, [f"line.core[{i}].tension" for i in range(11)], result.match("line.core[*].tension"))
+    np.testing.assert_allclose(found[0], np.diff(result.columns(result.match("line.core[*].tension"))[0]) / 2
+                               + result.columns(result.match("line.core[*].tension"))[0, :-1])  # fmt: skip
+
+
+def test_a_map_whose_places_do_not_fit_is_told(result: Result) -> None:
+    plot = {"signals": ["haul.force", "block.v"], "kind": "map", "along": "line.core[*].tension"}
+    with pytest.raises(UsageError, match="a map of 1 signals needs 1 or 2 places, and `along` fits 12"):
+        figures.draw(result, [plot])

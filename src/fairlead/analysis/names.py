@@ -44,9 +44,12 @@ def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
     block = assembly.netlist.recorded
     lists = [block.get("signals")]
     plots = block["plots"].content if "plots" in block else []
-    lists += [plot.entries.get("signals") for plot in plots] if isinstance(plots, list) else []
-    for listed in lists:
-        for value in listed.content if listed is not None and isinstance(listed.content, list) else []:
+    plots = plots if isinstance(plots, list) else []
+    lists += [plot.entries.get("signals") for plot in plots]
+    listed = [one.content for one in lists if one is not None and isinstance(one.content, list)]
+    listed.append([along for plot in plots if (along := plot.entries.get("along")) is not None])
+    for values in listed:
+        for value in values:
             if isinstance(value.content, str) and not _excused(assembly, value.content):
                 yield value, value.content
 

@@ -35,6 +35,7 @@ def _number(value: object) -> float:
 
 # Text with a unit (or an expression in braces) or a bare number comes in, an SI float is kept.
 Seconds = Annotated[float, BeforeValidator(lambda value: si(value, "s")), _schema_of("s")]
+Metres = Annotated[float, BeforeValidator(lambda value: si(value, "m")), _schema_of("m")]
 Number = Annotated[float, BeforeValidator(_number), _schema_of("1")]
 Count = Annotated[int, BeforeValidator(_whole), Field(gt=0)]
 Duration = Annotated[Seconds, Field(gt=0)]
@@ -88,6 +89,22 @@ class Plot(Strict):
     """Title above the figure."""
     file: str = ""
     """File name inside the run directory, such as `tension.png`."""
+    kind: Literal["lines", "map"] = "lines"
+    """lines over time; or a map of the elements of a line: time to the right, place upward, value as colour."""
+    along: str = ""
+    """Of a map: pattern of the signals that tell the places, such as `line.hose_node[*].x`; else the number counts."""
+    between: Annotated[list[Metres], Field(min_length=2, max_length=2)] | None = None
+    """Of a map with `along`: from where to where."""
+
+    @model_validator(mode="after")
+    def _is_a_map(self) -> Plot:
+        if self.kind != "map" and (self.along or self.between):
+            raise QuantityError("`along` and `between` belong to a map; give kind: map")
+        if self.between and not self.along:
+            raise QuantityError("`between` is a range of places; give the signals that tell them under `along`")
+        if self.between and self.between[0] >= self.between[1]:
+            raise QuantityError(f"between: {self.between[0]:g} m is not below {self.between[1]:g} m")
+        return self
 
 
 class RecordSettings(Strict):

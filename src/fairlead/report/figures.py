@@ -15,7 +15,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fairlead.errors import UsageError, did_you_mean
+from fairlead.report.map import draw_map
 from fairlead.report.panel import draw_panel
+from fairlead.results.signal import family
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,11 +49,14 @@ STYLE: dict[Any, Any] = {
 
 @dataclass(frozen=True)
 class Picture:
-    """One figure to draw: its title, the signals in it (by name), and its file name."""
+    """One figure to draw: its title, the signals in it (by name), its file name; for a map the places, by name."""
 
     title: str
     signals: tuple[str, ...]
     file: str
+    map: bool = False
+    along: tuple[str, ...] = ()
+    between: tuple[float, float] | None = None
 
 
 def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
@@ -80,15 +85,27 @@ def _figure(result: Result, picture: Picture) -> Figure:
     from matplotlib.figure import Figure
 
     about = {signal.name: signal for signal in result.signals}
-    panels = _by_unit([about[name] for name in picture.signals])
+    signals = [about[name] for name in picture.signals]
+    panels = _by_family(signals) if picture.map else _by_unit(signals)
     height = TITLE_HEIGHT + PANEL_HEIGHT * len(panels)
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    for ax, signals in zip(axes, panels, strict=True):
-        draw_panel(ax, result, signals)
+    for ax, shown in zip(axes, panels, strict=True):
+        if picture.map:
+            label = f"{family(shown[0].name)[0]} [{shown[0].unit}]"
+            draw_map(ax, result, [one.name for one in shown], label, picture.along, picture.between)
+        else:
+            draw_panel(ax, result, shown)
     figure.suptitle(picture.title, x=0.01, horizontalalignment="left", parse_math=False)
     axes[-1].set_xlabel("time [s]")
     return figure
+
+
+def _by_family(signals: Sequence[Signal]) -> list[list[Signal]]:
+    panels: dict[str, list[Signal]] = {}
+    for signal in signals:
+        panels.setdefault(family(signal.name)[0], []).append(signal)
+    return list(panels.values())
 
 
 def _by_unit(signals: Sequence[Signal]) -> list[list[Signal]]:
@@ -107,7 +124,12 @@ def _asked_for(result: Result, plots: list[Any]) -> list[Picture]:
         if names:
             title = _entry(plot, "title") or ", ".join(patterns)
             taken = {picture.file for picture in pictures}
-            pictures.append(Picture(title, names, _file_name(_entry(plot, "file") or title, taken)))
+            file = _file_name(_entry(plot, "file") or title, taken)
+            along, between = _entry(plot, "along"), _entry(plot, "between")
+            places = _found(result, [along]) if along else ()
+            pictures.append(
+                Picture(title, names, file, _entry(plot, "kind") == "map", places, tuple(between) if between else None)
+            )
     return pictures
 
 
