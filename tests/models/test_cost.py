@@ -7,11 +7,14 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
+from fairlead.analysis.boxed_runs import BoxedRuns
 from fairlead.analysis.choice import choose, front, knee
 from fairlead.analysis.cost import cost
 from fairlead.analysis.kept_runs import KeptRuns
-from fairlead.analysis.ladder import Ladder
+from fairlead.analysis.ladder import Equations, Ladder
+from fairlead.analysis.references import References
 from fairlead.analysis.study import Study
+from fairlead.analysis.timed_run import Timed
 from fairlead.cli import app
 from tests.reference.belt import StickSlipBelt
 
@@ -166,6 +169,42 @@ def test_a_wrong_option_is_told(words, told):
     done = CliRunner().invoke(app, ["cost", "belt", *words])
     assert done.exit_code == 2
     assert told in " ".join(done.output.replace("│", " ").split())
+
+
+def references(found, monkeypatch, converges=True):
+    """What References makes of tight runs that are given: engine -> the value of one output over time."""
+    runs = BoxedRuns(None, "", ["a.x"], (0.0, 1.0), 1.0, 1e-7, KeptRuns(None))
+    made = References(runs, ["m"], [])
+    t = np.linspace(0, 1, 1001)
+    timed = {name: Timed("finished", values=np.reshape(t + off, (-1, 1))) for name, off in found.items()}
+    monkeypatch.setattr(runs, "tightly", lambda equations, engine: timed.get(engine))
+    monkeypatch.setattr(made, "brief", lambda: True)
+    monkeypatch.setattr(made, "converges", lambda *_: converges)
+    monkeypatch.setattr("fairlead.analysis.references.engines_here", lambda: ["rodas", "stepping", "ida"])
+    return made.of_scene(Equations(""))
+
+
+def test_where_two_engines_do_not_agree_a_third_decides(monkeypatch):
+    found = references({"rodas": 0.0, "ida": 0.1, "stepping": 1e-5}, monkeypatch)
+    assert found.label == "rodas and stepping at accuracy 1e-07"
+    assert found.spread == pytest.approx(1e-5)
+    assert found.agrees
+    assert found.dissent == "ida is 10 % from them (a.x)"
+    outvoted = references({"rodas": 0.1, "ida": 1e-5, "stepping": 0.0}, monkeypatch)
+    assert outvoted.label == "ida and stepping at accuracy 1e-07"
+
+
+def test_where_no_two_of_three_engines_agree_the_spread_is_the_floor(monkeypatch):
+    found = references({"rodas": 0.0, "ida": 0.1, "stepping": 0.03}, monkeypatch)
+    assert found.spread == pytest.approx(0.03)
+    assert not found.agrees
+    assert "rodas and ida are 10 % apart" in found.dissent
+
+
+def test_a_third_engine_is_not_asked_where_tight_runs_do_not_converge(monkeypatch):
+    found = references({"rodas": 0.0, "ida": 0.1, "stepping": 0.0}, monkeypatch, converges=False)
+    assert found.sensitive
+    assert found.label.startswith("rodas and ida")
 
 
 def test_a_mesh_that_cannot_be_made_is_left_out_with_a_reason(monkeypatch):

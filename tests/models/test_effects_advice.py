@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.analysis.effects import effects
-from fairlead.analysis.switches import switches
+from fairlead.analysis.switches import all_off, switches
 from fairlead.cli import app
 
 LIBRARY = '''
@@ -112,6 +112,24 @@ def test_a_component_with_a_word_of_its_own_is_switched_too(lagging):
     model = lagging("0.05 s")({"gauge.effects.lag": "off"})
     (lag,) = [switch for switch in switches(model) if switch.name == "lag"]
     assert dict(lag.settings) == {"effects.lag": "on", "gauge.effects.lag": "on"}
+
+
+def test_a_switch_that_changes_no_equation_is_told_and_not_run():
+    """Coulomb friction without exponents has no term for load and temperature, whatever is on."""
+    found = effects(lambda more: fairlead.load("belt", set={"run.stop": "1 s", **more}))
+    assert {"load_dependence off", "temperature_dependence off"} <= set(found.untouched)
+    assert not {"load_dependence", "temperature_dependence"} & {row.switch.name for row in found.rows}
+
+
+def test_all_effects_off_names_none_of_a_component_that_went_with_another():
+    """Without friction of the motor there is no contact left, so its own effects cannot be switched any more."""
+    def load(more):
+        return fairlead.load("winch_drive", set=more)
+
+    together = all_off(load, switches(load({})))
+    assert "effects.motor_friction" in together.settings
+    assert "effects.load_dependence" not in together.settings
+    assert load(together.settings).check() == []
 
 
 def test_the_command_prints_a_sentence_for_each(tmp_path):

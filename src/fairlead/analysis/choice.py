@@ -14,6 +14,7 @@ from fairlead.analysis.study import Row, Study
 
 TARGETS = (0.05, 0.01, 0.001)
 FASTER = 0.9  # of the time: a line that is only a little faster does not win over one that is more exact
+UNFELT = 1e-3  # s: nor one that is faster by no more than this, which is what such short times scatter by
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,8 @@ def choose(study: Study, target: float) -> Choice:
         what = "there are no two references" if math.isinf(study.floor) else agree
         return Choice(target, None, f"{head}cannot be told, {what}.")
     if good:
-        near = [row for row in good if FASTER * row.timed.cpu <= good[0].timed.cpu]
+        longest = max(good[0].timed.cpu / FASTER, good[0].timed.cpu + UNFELT)
+        near = [row for row in good if row.timed.cpu <= longest]
         row = min(near, key=lambda row: found[id(row)])
         return Choice(target, row, head + _sentence(study, row, target))
     if known:

@@ -1,7 +1,8 @@
 """What a study measures against: tight runs by independent engines that must agree, or the spread that they have.
 
-    rodas, then the first of ida, stepping, and rodas3p (a second method of rodas, which shares the location of
-    switches) that finishes in its share of the budget. They are the reference when they agree to AGREE.
+    rodas, at ten or a hundred times that accuracy where it does not finish; then the first of ida, stepping, and
+    rodas3p (a second method of rodas, which shares the location of switches) that finishes in its share of the
+    budget. They are the reference when they agree to AGREE.
 
     Otherwise runs of rodas at a hundred and ten times the accuracy tell whether it converges at all. If not, the
     scene is sensitive to everything. If it does, the next engine is asked too, and the two that agree best are
@@ -24,6 +25,7 @@ from fairlead.analysis.timed_run import Timed
 BDF = 0.01  # share of the budget that the scene may take for ida to be tried as a reference: it is slow at switches
 CONVERGING = 0.5  # the spread of tight runs over that of less tight ones; with more they do not converge
 ENOUGH = 3  # engines asked when two do not agree
+LOOSER, TIMES = 10.0, 2  # what is tried when a tight run does not finish, and how often
 
 
 @dataclass
@@ -52,16 +54,26 @@ class References:
 
     def finished(self, equations: Equations) -> Iterator[tuple[str, Timed | None]]:
         """Engines with their tight runs: rodas, even if it failed, then the others that finish."""
-        first = self.runs.tightly(equations, "rodas")
-        if first is None or not first.finished:
-            self.complain("rodas", first)
-            first = None
-        yield "rodas", first
+        yield "rodas", self._first(equations)
         here = [e for e in reversed(engines_here()) if e == "stepping" or (e == "ida" and self.brief())]
         for engine in [*here, "rodas3p"]:
             timed = self.runs.tightly(equations, engine)
             if timed is not None and timed.finished:
                 yield engine, timed
+
+    def _first(self, equations: Equations) -> Timed | None:
+        """rodas, at the tightest accuracy at which it finishes; from there on all references are had at that."""
+        wanted = self.runs.tight
+        for _ in range(TIMES + 1):
+            timed = self.runs.tightly(equations, "rodas")
+            if timed is not None and timed.finished:
+                if self.runs.tight > wanted:
+                    self.remarks.append(f"References at {self.runs.tight:g}: at {wanted:g} rodas did not finish.")
+                return timed
+            self.runs.tight *= LOOSER
+        self.runs.tight = wanted
+        self.complain("rodas", timed)
+        return None
 
     def brief(self) -> bool:
         """Whether ida can be asked in time."""

@@ -36,7 +36,8 @@ def draw(study: Study, path: Path) -> Path:
         ax.set_yscale("log")
         ax.set_xlabel("CPU time of stepping [s]")
         ax.set_ylabel("error of mean and spread over time" if study.sensitive else "rms error, worst output")
-        ax.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        if ax.get_legend_handles_labels()[0]:  # no line was measured where there is no reference
+            ax.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
         part = "" if study.whole else f", first {study.span[1] - study.span[0]:g} s"
         figure.suptitle(f"{study.name}{part}: what accuracy costs", x=0.01, horizontalalignment="left")
         path.parent.mkdir(parents=True, exist_ok=True)
