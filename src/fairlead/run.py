@@ -21,6 +21,7 @@ from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
+from fairlead.analysis.route_record import route_records
 from fairlead.choice import choose
 from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
@@ -123,7 +124,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     limits = read_limits(netlist.limits, system.recorded)
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
-    with RunDirectory.create(path, _signals(chosen), _header(netlist, settings, system), force=force) as directory:
+    header = {**_header(netlist, settings, system), "limits": limits.plain()}
+    with RunDirectory.create(path, _signals(chosen), header, force=force) as directory:
         on_grid = netlist.record.every is not None
         watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid)
         with interrupted_between_blocks(watch):
@@ -197,6 +199,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "effects_in_force": system.flat.assembly.effects,
         "unknowns": system.n, "machines": len(system.zones),
         "remarks": [str(remark) for remark in remarks(system.flat)],
+        "routes": route_records(system.flat),
     }  # fmt: skip
 
 

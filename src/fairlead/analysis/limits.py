@@ -32,6 +32,7 @@ class Limit:
     unit: str
     worst: float = 0.0
     broken: str = ""
+    pattern: str = ""
 
     def watch(self, t: NDArray[np.float64], rows: NDArray[np.float64]) -> None:
         """Take recorded rows (k, m)."""
@@ -55,6 +56,13 @@ class Limits:
         """Take recorded rows."""
         for limit in self.limits:
             limit.watch(t, rows)
+
+    def plain(self) -> list[dict[str, object]]:
+        """As `run.json` keeps them, so that `fairlead margins` can ask again."""
+        return [
+            {"signal": one.pattern, "sense": one.sense, "bound": one.bound, "unit": one.unit, "text": one.text}
+            for one in self.limits
+        ]
 
     def broken(self) -> list[str]:
         """A sentence for every limit that was broken, at its worst."""
@@ -85,7 +93,9 @@ def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) ->
                 faults.append(Fault(bound.where, f"limits.{pattern}.{word} = {error.what}.", error.allowed))
                 continue
             names = [recorded[k].name for k in columns]
-            found.limits.append(Limit(f"{word} {bound.plain()}", np.array(columns), names, SENSES[word], number, unit))
+            text = f"{word} {bound.plain()}"
+            limit = Limit(text, np.array(columns), names, SENSES[word], number, unit, pattern=pattern)
+            found.limits.append(limit)
     if faults:
         raise ModelError(faults)
     return found

@@ -8,7 +8,21 @@ progress, warnings and errors to standard error. A verb imports what it needs wh
 
 import typer
 
-from fairlead.cli import check, compare, cost, describe, doctor, effects, friction, graph, new, run, schema, statics
+from fairlead.cli import (
+    check,
+    compare,
+    cost,
+    describe,
+    doctor,
+    effects,
+    friction,
+    graph,
+    margins,
+    new,
+    run,
+    schema,
+    statics,
+)  # fmt: skip
 from fairlead.cli.verb import Verb
 
 __all__ = ["app", "main"]
@@ -22,8 +36,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for verb in (
-    check.check, describe.describe, graph.graph, statics.statics, run.run, friction.friction, compare.compare,
-    cost.cost, effects.effects, schema.schema, new.new, doctor.doctor,
+    check.check, describe.describe, graph.graph, statics.statics, run.run, friction.friction, margins.margins,
+    compare.compare, cost.cost, effects.effects, schema.schema, new.new, doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)
 

@@ -1,12 +1,12 @@
 """`fairlead statics`: a line on its route solved for steady hauling and for standing still, without a run."""
 
 import json
-import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.tables import finite, number, plain_table, times, wide_console
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -36,20 +36,9 @@ def statics(
         print_statics(model.netlist.name, found)
 
 
-def finite(value: Any) -> Any:
-    """The same with null where a number is infinite, as JSON wants it."""
-    if isinstance(value, dict):
-        return {name: finite(one) for name, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def print_statics(name: str, found: list[dict[str, Any]]) -> None:
     """A table for each state, one of the drives, and remarks."""
-    from rich.console import Console
-
-    console = Console(highlight=False, width=None if typer.get_text_stream("stdout").isatty() else 110)
+    console = wide_console()
     for one in found:
         several = f", {one['line']} on {one['route']}" if len(found) > 1 else ""
         for state in one["states"]:
@@ -65,23 +54,17 @@ def print_statics(name: str, found: list[dict[str, Any]]) -> None:
 
 def _title(name: str, state: dict[str, Any]) -> str:
     sea = f", {state['in_sea']:.4g} m in the sea" if state["in_sea"] else ""
-    return f"{name}: {state['state']} at {abs(state['speed']):.3g} m/s, {state['paid_out']:.4g} m paid out{sea}"
+    return f"{name}: {state['state']} at {abs(state['speed']):.3g} m/s, {_way(state['paid_out'])}{sea}"
+
+
+def _way(paid_out: float) -> str:
+    """Line that has gone out, or come in, since the start."""
+    return f"{abs(paid_out):.4g} m {'hauled in' if paid_out < 0 else 'paid out'}"
 
 
 def _rest(name: str, standing: dict[str, Any]) -> str:
-    text = f"{name}: standing still, {standing['paid_out']:.4g} m paid out; tensions that friction can hold"
+    text = f"{name}: standing still, {_way(standing['paid_out'])}; tensions that friction can hold"
     return text if standing["holds"] else f"{text}: none, {standing['missing']:.4g} N are missing"
-
-
-def plain_table(*columns: str, left: int = 1) -> "Table":
-    """A table with the first columns to the left and numbers to the right."""
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for place, column in enumerate(columns):
-        table.add_column(column, justify="left" if place < left else "right", no_wrap=True)
-    return table
 
 
 def _moving(state: dict[str, Any], limits: dict[str, Any]) -> "Table":
@@ -132,19 +115,3 @@ def _range(low: float, high: float) -> str:
 def _at(row: dict[str, Any]) -> str:
     begin, end = (f"{row[key]:.3f}".rstrip("0").rstrip(".") for key in ("from", "to"))
     return begin if begin == end else f"{begin} ... {end}"
-
-
-def number(value: float | None) -> str:
-    """Whole numbers from 100 on, else one decimal; nothing for None."""
-    if value is None:
-        return ""
-    if not math.isfinite(value):
-        return "any"
-    return f"{value:.0f}" if abs(value) >= 99.95 else f"{value + 0.0:.1f}".replace("-0.0", "0.0")
-
-
-def times(value: float | None) -> str:
-    """A factor: two digits, a dash where nothing is asked of it."""
-    if value is None:
-        return ""
-    return f"{value:.2g}" if value < 100 else "-" if math.isinf(value) else "> 100"

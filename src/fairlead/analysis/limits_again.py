@@ -1,0 +1,43 @@
+"""Limits of a run asked again of its results, also of a run that was killed before it could tell."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fairlead.results import Result
+from fairlead.system.system import glob
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A limit and the recorded value that came nearest to it, or went furthest beyond."""
+
+    signal: str
+    text: str
+    unit: str
+    bound: float
+    value: float
+    t: float
+    broken: bool
+
+
+def judged(result: Result) -> list[Judged]:
+    """All limits of the netlist that the run was made with."""
+    return [found for limit in result.run.get("limits") or () if (found := _judge(result, limit)) is not None]
+
+
+def _judge(result: Result, limit: dict[str, Any]) -> Judged | None:
+    wanted = re.compile(glob(limit["signal"]))
+    names = [signal.name for signal in result.signals if wanted.fullmatch(signal.name)]
+    if not names or not len(result.t):
+        return None
+    values = result.columns(names)
+    beyond = limit["sense"] * (values - limit["bound"])
+    row, k = np.unravel_index(int(beyond.argmax()), beyond.shape)
+    value = float(values[row, k])
+    broken = bool(beyond[row, k] > 0)
+    return Judged(names[k], limit["text"], limit["unit"], limit["bound"], value, float(result.t[row]), broken)

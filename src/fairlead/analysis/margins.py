@@ -1,0 +1,242 @@
+"""How near a run came to the limits of its line: per station and over the run, with time and place of the worst.
+
+    margins(result)      from what was recorded; what is missing is named with the signal that would tell it
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.results import Result
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Worst:
+    """A value with its time [s], its element or node, and where that is on the route [m] (None: not recorded)."""
+
+    value: float
+    t: float
+    signal: str
+    place: float | None = None
+
+
+@dataclass(frozen=True)
+class StationMargins:
+    """What the line went through in one station (or, named "line", everywhere); None where nothing tells it.
+
+    Tensions [N]; `side_wall` [N/m]; `scuffed` and `inner_scuffed` [m]: how far one node slid there at most, on the
+    device and bulkhead in hose; `slipped` [m]: how far the line as a whole slid on belts or a wheel;
+    `registration` [m].
+    """
+
+    name: str
+    peak: Worst | None = None
+    lowest: Worst | None = None
+    hose: Worst | None = None
+    core: Worst | None = None
+    side_wall: Worst | None = None
+    scuffed: Worst | None = None
+    inner_scuffed: Worst | None = None
+    slipped: Worst | None = None
+    registration: Worst | None = None
+
+
+@dataclass(frozen=True)
+class LineMargins:
+    """One line: all its stations that it was in, the whole, what it bears, and what should have been recorded."""
+
+    line: str
+    stations: tuple[StationMargins, ...]
+    whole: StationMargins
+    ruck_force: float | None
+    side_wall: float | None
+    missing: tuple[str, ...] = field(default=())
+
+    def ruck_margin(self, one: StationMargins) -> float | None:
+        """Compression that it bears over that which it had; infinite when it had none."""
+        if self.ruck_force is None or one.hose is None:
+            return None
+        return self.ruck_force / -one.hose.value if one.hose.value < 0 else math.inf
+
+    def side_wall_margin(self, one: StationMargins) -> float | None:
+        """Load per length that it bears over that which it had."""
+        if self.side_wall is None or one.side_wall is None or not one.side_wall.value:
+            return None
+        return self.side_wall / one.side_wall.value
+
+
+def margins(result: Result) -> list[LineMargins]:
+    """Margins of every line on a route, of a finished or an unfinished run."""
+    return [_Line(result, record).margins() for record in result.run.get("routes") or ()]
+
+
+@dataclass(frozen=True)
+class _Line:
+    """One line in the results: arrays (rows, elements or nodes), read when first asked for."""
+
+    result: Result
+    record: dict[str, Any]
+
+    def margins(self) -> LineMargins:
+        """All of it."""
+        stations = [self._station(each) for each in self.record["stations"]] if self.places is not None else []
+        found = tuple(one for one in stations if one is not None)
+        return LineMargins(
+            self.record["line"], found, self._whole(found), self.record["ruck_force"], self.record["side_wall"],
+            tuple(self._missing()),
+        )  # fmt: skip
+
+    def _all(self, child: str, output: str, count: int) -> Floats | None:
+        """One output of all elements or nodes, side by side; None unless all were recorded."""
+        names = [f"{self.record['line']}.{child}[{i}].{output}" for i in range(count)]
+        return self.result.columns(names) if all(name in self.result for name in names) else None
+
+    @functools.cached_property
+    def layers(self) -> list[Floats] | None:
+        """Tensions of the layers, outer first."""
+        found = [self._all(layer, "tension", self.record["nodes"] - 1) for layer in self.record["layers"]]
+        return None if any(one is None for one in found) else found  # type: ignore[return-value]
+
+    @functools.cached_property
+    def nodes(self) -> Floats | None:
+        """Where the nodes are on the route [m]."""
+        return self._all(self.record["outer"], "x", self.record["nodes"])
+
+    @property
+    def places(self) -> Floats | None:
+        """Where the middles of the elements are [m]."""
+        return None if self.nodes is None else (self.nodes[:, 1:] + self.nodes[:, :-1]) / 2
+
+    @functools.cached_property
+    def total(self) -> Floats | None:
+        """Tension of all layers together [N]."""
+        return None if self.layers is None else np.sum(self.layers, axis=0)
+
+    def _station(self, station: dict[str, Any]) -> StationMargins | None:
+        """None for a station the line was never in, or that does nothing to it."""
+        begin = -math.inf if station["begin"] is None else station["begin"]
+        end = math.inf if station["end"] is None else station["end"]
+        assert self.nodes is not None
+        assert self.places is not None
+        inside = (self.places >= begin) & (self.places <= end)
+        if not inside.any() or station["type"] == "Straight":
+            return None
+        found: dict[str, Worst | None] = dict(self._tensions(inside))
+        if station["curvature"] and self.total is not None:
+            found["side_wall"] = self._worst(np.abs(self.total) * station["curvature"], inside, self._element)
+        held: NDArray[np.bool_] = (self.nodes >= begin) & (self.nodes <= end)
+        if station["contact"]:
+            found |= self._slips(station["contact"], "scuffed", held)
+            found |= self._slips("inner", "inner_scuffed", held)
+            if station["moves"]:
+                found["slipped"] = self._slipped(station["contact"], held)
+        return StationMargins(station["name"], **found)
+
+    def _whole(self, stations: tuple[StationMargins, ...]) -> StationMargins:
+        """Over all of the line, drum and sea as well."""
+        found: dict[str, Worst | None] = {}
+        if self.total is not None:
+            found |= self._tensions(np.ones(self.total.shape, dtype=bool))
+        for name in ("side_wall", "scuffed", "inner_scuffed", "slipped"):
+            here = [one for each in stations if (one := getattr(each, name)) is not None]
+            found[name] = max(here, key=lambda one: one.value, default=None)
+        apart = self._some("registration", "d")
+        if apart is not None:
+            names, values = apart
+            found["registration"] = self._worst(np.abs(values), np.ones(values.shape, dtype=bool), names.__getitem__)
+        return StationMargins("line", **found)
+
+    def _tensions(self, inside: NDArray[np.bool_]) -> Iterator[tuple[str, Worst]]:
+        if self.layers is None or self.total is None:
+            return
+        yield "peak", self._worst(self.total, inside, self._element)
+        yield "lowest", self._worst(self.total, inside, self._element, least=True)
+        yield "hose", self._worst(self.layers[0], inside, self._element, least=True)
+        if len(self.layers) > 1:
+            inner = self.record["layers"][1]
+            yield "core", self._worst(self.layers[1], inside, lambda k: self._name(inner, k), least=True)
+
+    def _worst(self, values: Floats, inside: NDArray[np.bool_], name: Any, *, least: bool = False) -> Worst:
+        """The extreme among what is inside, and where it was."""
+        masked = np.where(inside, values, math.inf if least else -math.inf)
+        row, k = np.unravel_index(int(masked.argmin() if least else masked.argmax()), masked.shape)
+        place = None
+        if self.places is not None:
+            where = self.places if values.shape[1] == self.places.shape[1] else self.nodes
+            place = float(where[row, k]) if where is not None and values.shape[1] == where.shape[1] else None
+        return Worst(float(values[row, k]), float(self.result.t[row]), name(int(k)), place)
+
+    def _name(self, child: str, k: int) -> str:
+        return f"{self.record['line']}.{child}[{k}]"
+
+    def _element(self, k: int) -> str:
+        return self._name(self.record["layers"][0], k)
+
+    def _some(self, child: str, output: str) -> tuple[list[str], Floats] | None:
+        """One output of those nodes that have such a child: names, and values (rows, names); None if none has."""
+        named = [(i, f"{self._name(child, i)}.{output}") for i in range(self.record["nodes"])]
+        names = [name for _, name in named if name in self.result]
+        return ([name.rpartition(".")[0] for name in names], self.result.columns(names)) if names else None
+
+    def _slips(self, child: str, key: str, held: NDArray[np.bool_]) -> Iterator[tuple[str, Worst]]:
+        """The node that slid furthest while it was there."""
+        found = self._of_nodes(child, "slip")
+        if found is None or not len(self.result.t):
+            return
+        gone = np.cumsum(self._over_time(np.abs(found) * held), axis=0)
+        k = int(gone[-1].argmax())
+        if gone[-1, k] > 0:
+            row = int(np.searchsorted(gone[:, k], gone[-1, k] * (1 - 1e-9)))
+            place = float(self.nodes[row, k]) if self.nodes is not None else None
+            yield key, Worst(float(gone[-1, k]), float(self.result.t[row]), self._name(child, k), place)
+
+    def _slipped(self, child: str, held: NDArray[np.bool_]) -> Worst | None:
+        """How far the line slid on a surface that moves: the mean slip of what is there, over time."""
+        found = self._of_nodes(child, "slip")
+        if found is None:
+            return None
+        mean = np.abs((found * held).sum(axis=1)) / np.maximum(held.sum(axis=1), 1)
+        gone = self._over_time(mean)
+        row = int(mean.argmax())
+        return Worst(float(gone.sum()), float(self.result.t[row]), f"{self.record['line']}.{child}", None)
+
+    def _of_nodes(self, child: str, output: str) -> Floats | None:
+        """One output for every node, zero where a node has no such child."""
+        some = self._some(child, output)
+        if some is None:
+            return None
+        wide = np.zeros((len(self.result.t), self.record["nodes"]))
+        wide[:, [int(name[name.rindex("[") + 1 : -1]) for name in some[0]]] = some[1]
+        return wide
+
+    def _over_time(self, rate: Floats) -> Floats:
+        """Contribution of every row to the integral over time, by trapezoids."""
+        span = np.diff(self.result.t, prepend=self.result.t[0])
+        before = np.vstack([rate[:1], rate[:-1]]) if rate.ndim > 1 else np.concatenate([rate[:1], rate[:-1]])
+        return (rate + before) / 2 * (span[:, None] if rate.ndim > 1 else span)
+
+    def _missing(self) -> Iterator[str]:
+        """What to record, and what that would tell."""
+        line = self.record["line"]
+        for layer in self.record["layers"]:
+            if self._all(layer, "tension", self.record["nodes"] - 1) is None:
+                yield f"{line}.{layer}[*].tension for the tensions"
+        if self.nodes is None:
+            yield f"{line}.{self.record['outer']}[*].x for the station that an element is in"
+        for child in dict.fromkeys(each["contact"] for each in self.record["stations"] if each["contact"]):
+            if self._some(child, "slip") is None:
+                there = [each["name"] for each in self.record["stations"] if each["contact"] == child]
+                yield f"{line}.{child}[*].slip for how far the line slides in {', '.join(there)}"
+        if len(self.record["layers"]) > 1 and self._some("inner", "slip") is None:
+            yield f"{line}.inner[*].slip for how far bulkheads slide in the hose"
+        if len(self.record["layers"]) > 1 and self._some("registration", "d") is None:
+            yield f"{line}.registration[*].d for the de-registration"
