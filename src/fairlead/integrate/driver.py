@@ -12,7 +12,7 @@ from fairlead.integrate.condensing import kinematic_rows
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
-from fairlead.integrate.neighbours import held_entries, neighbours
+from fairlead.integrate.neighbours import held_entries, neighbours, what_is_held
 from fairlead.integrate.protocol import (
     CALLBACKS,
     EVENT,
@@ -164,6 +164,8 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
             memory.point(name, values, np.int64)
             if f"n_{name}" in (LAYOUT.names or ()):
                 memory.number[f"n_{name}"] = len(values)
+        for name, of_machine in what_is_held(problem).items():
+            memory.array[name][:] = of_machine
     calls = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}
     if not calls["call_guards"] or not calls["call_switch"]:
         calls["call_guards"] = calls["call_switch"] = 0

@@ -19,7 +19,9 @@ SOURCES = (
 """Every file of this folder whose text the machine code depends on."""
 
 
-STEPPING_SOURCES = ("jumps.py", "active_set.py", "theta_step.py", "stepping_trial.py", "stepping_loop.py")
+STEPPING_SOURCES = (
+    "jumps.py", "active_set.py", "overload.py", "theta_step.py", "stepping_trial.py", "stepping_loop.py",
+)  # fmt: skip
 """What the stepping engine adds to them."""
 
 

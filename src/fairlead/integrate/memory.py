@@ -77,7 +77,7 @@ VECTORS = {
     "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
     "guard_inertia": "n_guards", "wrong": "n_guards",
     # machines
-    "last_toggle": "n_zones", "blocked_until": "n_zones",
+    "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
     # what was recorded
     "row_t": "row_capacity", "row_values": "rows_outputs", "event_t": "event_capacity",
 }  # fmt: skip
@@ -88,7 +88,8 @@ INDICES = {
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
     "differential": "n", "quadrature": "n",
     # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
-    "controlled": "n", "holds": "n", "caught": "n", "zones_at_start": "n_zones",
+    "controlled": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
+    "held_position": "n_zones", "held_speed": "n_zones",
     "continuous": "n_guards", "limit_guard": "n_guards", "may_jump": "n_guards", "suspects": "n_guards",
     "zones_probed": "n_zones", "first_guard": "n_zones", "met": "n_zones",
     "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairlead.integrate.condensing import columns_of, core_entries, lay_out
-from fairlead.integrate.protocol import Integers, Problem
+from fairlead.integrate.condensing import columns_of, core_entries, kinematic_rows, lay_out
+from fairlead.integrate.protocol import Floats, Integers, Problem
 
 MOST = 8
 """A machine with more neighbours than this hands nothing on: a big body that many contacts act on."""
@@ -57,6 +57,26 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
         "neighbour_starts": np.cumsum([0, *map(len, found)]).astype(np.int64),
         "neighbours": np.array([w for others in found for w in others], dtype=np.int64),
     }  # fmt: skip
+
+
+def what_is_held(problem: Problem) -> dict[str, Floats | Integers]:
+    """Per machine that may hold: the inertia that resists its force (0: not known), the speed and position it holds.
+
+    Of several bodies the one whose position is known best, by its weight at the start; -1 where there is none.
+    """
+    nz, ng = len(problem.zones), len(problem.guard_machine)
+    inertia, speed, position = np.zeros(nz), np.full(nz, -1, dtype=np.int64), np.full(nz, -1, dtype=np.int64)
+    machines, given = np.asarray(problem.guard_machine), np.asarray(getattr(problem, "guard_inertia", np.zeros(ng)))
+    np.maximum.at(inertia, machines[machines >= 0], given[machines >= 0])
+    position_of = {v: x for x, v in kinematic_rows(problem).items() if v >= 0 and not problem.quadrature[x]}
+    holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
+    rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
+    for e in np.flatnonzero(holder[rows] >= 0).tolist():
+        machine, v = holder[rows[e]], int(columns[e])
+        x, known = position_of.get(v, -1), position[machine]
+        if speed[machine] < 0 or (x >= 0 and (known < 0 or problem.absolute[x] < problem.absolute[known])):
+            speed[machine], position[machine] = v, x
+    return {"held_inertia": inertia, "held_speed": speed, "held_position": position}
 
 
 def _found(problem: Problem, holder: Integers) -> list[list[int]]:

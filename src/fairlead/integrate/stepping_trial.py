@@ -29,15 +29,12 @@ from fairlead.integrate.controller import step_after_rejection, weigh, weighted_
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
+from fairlead.integrate.overload import begin_rest, count_rest, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
 
-STILL, HOLD_SHARE = 1e-2, 0.025
-"""Where no position changes by more than this share of its weight, this share of the bend of a holding force
-counts as its error: a force that swings while nothing moves would else be seen at a few points only. In a
-chain that moves it would cost four times the steps and gain nothing."""
 KEEP_BELOW = 1.15
 """A step that may grow by less than this is kept, and the factors of its matrix with it."""
 LANDINGS = 4
@@ -71,8 +68,6 @@ def attempt_stepping(m):
     if status != DONE:
         return repeat_shorter(m, h, status)
     m.error = error_of_step(m, h)
-    if m.adaptive == 1 and m.error <= 1.0 and m.passes == 0 and steps_over(m, h):
-        m.error = 2.0
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject_error(m, h)
     m.failed = max(m.failed - 1, 0)
@@ -169,7 +164,6 @@ def error_of_step(m, h):
     y, y_end, slope = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_mean_slope, n)
     before, earlier, error = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n), reals(m.at_error_vector, n)
     bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
-    holds = indices(m.at_holds, n)
     near, far = m.gap + 0.5 * h, m.gap_before
     weigh(m, m.at_y_end)
     for k in range(n):
@@ -187,45 +181,7 @@ def error_of_step(m, h):
                 error[k] = h * h * h / 6.0 * (curve - (before[k] - earlier[k]) / far) / (near + far)
         else:
             slope[k] = (y_end[k] - y[k]) / near
-    size = weighted_norm(m, m.at_error_vector)
-    if m.passes > 0 or moves(m):
-        return size
-    for k in range(n):
-        if holds[k] == 1:
-            error[k] = HOLD_SHARE * h * (slope[k] - before[k])
-    return weighted_norm(m, m.at_error_vector)
-
-
-@compiled
-def moves(m):
-    """True if a controlled unknown changes in the step by more than STILL of its weight."""
-    y, y_end, weight = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_weight, m.n)
-    controlled = indices(m.at_controlled, m.n)
-    found = False
-    for k in range(m.n):
-        found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k])
-    return found
-
-
-@compiled
-def steps_over(m, h):
-    """True if a guard may have been positive inside the step: the parabola through three points says so.
-
-    Only where it rose before the step and falls in it; a step in which zones change tells by itself.
-    """
-    if m.gap == 0.0:
-        return False
-    early, g, g_end = reals(m.at_g_early, m.n_guards), reals(m.at_g, m.n_guards), reals(m.at_g_end, m.n_guards)
-    tolerance, back = reals(m.at_guard_tolerance, m.n_guards), 2.0 * m.gap
-    for i in range(m.n_guards):
-        if g[i] > early[i] and g[i] > g_end[i]:
-            rise, fall = (g[i] - early[i]) / back, (g_end[i] - g[i]) / h
-            curve = (fall - rise) / (back + h)
-            slope = rise + curve * back
-            if slope > 0.0 and g[i] - 0.25 * slope * slope / curve > tolerance[i]:
-                m.worst = 0
-                return True
-    return False
+    return max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
 
 
 @compiled
@@ -235,6 +191,7 @@ def remember_slope(m, switched):
     copy(reals(m.at_mean_slope, m.n), reals(m.at_slope_before, m.n))
     m.gap_before = m.gap + 0.5 * m.h
     m.gap = 0.5 * m.h
+    count_rest(m)
     if switched:
         copy(reals(m.at_g, m.n_guards), reals(m.at_g_early, m.n_guards))
 
@@ -252,6 +209,7 @@ def begin_history(m):
     differential = indices(m.at_differential, n)
     m.linearised = 0
     m.failed = 0
+    begin_rest(m)
     if m.adaptive == 1 and not (m.steps == 0 and m.first_step > 0.0):
         for k in range(n):
             u[k] = slope[k] if differential[k] == 1 else 0.0

@@ -1,0 +1,137 @@
+"""What a step may miss of contacts that hold at its start: overloads that no mean force shows.
+
+A force that holds is a mean over the step. Between the middles of steps it may swing through its limit and back,
+or reach it: a contact that lets go inside a step lets go for all of it or not at all. Neither shows in the
+motion of the steps before, so neither is in their error. With the force and its distance from the limit, g, of
+the last three points:
+
+    peak      between two points a smooth force goes beyond both by about an eighth of its second difference.
+              An excess e, on an inertia m, moves it by e h^2/m in the step, and by e/k if a stiffness k takes it up
+    start     a force that grows with rate r and comes to its limit d before the end, or after the start, of the
+              step that does not know: the speed is wrong by r d^2/(2 m)
+
+A wrong speed is a wrong position later: by as much as 1/omega of what holds it back, k = m omega^2. Where
+nothing does, it is measured by the weight of the speed itself.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from fairlead.integrate.foreign import compiled, indices, reals
+
+BEYOND = 0.25
+"""Share of the second difference that a force may go beyond what was seen of it; twice what a parabola does."""
+SEEN = 2
+"""Steps a contact must have held through for its force to have a second difference."""
+FREE = 1e300
+
+
+@compiled
+def unseen_slip(m, h):
+    """Largest error, in weights, that an unseen overload may have caused; the unknown it is in to `worst`."""
+    g, g_end = reals(m.at_g, m.n_guards), reals(m.at_g_end, m.n_guards)
+    is_limit, machine = indices(m.at_limit_guard, m.n_guards), indices(m.at_guard_machine, m.n_guards)
+    rows, rested, holds = indices(m.at_hold_row, m.n_zones), indices(m.at_rested, m.n), indices(m.at_holds, m.n)
+    tolerance = reals(m.at_guard_tolerance, m.n_guards)
+    largest = 0.0
+    for i in range(m.n_guards):
+        z = machine[i]
+        if is_limit[i] == 0 or z < 0 or rows[z] < 0 or rested[rows[z]] < SEEN:
+            continue
+        k = rows[z]
+        rate, curve = course_of_force(m, h, i, k)
+        error = 0.0
+        if holds[k] == 1:
+            peak = max(g[i], g_end[i]) + BEYOND * h * h * curve
+            if peak > tolerance[i] and abs(rate) <= curve * (m.gap + 0.5 * h):
+                error = error_of_peak(m, h, z, peak)
+            ahead = g_end[i] + 0.5 * h * (rate + 0.5 * curve * (m.gap + h))
+            if rate > 0.0 and ahead > tolerance[i]:
+                error = max(error, error_of_speed(m, h, z, ahead, min(ahead / rate, h)))
+        else:
+            behind = -(g[i] + rate * m.gap)
+            if rate > 0.0 and behind > tolerance[i] and behind < h * rate:
+                error = error_of_speed(m, h, z, behind, behind / rate)
+        if error > largest:
+            largest = error
+            m.worst = k
+    return largest
+
+
+@compiled
+def course_of_force(m, h, i, k):
+    """Rate of the distance from limit i, which row k comes to, and the size of its second derivative.
+
+    By the middles of the last three steps; right after a settlement by the slope of the force there. A contact that
+    has just let go has no force of its own any more: the rate is that before.
+    """
+    slope, before, holds = reals(m.at_mean_slope, m.n), reals(m.at_slope_before, m.n), indices(m.at_holds, m.n)
+    early, g, g_end = reals(m.at_g_early, m.n_guards), reals(m.at_g, m.n_guards), reals(m.at_g_end, m.n_guards)
+    near = m.gap + 0.5 * h
+    if m.gap == 0.0:
+        return abs(before[k]), abs(slope[k] - before[k]) / h
+    earlier = (g[i] - early[i]) / m.gap_before
+    if holds[k] == 0:
+        return earlier, 0.0
+    rate, between = (g_end[i] - g[i]) / near, 0.5 * (near + m.gap_before)
+    return rate, max(abs(slope[k] - before[k]), abs(rate - earlier)) / between
+
+
+@compiled
+def response_time(m, z):
+    """1/omega of what holds machine z back once it slips, by the stiffness its position meets; FREE without one."""
+    x, v = indices(m.at_held_position, m.n_zones)[z], indices(m.at_held_speed, m.n_zones)[z]
+    inertia = reals(m.at_held_inertia, m.n_zones)[z]
+    if x < 0 or inertia <= 0.0:
+        return FREE
+    starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
+    slopes = reals(m.at_jacobian, m.n_jacobian)
+    for p in range(starts[x], starts[x + 1]):
+        if rows[p] == v and slopes[p] < 0.0:
+            return sqrt(-inertia / slopes[p])
+    return FREE
+
+
+@compiled
+def error_of_peak(m, h, z, over):
+    """What an excess force inside the step may move, in weights; of an unknown inertia: the force itself."""
+    weight, inertia = reals(m.at_weight, m.n), reals(m.at_held_inertia, m.n_zones)[z]
+    x = indices(m.at_held_position, m.n_zones)[z]
+    if x < 0 or inertia <= 0.0:
+        return over / weight[indices(m.at_hold_row, m.n_zones)[z]]
+    time = min(h, response_time(m, z))
+    return over * time * time / (inertia * weight[x])
+
+
+@compiled
+def error_of_speed(m, h, z, most, lasting):
+    """What a missed force that rises to `most` in the time `lasting` means, in weights, for the speed or the position.
+
+    Where a stiffness holds back, it takes the force up within the response time.
+    """
+    weight, inertia = reals(m.at_weight, m.n), reals(m.at_held_inertia, m.n_zones)[z]
+    x, v = indices(m.at_held_position, m.n_zones)[z], indices(m.at_held_speed, m.n_zones)[z]
+    if v < 0 or inertia <= 0.0:
+        return 0.5 * most * lasting / (h * weight[indices(m.at_hold_row, m.n_zones)[z]])
+    error = 0.5 * most * lasting / (inertia * weight[v])
+    if x >= 0:
+        time = response_time(m, z)
+        error = min(error, 0.5 * most * min(lasting, time) * time / (inertia * weight[x]))
+    return error
+
+
+@compiled
+def count_rest(m):
+    """After an accepted step: through how many each row has held."""
+    rested, holds = indices(m.at_rested, m.n), indices(m.at_holds, m.n)
+    for k in range(m.n):
+        rested[k] = rested[k] + 1 if holds[k] == 1 else 0
+
+
+@compiled
+def begin_rest(m):
+    """After a settlement the slopes of all forces are known."""
+    rested = indices(m.at_rested, m.n)
+    for k in range(m.n):
+        rested[k] = SEEN
