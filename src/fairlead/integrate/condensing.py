@@ -51,10 +51,12 @@ def lay_out(problem: Problem) -> Layout:
     meters = np.flatnonzero(problem.quadrature)
     positions = {x: v for x, v in kinematic_rows(problem).items() if not problem.quadrature[x]}
     out = set(positions) | set(meters.tolist())
-    # A position whose speed is itself a position, or gone, stays: dx must follow from the core alone.
-    for x in [x for x, v in positions.items() if v in out]:
-        del positions[x]
-        out.discard(x)
+    # A position whose speed is itself a position, or gone, stays: dx must follow from the core alone. Of two that are
+    # each the other's rate (x' = v, v' = -x) the first counts as the position.
+    for x in sorted(positions, reverse=True):
+        if positions[x] in out:
+            del positions[x]
+            out.discard(x)
     return Layout(np.array([k for k in range(n) if k not in out], dtype=np.int64), positions, meters)
 
 

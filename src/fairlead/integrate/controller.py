@@ -25,6 +25,8 @@ a step more per slip at tight tolerances."""
 STRAIGHT = 1e3
 """A suggestion this much longer than the last step means that nothing bends any more: a contact caught
 what moved, and what is left of y'' is rounding."""
+NO_BEND = 1e-100
+"""A second derivative below this share of the first is none; by what is left of it no number can be divided."""
 IDLE_ERROR = 1e-3
 """Below this a step was not limited by its error, and says nothing about the time scale."""
 
@@ -98,7 +100,7 @@ def restart(m, slope_size, curvature_size, force_size):
     the time scale is known better than two derivatives tell: the step is at most what it would have been, and at
     least a third of that. Letting it be twice as long cost a chain of 100 blocks 0.4 rejections a switch.
     """
-    if curvature_size == 0.0:
+    if curvature_size <= NO_BEND * max(slope_size, 1.0):
         return inf
     if slope_size == 0.0:
         suggested = sqrt(1.0 / curvature_size)

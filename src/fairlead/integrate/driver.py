@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
-from fairlead.integrate.condensing import kinematic_rows
+from fairlead.integrate.condensing import lay_out
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
@@ -244,8 +244,8 @@ def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
 def controlled(problem: Problem) -> Integers:
     """1 for unknowns whose error sets the step: differential, and no speed that has a position."""
     chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
-    for x, v in kinematic_rows(problem).items():
-        if not problem.quadrature[x] and v >= 0:
+    for v in lay_out(problem).positions.values():
+        if v >= 0:
             chosen[v] = 0
     return chosen
 

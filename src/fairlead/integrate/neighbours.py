@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairlead.integrate.condensing import columns_of, core_entries, kinematic_rows, lay_out
+from fairlead.integrate.condensing import columns_of, core_entries, lay_out
 from fairlead.integrate.protocol import Floats, Integers, Problem
 
 MOST = 8
@@ -68,7 +68,7 @@ def what_is_held(problem: Problem) -> dict[str, Floats | Integers]:
     inertia, speed, position = np.zeros(nz), np.full(nz, -1, dtype=np.int64), np.full(nz, -1, dtype=np.int64)
     machines, given = np.asarray(problem.guard_machine), np.asarray(getattr(problem, "guard_inertia", np.zeros(ng)))
     np.maximum.at(inertia, machines[machines >= 0], given[machines >= 0])
-    position_of = {v: x for x, v in kinematic_rows(problem).items() if v >= 0 and not problem.quadrature[x]}
+    position_of = {v: x for x, v in lay_out(problem).positions.items() if v >= 0}
     holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
     rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
     for e in np.flatnonzero(holder[rows] >= 0).tolist():

@@ -25,7 +25,7 @@ from fairlead.integrate.codes import (
     STEP_FLOOR,
     UNSETTLED,
 )
-from fairlead.integrate.controller import step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
@@ -37,6 +37,9 @@ from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_
 
 KEEP_BELOW = 1.15
 """A step that may grow by less than this is kept, and the factors of its matrix with it."""
+ROUGH = 4.0
+"""Rows inside a step lie on a parabola where the motion is smooth, on the chord where its bend grows faster than this
+or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were."""
 LANDINGS = 4
 """Tries to end a step where a law jumps."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
@@ -175,10 +178,11 @@ def error_of_step(m, h):
             return inf - inf
         if differential[k] == 1:
             slope[k] = (y_end[k] - y[k]) / h
-            curve = (slope[k] - before[k]) / near
-            bend[k] = -0.5 * h * h * curve
+            curve, curve_before = (slope[k] - before[k]) / near, (before[k] - earlier[k]) / far
+            if curve * curve_before > 0.0 and abs(curve) <= ROUGH * abs(curve_before):
+                bend[k] = -0.5 * h * h * curve
             if controlled[k] == 1:
-                error[k] = h * h * h / 6.0 * (curve - (before[k] - earlier[k]) / far) / (near + far)
+                error[k] = h * h * h / 6.0 * (curve - curve_before) / (near + far)
         else:
             slope[k] = (y_end[k] - y[k]) / near
     return max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
@@ -217,7 +221,7 @@ def begin_history(m):
         for k in range(n):
             u[k] = curvature[k] if differential[k] == 1 else 0.0
         bend = weighted_norm(m, m.at_u)
-        if speed > 0.0 and bend > 0.0:
+        if speed > 0.0 and bend > NO_BEND * max(speed, 1.0):
             scale = speed / bend
             m.h_next = min(m.h_next, scale * (12.0 / (speed * scale)) ** (1.0 / 3.0))
         m.h_next = max(m.h_next, 4.0 * smallest_step(m))

@@ -166,8 +166,11 @@ def accept(m, h, crossed):
     m.mended = 0
     m.crossed = 1 if crossed else 0
     if crossed and m.theta < 1.0:
-        m.landing = 0
         m.t_piece = m.t + m.theta * h
+        if m.landing == 1 and m.t_land - m.t_piece < smallest_step(m):
+            m.t_piece = m.t_land  # no step could cover what would be left
+        else:
+            m.landing = 0
         interpolate(m, m.theta, m.at_y_piece)
         if m.meters_off == 1:
             meter_piece(m, h)
