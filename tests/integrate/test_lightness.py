@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import subprocess
 import sys
+from pathlib import Path
 
 from tests.integrate.problems import belt_block
 
@@ -33,3 +35,24 @@ def test_a_cached_loop_runs_without_numba():
     integrate(belt_block(), Run(stop=0.1))  # compiles, if need be
     modules = loaded_after("from fairlead.integrate.machine_code import compiled_loop; compiled_loop()")
     assert "numba" not in modules
+
+
+def test_the_key_of_the_cache_is_made_of_every_file_the_machine_code_is_made_of():
+    from fairlead.integrate import machine_code
+
+    def behind(*names):
+        found, todo = set(), list(names)
+        while todo:
+            name = todo.pop()
+            if name not in found:
+                found.add(name)
+                tree = ast.parse((folder / f"{name}.py").read_text(encoding="utf-8"))
+                modules = [node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+                todo += [m.rpartition(".")[2] for m in modules if m.startswith("fairlead.integrate.")]
+        return {f"{name}.py" for name in found}
+
+    folder = Path(machine_code.__file__).parent
+    described = {"protocol.py", "counters.py"}  # shapes and names; no code of theirs is compiled
+    assert behind("loop") - described <= set(machine_code.SOURCES)
+    assert behind("stepping_loop") - described <= {*machine_code.SOURCES, *machine_code.STEPPING_SOURCES}
+    assert behind("sundials_kernels") - described <= {*machine_code.SOURCES, *machine_code.SUNDIALS_SOURCES}

@@ -4,8 +4,10 @@ Positions and quadratures are condensed out first (condensing.py). The rest, the
 degree on A + A', many independent unknowns a round, an algebraic unknown only after the differential
 unknowns its row and column touch. That rule is what makes one order serve every zone and every h: the
 diagonal of a multiplier vanishes while its contact holds, and only the elimination of the speeds it acts
-on fills it in. Pivots stay on the diagonal. Fill is computed exactly, by merging rows, so that the
-patterns of L and U hold for every zone.
+on fills it in. One of its two speeds is enough for that; so a body that many contacts act on, the belt that drives
+every node of a line, is not waited for: else it would join all of them with each other. Pivots stay on the diagonal
+(where one vanishes for once, as under two contacts that hold the same body, replan.py chooses new ones). Fill is
+computed exactly, by merging rows, so that the patterns of L and U hold for every zone.
 
 Rounds of independent unknowns make the elimination tree of a chain as deep as the logarithm of its length
 (Liu, ACM TOMS 11:141, 1985, who eliminates several unknowns at once to save time when ordering). A switch
@@ -37,6 +39,8 @@ DENSE_LIMIT = 12
 FULL_FASTER = 3.0
 """A sparse operation costs about this many of a full one: measured on a chain of 10 blocks (30 unknowns),
 factorised in 4.7 microseconds full and in about 1 by its pattern."""
+MANY = 8
+"""Contacts on one body that make it one that others need not wait for."""
 MORE_DEGREE = 1
 """A round takes unknowns of up to this much more than the least degree."""
 
@@ -174,7 +178,21 @@ def elimination_order(problem: Problem, layout: Layout, entries: Entries) -> Int
             graph[j].add(i)
     differential = set(np.flatnonzero(problem.differential).tolist())
     waits_for = {k: set() if k in differential else graph[k] & differential for k in graph}
+    for k, hub in hubs(problem).items():
+        waits_for[k].discard(hub)
     return np.array(minimum_degree(graph, waits_for), dtype=np.int64)
+
+
+def hubs(problem: Problem) -> dict[int, int]:
+    """Rows of contacts between a body and one that many contacts act on, each with the speed of the latter."""
+    rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
+    held = ~np.asarray(problem.differential, dtype=bool)[rows]
+    contacts = np.bincount(columns[held], minlength=len(problem.initial))
+    speeds: dict[int, list[int]] = {}
+    for k, v in zip(rows[held].tolist(), columns[held].tolist(), strict=True):
+        speeds.setdefault(k, []).append(v)
+    busiest = {k: max(each, key=lambda v: contacts[v]) for k, each in speeds.items() if len(each) == 2}
+    return {k: v for k, v in busiest.items() if contacts[v] > MANY and contacts[v] > 2 * contacts[speeds[k]].min()}
 
 
 def minimum_degree(graph: dict[int, set[int]], waits_for: dict[int, set[int]]) -> list[int]:

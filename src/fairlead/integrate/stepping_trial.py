@@ -35,6 +35,9 @@ from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
 
+STILL, HOLD_SHARE = 1e-2, 0.025
+"""Where no position changes by more than this share of its weight, this share of the bend of a holding force
+counts as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
 KEEP_BELOW = 1.15
 """A step that may grow by less than this is kept, and the factors of its matrix with it."""
 ROUGH = 4.0
@@ -79,7 +82,7 @@ def attempt_stepping(m):
         m.theta_now = m.least_theta
     accept(m, h, False)
     if m.on_grid == 1:
-        record_caught_at_rest(m)
+        record_without_slip(m)
     if m.seeking > 0:
         m.crossed = 1
         m.n_fired = 0
@@ -104,16 +107,27 @@ def reject_error(m, h):
 
 
 @compiled
-def record_caught_at_rest(m):
-    """Rows inside a step show its end zones; what holds at the end has its end speed in them, or it would creep."""
+def record_without_slip(m):
+    """Rows inside a step show its end zones: what holds at the end is shown without slip, or it would seem to creep.
+
+    A body caught by something of given speed has the speed of the end; of two bodies the first goes with the other.
+    """
     y, y_end, bend = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_D, m.n)
-    starts, rows = indices(m.at_mass_starts, m.n + 1), indices(m.at_mass_rows, m.n_mass)
-    values, holds = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n)
-    for j in range(m.n):
-        for p in range(starts[j], starts[j + 1]):
-            if holds[rows[p]] == 1 and values[p] != 0.0:
+    entry, row = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_row, m.n_hold_mass)
+    column, partner = indices(m.at_hold_mass_column, m.n_hold_mass), indices(m.at_hold_mass_partner, m.n_hold_mass)
+    values, holds, caught = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n), indices(m.at_caught, m.n)
+    for e in range(m.n_hold_mass):
+        j, other = column[e], partner[e]
+        if holds[row[e]] == 0 or values[entry[e]] == 0.0:
+            continue
+        if other < 0:
+            bend[j] = 0.0
+            if caught[row[e]] == 1:
                 y[j] = y_end[j]
-                bend[j] = 0.0
+        elif e < other:
+            ratio = -values[entry[other]] / values[entry[e]]
+            y[j] = ratio * y[column[other]]
+            bend[j] = ratio * bend[column[other]]
 
 
 @compiled
@@ -167,6 +181,7 @@ def error_of_step(m, h):
     y, y_end, slope = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_mean_slope, n)
     before, earlier, error = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n), reals(m.at_error_vector, n)
     bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
+    holds = indices(m.at_holds, n)
     near, far = m.gap + 0.5 * h, m.gap_before
     weigh(m, m.at_y_end)
     for k in range(n):
@@ -185,7 +200,24 @@ def error_of_step(m, h):
                 error[k] = h * h * h / 6.0 * (curve - curve_before) / (near + far)
         else:
             slope[k] = (y_end[k] - y[k]) / near
-    return max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
+    size = max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
+    if m.passes > 0 or moves(m):
+        return size
+    for k in range(n):
+        if holds[k] == 1:
+            error[k] = HOLD_SHARE * h * (slope[k] - before[k])
+    return max(size, weighted_norm(m, m.at_error_vector))
+
+
+@compiled
+def moves(m):
+    """True if a controlled unknown changes in the step by more than STILL of its weight."""
+    y, y_end, weight = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_weight, m.n)
+    controlled = indices(m.at_controlled, m.n)
+    found = False
+    for k in range(m.n):
+        found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k])
+    return found
 
 
 @compiled

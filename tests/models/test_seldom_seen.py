@@ -1,0 +1,142 @@
+"""What happens inside a step, or a hair before its end, is not missed: break-aways, peaks, starts at a limit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fairlead.integrate import Run, integrate, ordering
+from tests.conftest import Scene
+
+ENGINES = pytest.mark.parametrize("engine", ["rodas", "stepping"])
+
+LET_GO = """
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 1 kg}
+      pad: {type: Contact, normal_force: 10 N, curve: 0.4}
+      pull: {type: ForceSource, force: {drift: {rate: 5 N/s}}}
+    connections: [[floor.flange, pad.a], [pad.b, block.flange, pull.flange]]
+    friction: {method: hold}
+    run: {stop: 1.5 s}
+    """
+
+SWING = """
+    components:
+      slow: {type: Mass, mass: 1 kg}
+      soft: {type: SpringDamper, stiffness: 1 N/m, damping: 0 N*s/m}
+      base: {type: Ground}
+      block: {type: Mass, mass: 1 kg}
+      pad: {type: Contact, normal_force: 100 N, curve: 0.1}
+      load: {type: ForceSource, force: {sine: {amplitude: 10.5 N, frequency: 5 Hz}}}
+      floor: {type: Ground}
+    connections:
+      - [slow.flange, soft.a]
+      - [soft.b, base.flange]
+      - [block.flange, pad.b, load.flange]
+      - [pad.a, floor.flange]
+    friction: {method: hold}
+    initial: {slow.v: 1 m/s}
+    run: {stop: 10 s}
+    """
+
+
+@ENGINES
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-5, 1e-7])
+def test_a_contact_that_lets_go_inside_a_step_loses_none_of_its_speed(scene: Scene, engine: str, accuracy) -> None:
+    """The load 5 t passes 4 N at 0.8 s; from there on x = 5 (t - 0.8)^3/6. Before, nothing bends and steps are long."""
+    system = scene(LET_GO, **{"run.accuracy": accuracy}).system
+    system.record(["block.x"])
+    outcome = integrate(system, Run(stop=1.5, engine=engine))
+    assert outcome.values[-1][0] == pytest.approx(5 * 0.7**3 / 6, abs=20 * accuracy * 0.1)
+
+
+@ENGINES
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-5])
+def test_a_load_that_swings_just_above_the_limit_breaks_away_every_time(scene: Scene, engine: str, accuracy) -> None:
+    """In fifty periods it is above the limit a hundred times, each time for 0.02 s; beside it something slow moves."""
+    system = scene(SWING, **{"run.accuracy": accuracy}).system
+    outcome = integrate(system, Run(stop=10.0, engine=engine))
+    machine = next(k for k, name in enumerate(system.machine_names) if name == "pad")
+    names, events = list(system.zone_names(machine)), outcome.events[outcome.events["machine"] == machine]
+    left = events[(events["before"] == names.index("held")) & (events["after"] != names.index("held"))]
+    half_periods = np.unique(np.floor(left["t"] / 0.1))
+    assert len(half_periods) == 100
+
+
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+@ENGINES
+def test_an_undamped_tether_that_starts_exactly_taut(simulate: Scene, engine: str, speed: float) -> None:
+    """omega = 10/s: x = 1 + 0.05 (1 - cos 10 t) + v/10 sin 10 t, while it pulls; nothing damps it."""
+    text = """
+    components:
+      wall: {type: Ground}
+      rope: {type: Tether, stiffness: 1000 N/m, length: 1 m}
+      load: {type: Mass, mass: 10 kg, position: 1 m, velocity: SPEED m/s}
+      pull: {type: ForceSource, force: 50 N}
+    connections: [[wall.flange, rope.a], [rope.b, load.flange, pull.flange]]
+    run: {stop: 0.3 s, accuracy: 1e-6, engine: ENGINE}
+    """.replace("ENGINE", engine).replace("SPEED", str(speed))
+    result = simulate(text)
+    exact = 1 + 0.05 * (1 - np.cos(10 * result.t)) + speed / 10 * np.sin(10 * result.t)
+    assert result["load.x"] == pytest.approx(exact, abs=3e-6)
+
+
+def test_a_switch_a_hair_before_a_time_event_does_not_end_the_run(simulate: Scene) -> None:
+    """A ramp that ends exactly at stiction: the crossing is one rounding error before the end of the ramp.
+
+    Then 5 N pull against 3 N: x = (t - 1)^2 but for the creep before, 9e-6 m/s at most.
+    """
+    result = simulate("""
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 1 kg}
+      pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 0.5, coulomb: 0.3}}
+      pull: {type: ForceSource, force: {ramp: {to: 5.0 N, over: 1 s}}}
+    connections: [[floor.flange, pad.a], [pad.b, block.flange, pull.flange]]
+    friction: {method: binding, creep: 1e-5 m/s}
+    run: {stop: 10 s, accuracy: 1e-6, engine: rodas}
+    """)
+    assert result["block.x"][-1] == pytest.approx(81, abs=1e-5 * 10)
+
+
+def test_rows_between_steps_show_no_motion_that_stiff_parts_never_made(simulate: Scene) -> None:
+    """A stiff core in a soft hose, pulled over contacts: the momentum of all is the impulse of the pull."""
+    nodes, core, hose = 6, 0.7, 0.3
+    parts = [f"core{k}: {{type: Mass, mass: {core} kg}}" for k in range(nodes)]
+    parts += [f"hose{k}: {{type: Mass, mass: {hose} kg}}" for k in range(nodes)]
+    parts += [f"pad{k}: {{type: Contact, normal_force: 10 N, curve: 0.5}}" for k in range(nodes)]
+    parts += [f"c{k}: {{type: SpringDamper, stiffness: 1e8 N/m, damping: 2e3 N*s/m}}" for k in range(1, nodes)]
+    parts += [f"h{k}: {{type: SpringDamper, stiffness: 1e4 N/m, damping: 0.2 N*s/m}}" for k in range(1, nodes)]
+    wires = [f"[core{k}.flange, pad{k}.a]" for k in range(nodes)]
+    wires += [f"[hose{k}.flange, pad{k}.b]" for k in range(nodes)]
+    for line, mass in (("c", "core"), ("h", "hose")):
+        for k in range(1, nodes):
+            wires += [f"[{mass}{k - 1}.flange, {line}{k}.a]", f"[{line}{k}.b, {mass}{k}.flange]"]
+    text = "components:\n" + "\n".join("  " + part for part in parts)
+    text += "\n  pull: {type: ForceSource, force: {ramp: {to: 6 N, over: 0.1 s}}}\nconnections:\n"
+    text += "\n".join("  - " + wire for wire in [*wires, f"[core{nodes - 1}.flange, pull.flange]"])
+    text += "\nfriction: {method: hold}\nrun: {stop: 1 s, accuracy: 1e-5, engine: stepping}\nrecord: {every: 10 ms}\n"
+    result = simulate(text)
+    momentum = sum(core * result[f"core{k}.v"] + hose * result[f"hose{k}.v"] for k in range(nodes))
+    impulse = np.where(result.t < 0.1, 30 * result.t**2, 0.3 + 6 * (result.t - 0.1))
+    assert momentum == pytest.approx(impulse, abs=1e-3 * impulse[-1])
+
+
+def test_factors_of_a_line_on_a_belt_that_moves_grow_with_its_length_only(scene: Scene) -> None:
+    """Every node has a contact with the one belt: that must not join all nodes with each other."""
+
+    def entries(nodes: int) -> int:
+        parts = [f"pad{k}: {{type: Contact, normal_force: 10 N, curve: 0.5}}" for k in range(nodes)]
+        parts += [f"node{k}: {{type: Mass, mass: 0.1 kg}}" for k in range(nodes)]
+        parts += [f"s{k}: {{type: SpringDamper, stiffness: 1e4 N/m, damping: 1 N*s/m}}" for k in range(1, nodes)]
+        wires = [f"[belt.flange, pad{k}.a]" for k in range(nodes)]
+        wires += [f"[pad{k}.b, node{k}.flange]" for k in range(nodes)]
+        wires += [f"[node{k - 1}.flange, s{k}.a]" for k in range(1, nodes)]
+        wires += [f"[s{k}.b, node{k}.flange]" for k in range(1, nodes)]
+        text = "components:\n  belt: {type: Mass, mass: 50 kg}\n" + "\n".join("  " + part for part in parts)
+        text += "\nconnections:\n" + "\n".join("  - " + wire for wire in wires) + "\nfriction: {method: hold}\n"
+        plan = ordering.plan(scene(text + "run: {stop: 1 s}\n").system)
+        return len(plan.arrays["lower_rows"]) + len(plan.arrays["upper_rows"])
+
+    assert entries(80) < 2.3 * entries(40)
