@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -14,9 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.analysis.recorded_line import Floats, RecordedLine
 from fairlead.results import Result
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -76,15 +74,12 @@ class LineMargins:
 
 def margins(result: Result) -> list[LineMargins]:
     """Margins of every line on a route, of a finished or an unfinished run."""
-    return [_Line(result, record).margins() for record in result.run.get("routes") or ()]
+    return [_Judge(result, record).margins() for record in result.run.get("routes") or ()]
 
 
 @dataclass(frozen=True)
-class _Line:
-    """One line in the results: arrays (rows, elements or nodes), read when first asked for."""
-
-    result: Result
-    record: dict[str, Any]
+class _Judge(RecordedLine):
+    """One line of a run and its margins."""
 
     def margins(self) -> LineMargins:
         """All of it."""
@@ -94,32 +89,6 @@ class _Line:
             self.record["line"], found, self._whole(found), self.record["ruck_force"], self.record["side_wall"],
             tuple(self._missing()),
         )  # fmt: skip
-
-    def _all(self, child: str, output: str, count: int) -> Floats | None:
-        """One output of all elements or nodes, side by side; None unless all were recorded."""
-        names = [f"{self.record['line']}.{child}[{i}].{output}" for i in range(count)]
-        return self.result.columns(names) if all(name in self.result for name in names) else None
-
-    @functools.cached_property
-    def layers(self) -> list[Floats] | None:
-        """Tensions of the layers, outer first."""
-        found = [self._all(layer, "tension", self.record["nodes"] - 1) for layer in self.record["layers"]]
-        return None if any(one is None for one in found) else found  # type: ignore[return-value]
-
-    @functools.cached_property
-    def nodes(self) -> Floats | None:
-        """Where the nodes are on the route [m]."""
-        return self._all(self.record["outer"], "x", self.record["nodes"])
-
-    @property
-    def places(self) -> Floats | None:
-        """Where the middles of the elements are [m]."""
-        return None if self.nodes is None else (self.nodes[:, 1:] + self.nodes[:, :-1]) / 2
-
-    @functools.cached_property
-    def total(self) -> Floats | None:
-        """Tension of all layers together [N]."""
-        return None if self.layers is None else np.sum(self.layers, axis=0)
 
     def _station(self, station: dict[str, Any]) -> StationMargins | None:
         """None for a station the line was never in, or that does nothing to it."""
@@ -149,7 +118,7 @@ class _Line:
         for name in ("side_wall", "scuffed", "inner_scuffed", "slipped"):
             here = [one for each in stations if (one := getattr(each, name)) is not None]
             found[name] = max(here, key=lambda one: one.value, default=None)
-        apart = self._some("registration", "d")
+        apart = self.some("registration", "d")
         if apart is not None:
             names, values = apart
             found["registration"] = self._worst(np.abs(values), np.ones(values.shape, dtype=bool), names.__getitem__)
@@ -163,7 +132,7 @@ class _Line:
         yield "hose", self._worst(self.layers[0], inside, self._element, least=True)
         if len(self.layers) > 1:
             inner = self.record["layers"][1]
-            yield "core", self._worst(self.layers[1], inside, lambda k: self._name(inner, k), least=True)
+            yield "core", self._worst(self.layers[1], inside, lambda k: self.name(inner, k), least=True)
 
     def _worst(self, values: Floats, inside: NDArray[np.bool_], name: Any, *, least: bool = False) -> Worst:
         """The extreme among what is inside, and where it was."""
@@ -175,21 +144,12 @@ class _Line:
             place = float(where[row, k]) if where is not None and values.shape[1] == where.shape[1] else None
         return Worst(float(values[row, k]), float(self.result.t[row]), name(int(k)), place)
 
-    def _name(self, child: str, k: int) -> str:
-        return f"{self.record['line']}.{child}[{k}]"
-
     def _element(self, k: int) -> str:
-        return self._name(self.record["layers"][0], k)
-
-    def _some(self, child: str, output: str) -> tuple[list[str], Floats] | None:
-        """One output of those nodes that have such a child: names, and values (rows, names); None if none has."""
-        named = [(i, f"{self._name(child, i)}.{output}") for i in range(self.record["nodes"])]
-        names = [name for _, name in named if name in self.result]
-        return ([name.rpartition(".")[0] for name in names], self.result.columns(names)) if names else None
+        return self.name(self.record["layers"][0], k)
 
     def _slips(self, child: str, key: str, held: NDArray[np.bool_]) -> Iterator[tuple[str, Worst]]:
         """The node that slid furthest while it was there."""
-        found = self._of_nodes(child, "slip")
+        found = self.of_nodes(child, "slip")
         if found is None or not len(self.result.t):
             return
         gone = np.cumsum(self._over_time(np.abs(found) * held), axis=0)
@@ -197,26 +157,17 @@ class _Line:
         if gone[-1, k] > 0:
             row = int(np.searchsorted(gone[:, k], gone[-1, k] * (1 - 1e-9)))
             place = float(self.nodes[row, k]) if self.nodes is not None else None
-            yield key, Worst(float(gone[-1, k]), float(self.result.t[row]), self._name(child, k), place)
+            yield key, Worst(float(gone[-1, k]), float(self.result.t[row]), self.name(child, k), place)
 
     def _slipped(self, child: str, held: NDArray[np.bool_]) -> Worst | None:
         """How far the line slid on a surface that moves: the mean slip of what is there, over time."""
-        found = self._of_nodes(child, "slip")
+        found = self.of_nodes(child, "slip")
         if found is None:
             return None
         mean = np.abs((found * held).sum(axis=1)) / np.maximum(held.sum(axis=1), 1)
         gone = self._over_time(mean)
         row = int(mean.argmax())
         return Worst(float(gone.sum()), float(self.result.t[row]), f"{self.record['line']}.{child}", None)
-
-    def _of_nodes(self, child: str, output: str) -> Floats | None:
-        """One output for every node, zero where a node has no such child."""
-        some = self._some(child, output)
-        if some is None:
-            return None
-        wide = np.zeros((len(self.result.t), self.record["nodes"]))
-        wide[:, [int(name[name.rindex("[") + 1 : -1]) for name in some[0]]] = some[1]
-        return wide
 
     def _over_time(self, rate: Floats) -> Floats:
         """Contribution of every row to the integral over time, by trapezoids."""
@@ -228,15 +179,15 @@ class _Line:
         """What to record, and what that would tell."""
         line = self.record["line"]
         for layer in self.record["layers"]:
-            if self._all(layer, "tension", self.record["nodes"] - 1) is None:
+            if self.every(layer, "tension", self.record["nodes"] - 1) is None:
                 yield f"{line}.{layer}[*].tension for the tensions"
         if self.nodes is None:
             yield f"{line}.{self.record['outer']}[*].x for the station that an element is in"
         for child in dict.fromkeys(each["contact"] for each in self.record["stations"] if each["contact"]):
-            if self._some(child, "slip") is None:
+            if self.some(child, "slip") is None:
                 there = [each["name"] for each in self.record["stations"] if each["contact"] == child]
                 yield f"{line}.{child}[*].slip for how far the line slides in {', '.join(there)}"
-        if len(self.record["layers"]) > 1 and self._some("inner", "slip") is None:
+        if len(self.record["layers"]) > 1 and self.some("inner", "slip") is None:
             yield f"{line}.inner[*].slip for how far bulkheads slide in the hose"
-        if len(self.record["layers"]) > 1 and self._some("registration", "d") is None:
+        if len(self.record["layers"]) > 1 and self.some("registration", "d") is None:
             yield f"{line}.registration[*].d for the de-registration"

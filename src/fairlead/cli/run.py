@@ -48,6 +48,7 @@ def run(
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress:
         result = model.run(out=out, force=force, progress=progress, profile=profile)
+    _compare_with_statics(model, result)
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
         typer.echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
@@ -62,6 +63,17 @@ def exit_code(outcome: dict[str, Any]) -> int:
     """The exit code that the contents of a `run.json` call for."""
     code = EXIT_CODES.get(outcome["status"], NUMERICAL_FAILURE)
     return LIMIT_BROKEN if code == 0 and outcome.get("limits_broken") else code
+
+
+def _compare_with_statics(model: "Model", result: "Result") -> None:
+    """Put into run.json how far a line on a route is from its quasi-static tensions."""
+    if not result.run.get("routes"):
+        return
+    from fairlead.analysis.quasi_static import against_statics
+    from fairlead.results import run_file
+
+    result.run["against_statics"] = against_statics(model.flat, result)
+    run_file.write(result.path, result.run)
 
 
 def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> list[pathlib.Path]:

@@ -33,8 +33,20 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         ("switches", f"{run.get('switches', UNKNOWN)}"),
         ("worst creep", _creep(run.get("worst_creep"))),
         ("energy closure", _closure(run.get("energy"))),
+        *_against_statics(run.get("against_statics")),
         ("results", str(directory)),
     ]
+
+
+def _against_statics(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """How far the tensions of a line in steady motion are from those of `fairlead statics`; nothing without a route."""
+    if found is None:
+        return []
+    if found.get("difference") is None:
+        return [("against statics", f"not compared: {found.get('reason', UNKNOWN)}")]
+    both = f"{found['run']:.4g} N for {found['statics']:.4g} N {found['where']}"
+    text = f"{100 * found['difference']:.2g} % at most ({both}, {found['from']:.3g} ... {found['to']:.3g} s)"
+    return [("against statics", text)]
 
 
 def _number(value: float | None, unit: str) -> str:
