@@ -8,6 +8,7 @@ zone stands for.
 from collections.abc import Callable
 from typing import Any
 
+from fairlead.components.friction.contact import drag
 from fairlead.components.friction.curve import mu
 
 
@@ -56,17 +57,17 @@ def ramp(p: Any, d: int, slip: Any, grip: Any) -> Any:
 
 def slide(p: Any, d: int, slip: Any, grip: Any) -> Any:
     """The curve."""
-    return d * grip * mu(p.curve, d * slip, d) + p.viscous * slip
+    return d * grip * mu(p.curve, d * slip, d) + drag(p, slip)
 
 
 def latched(p: Any, d: int, slip: Any, grip: Any) -> Any:
     """The curve at v_n, however slow the slip still is."""
-    return d * grip * edge(p, d) + p.viscous * slip
+    return d * grip * edge(p, d) + drag(p, slip)
 
 
 def transit(p: Any, d: int, slip: Any, grip: Any) -> Any:
     """S alone, on its line through zero."""
-    return grip * edge(p, slip / p.v_n) / p.v_n * slip + p.viscous * slip
+    return grip * edge(p, slip / p.v_n) / p.v_n * slip + drag(p, slip)
 
 
 LAWS: dict[str, tuple[Callable[..., Any], int]] = {

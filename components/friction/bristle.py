@@ -4,7 +4,7 @@ import functools
 import math
 
 import numpy as np
-from fairlead.components.friction.contact import opposing
+from fairlead.components.friction.contact import drag, opposing
 from fairlead.components.friction.one_formula import OneFormula
 
 from fairlead.component import Choice, Count, Law, Output, Parameter, State, derived, derived_wave, zone
@@ -107,7 +107,7 @@ class Bristle(OneFormula):
     def on(p, a, b, moved, grip):
         """All bonds pull."""
         slip, mean = b.v - a.v, mean_stretch(p, moved)
-        return opposing(slip, grip * p.ratio * mean + p.viscous * slip, moved=slip, deflection=mean, creep_rate=0)
+        return opposing(slip, grip * p.ratio * mean + drag(p, slip), moved=slip, deflection=mean, creep_rate=0)
 
     @zone("off")
     def off(p, a, b, moved):

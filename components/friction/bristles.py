@@ -1,6 +1,6 @@
 """What the laws with a bristle have in common: one average deflection z, and the numbers that go with it."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import Contact, drag
 from fairlead.components.friction.curve import mu
 
 from fairlead.component import Law, Output, Parameter, State, derived, guard, tanh, zone
@@ -70,8 +70,8 @@ def bent(p, a, b, z, grip, rate, damping):
     T = s0 (z + damping z') + viscous v;  stored s0 z^2/2.  Of the power T v, what bends the bristles is stored.
     """
     slip, stiffness = b.v - a.v, grip * p.ratio
-    friction = stiffness * (z + damping * rate) + p.viscous * slip
+    friction = stiffness * (z + damping * rate) + drag(p, slip)
     creeping = (slip - rate) * (1 - tanh(SHARPNESS * ((slip / p.stick_speed) ** 2 - 1))) / 2
-    lost = stiffness * z * (slip - rate) + stiffness * damping * rate * slip + p.viscous * slip**2
+    lost = stiffness * z * (slip - rate) + stiffness * damping * rate * slip + drag(p, slip) * slip
     return Law(a=-friction, b=+friction, z=rate, slip=slip, friction=friction, deflection=z, creep_rate=creeping,
                stored=stiffness * z**2 / 2, dissipated=lost)  # fmt: skip

@@ -31,7 +31,8 @@ class Contact(Family, Component, abstract=True):
     b = Translational("the body that slips on it")
     curve = Part(Curve, "Coefficient of friction over slip speed.")
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
-    viscous = Parameter("N*s/m", "Viscous friction beside the dry one, while sliding.", default=0.0, least=0)
+    viscous = Parameter("N*s/m", "Viscous friction beside the dry one, while sliding; none when not given.",
+                        default=None, least=0)  # fmt: skip
     lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
     load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
     temperature_dependence = Effect("The curve's softening; off: friction does not depend on temperature.")
@@ -76,7 +77,12 @@ def direction(zone):
 def sliding_friction(p, zone, slip, grip):
     """Friction [N] of a zone in which the contact slides: the curve, against the slip."""
     d = direction(zone)
-    return d * grip * mu(p.curve, d * slip, d) + p.viscous * slip
+    return d * grip * mu(p.curve, d * slip, d) + drag(p, slip)
+
+
+def drag(p, slip):
+    """What viscous friction adds [N]; no term when the contact is not given any."""
+    return 0 if p.viscous is None else p.viscous * slip
 
 
 def opposing(slip, friction, **more):

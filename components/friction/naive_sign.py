@@ -1,6 +1,6 @@
 """The naive law of the textbook: friction is the sign of the slip. It fails where it should stick, and says so."""
 
-from fairlead.components.friction.contact import opposing
+from fairlead.components.friction.contact import drag, opposing
 from fairlead.components.friction.curve import mu
 from fairlead.components.friction.one_formula import OneFormula
 
@@ -36,4 +36,4 @@ class NaiveSign(OneFormula):
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.width**2)
         sign = tanh(slip / p.width) ** 3
-        return opposing(slip, grip * mu(p.curve, speed, sign) * sign + p.viscous * slip, creep_rate=0)
+        return opposing(slip, grip * mu(p.curve, speed, sign) * sign + drag(p, slip), creep_rate=0)

@@ -2,7 +2,7 @@
 
 import math
 
-from fairlead.components.friction.contact import opposing
+from fairlead.components.friction.contact import drag, opposing
 from fairlead.components.friction.curve import mu
 from fairlead.components.friction.one_formula import OneFormula
 
@@ -29,7 +29,7 @@ class Regularised(OneFormula, abstract=True):
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.creep**2)
         share = p.shape(slip / p.creep)
-        friction = grip * mu(p.curve, speed, share) * share + p.viscous * slip
+        friction = grip * mu(p.curve, speed, share) * share + drag(p, slip)
         beyond = (slip / (p.creep * p.reach())) ** 2 - 1
         creeping = slip * (1 - tanh(SHARPNESS * beyond)) / 2
         return opposing(slip, friction, creep_rate=creeping)

@@ -1,6 +1,6 @@
 """The saturated line: the sign of the slip is replaced by a straight line between two levels."""
 
-from fairlead.components.friction.contact import Sliding, opposing
+from fairlead.components.friction.contact import Sliding, drag, opposing
 from fairlead.components.friction.creeping import Creeping, with_creep
 from fairlead.components.friction.curve import mu
 
@@ -37,7 +37,7 @@ class Saturation(Sliding, Creeping):
         """Proportional to slip; all of it is creep."""
         slip = b.v - a.v
         slope = grip * mu(p.curve, p.creep, slip / p.creep) / p.creep
-        return opposing(slip, (slope + p.viscous) * slip, creep_rate=slip)
+        return opposing(slip, slope * slip + drag(p, slip), creep_rate=slip)
 
     @guard("off", to="line", unit="N")
     def lands(p, normal):

@@ -11,6 +11,7 @@ from fairlead.components.line.laid_line import LaidLine
 from fairlead.components.line.mesh import bulkheads, cut
 from fairlead.components.line.meter import Meter
 from fairlead.components.line.registration import Registration
+from fairlead.components.line.relaxing_hose import RelaxingHose
 from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
 from fairlead.components.line.torsion import TORSION, twisting
 from fairlead.components.mechanics.mass import Mass
@@ -32,6 +33,10 @@ LAYER = {
     "mass": Parameter("kg/m", "Mass per length.", above=0),
     "stiffness": Parameter("N", "EA, tension per strain.", above=0),
     "damping_ratio": Parameter("1", "Damping of an element relative to critical.", default=0.05, least=0),
+}
+RELAXING = {
+    "stiffness": Parameter("N", "EA that relaxes, beside that of the hose.", above=0),
+    "time": Parameter("s", "Time in which it relaxes.", above=0),
 }
 
 
@@ -73,9 +78,12 @@ class ArrayModule(Composite):
                            default=None, above=0)  # fmt: skip
     ruck_stiffness = Parameter("1", "Stiffness of the hose while it rucks, over that before.", default=1.0, above=0,
                                most=1)  # fmt: skip
+    hose_relaxation = Block(RELAXING, "The hose is stiffer when strained fast; not when not given.", default=None)
     torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
     hose_core_slip = Effect("Hose and core may part; off: one body with the mass and the stiffness of both.")
     tension_only_core = Effect("A core that cannot push; off: a spring.")
+    device_friction = Effect("Friction of the line on all devices; off: none.")
+    centrifugal = Effect("A line that runs round a bend presses less by its mass times speed squared.", default="off")
     line_damping = Effect("Damping of the elements; off: none.")
     gravity = Effect("Weight of the line; off: none.")
     planar_slip = Effect("Friction against the resultant of slipping and turning; off: against each by itself.")
@@ -90,6 +98,8 @@ class ArrayModule(Composite):
                 f"an element of {p.element:g} m is longer than {whole} of {p.length / p.modules:g} m",
                 "Make it shorter.",
             )
+        if p.ruck_force is not None and p.hose_relaxation is not None:
+            yield "hose_relaxation", "hose that is watched for rucking does not relax", "Leave out one of the two."
 
     def expand(p, scene):
         """Masses, elements and connectors; the contacts come when the line is laid on a route."""
@@ -131,6 +141,8 @@ class ArrayModule(Composite):
 
 def hose_kind(p):
     """The class of hose elements, and what it is given besides."""
+    if p.hose_relaxation is not None:
+        return RelaxingHose, {"branch_stiffness": p.hose_relaxation.stiffness, "relaxation": p.hose_relaxation.time}
     if p.ruck_force is None:
         return Hose, {}
     if p.ruck_stiffness == 1:

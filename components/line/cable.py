@@ -60,6 +60,8 @@ class Cable(Composite):
                            default=None, above=0)  # fmt: skip
     ruck_stiffness = Parameter("1", "Stiffness while it rucks, over that before.", default=1.0, above=0, most=1)
     torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
+    device_friction = Effect("Friction of the line on all devices; off: none.")
+    centrifugal = Effect("A line that runs round a bend presses less by its mass times speed squared.", default="off")
     line_damping = Effect("Damping of the elements; off: none.")
     gravity = Effect("Weight of the line; off: none.")
     planar_slip = Effect("Friction against the resultant of slipping and turning; off: against each by itself.")

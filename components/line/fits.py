@@ -29,10 +29,11 @@ def fits(assembly: Any, line: Any, laid: Any, route: Any) -> list[Fault]:
     if len(loops) > 1:
         what = f"{route.path} has {len(loops)} tensioners; a line runs through one at most."
         found.append(Fault(_where(assembly, route, loops[1]), what, "Leave out the others."))
-    if loops and line.values.ruck_force is not None:
-        place = f"{route.path}.{loops[0].name}"
-        what = f"{laid.path}.ruck_force: hose that is watched for rucking cannot run through {place}."
-        found.append(Fault(laid.where, what, "Leave out ruck_force, or the tensioner."))
+    for name, which in (("ruck_force", "is watched for rucking"), ("hose_relaxation", "relaxes")):
+        if loops and getattr(line.values, name, None) is not None:
+            place = f"{route.path}.{loops[0].name}"
+            what = f"{laid.path}.{name}: hose that {which} cannot run through {place}."
+            found.append(Fault(laid.where, what, f"Leave out {name}, or the tensioner."))
     for before, after, gap in slits(placed, shortest):
         what = f"{route.path}.{after.name} begins {gap:.3g} m after {before.name} ends, less than an element"
         way_out = f"Let it begin at {before.end:g} m, or leave at least {shortest:.3g} m between them."

@@ -47,6 +47,13 @@ class LaidLine:
     bulkheads: dict[int, Reach] | None = None
     meter: Any = None  # class of what counts slip and work of every contact
 
+    def heavy(self, layers: tuple[str, ...]) -> dict[str, float]:
+        """Mass per length of some layers, as their lateral load takes it; nothing where it is not counted [kg/m]."""
+        if self.values.centrifugal == "off":
+            return {}
+        made_of = (self.values if one == "line" else getattr(self.values, one) for one in layers)
+        return {"heavy": sum(float(one.mass) for one in made_of)}
+
     @property
     def load(self) -> float:
         """Weight per length, if the scene has any [N/m]."""
@@ -81,8 +88,9 @@ class _On:
         body, reach = f"{self.line.outer}[{i}]", self.line.mesh.reach(i)
         two = bool(self.line.inner) and i not in self.line.mesh.connectors
         bulkhead = (self.line.bulkheads or {}).get(i) if two else None
-        squeezed = self.clamps(i, body, reach)
-        slots = [made for surface in self.route.surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
+        surfaces = self.route.surfaces if self.line.values.device_friction == "on" else []
+        squeezed = self.clamps(i, body, reach) if surfaces or bulkhead is not None else {}
+        slots = [made for surface in surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
         if bulkhead is not None:
             self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
         self.readings(i, body, reach)
@@ -185,7 +193,8 @@ class _On:
         """A load fed by the tensions of the elements on both sides."""
         beside = self.line.mesh.neighbours(i)
         table = self.table(reach, *curved)
-        load = self.to.child(name, kind, curvature=table, length=reach.length, share=1 / len(beside))
+        heavy = self.line.heavy(layers)
+        load = self.to.child(name, kind, curvature=table, length=reach.length, share=1 / len(beside), **heavy)
         self.to.join(f"{load}.flange", f"{body}.flange")
         for layer, entry in zip(layers, ("hose", "core")[-len(layers) :], strict=True):
             for element in beside:

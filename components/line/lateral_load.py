@@ -6,9 +6,10 @@ from fairlead.component import Component, Input, Law, Output, Parameter, Table, 
 class LateralLoad(Component):
     """Normal force of a node on a curved route: tension times curvature times length.
 
-    force = mean tension * curvature(s) * length + more
+    force = (mean tension - heavy v^2) * curvature(s) * length + more
 
-    The mean is over the elements on both sides (the one element at an end: `share` 1 instead of 1/2). The
+    The mean is over the elements on both sides (the one element at an end: `share` 1 instead of 1/2). What the line
+    needs to follow the bend does not press on it: `heavy` v^2, with the mass per length; no term when not given. The
     curvature of the route at the node's own position contains the window of the device, so that the sum
     over a travelling line is constant. A negative force means that nothing presses.
     """
@@ -17,6 +18,7 @@ class LateralLoad(Component):
     curvature = Table("m", "1/m", "Curvature times window along the route.")
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
     share = Parameter("1", "Weight of each adjacent element.", default=0.5)
+    heavy = Parameter("kg/m", "Mass per length that is turned; not counted when not given.", default=None, least=0)
     hose_in = Input("N", "Hose tension on the inboard side.", default=0.0)
     hose_out = Input("N", "Hose tension on the outboard side.", default=0.0)
     core_in = Input("N", "Core tension on the inboard side.", default=0.0)
@@ -26,14 +28,19 @@ class LateralLoad(Component):
 
     def law(p, flange, hose_in, hose_out, core_in, core_out, more):
         """A signal only; the contact makes friction of it."""
-        tension = p.share * (hose_in + hose_out + core_in + core_out)
+        tension = pressing(p, flange, p.share * (hose_in + hose_out + core_in + core_out))
         return Law(flange=0, force=tension * p.curvature(flange.x) * p.length + more)
+
+
+def pressing(p, flange, tension):
+    """The part of the tension that presses on the bend [N]."""
+    return tension if p.heavy is None else tension - p.heavy * flange.v**2
 
 
 class RoundLoad(LateralLoad):
     """The same inside a tube, which holds the line from all sides: a line in compression rides the outer wall.
 
-    force = |mean tension| * curvature(s) * length + more
+    force = |mean tension - heavy v^2| * curvature(s) * length + more
     """
 
     zones = Zones("inner", "outer")
@@ -42,18 +49,18 @@ class RoundLoad(LateralLoad):
     def law(p, flange, hose_in, hose_out, core_in, core_out, more, zone):
         """The wall it rides on decides the sign."""
         wall = 1 if zone == "inner" else -1
-        tension = p.share * (hose_in + hose_out + core_in + core_out)
+        tension = pressing(p, flange, p.share * (hose_in + hose_out + core_in + core_out))
         return Law(flange=0, force=wall * tension * p.curvature(flange.x) * p.length + more)
 
     @guard("inner", to="outer", unit="N")
-    def is_pushed(p, hose_in, hose_out, core_in, core_out):
+    def is_pushed(p, flange, hose_in, hose_out, core_in, core_out):
         """Compression."""
-        return -p.share * (hose_in + hose_out + core_in + core_out)
+        return -pressing(p, flange, p.share * (hose_in + hose_out + core_in + core_out))
 
     @guard("outer", to="inner", unit="N")
-    def is_pulled(p, hose_in, hose_out, core_in, core_out):
+    def is_pulled(p, flange, hose_in, hose_out, core_in, core_out):
         """Tension."""
-        return p.share * (hose_in + hose_out + core_in + core_out)
+        return pressing(p, flange, p.share * (hose_in + hose_out + core_in + core_out))
 
 
 class PressedLoad(Component):

@@ -22,16 +22,20 @@ ON_A_ROUTE = {
     ("ArrayModule", "hose_core_slip"): ("single_bend", {"line.length": "4 m"}),
     ("ArrayModule", "tension_only_core"): ("single_bend", {"line.length": "4 m"}),
     ("ArrayModule", "line_damping"): ("single_bend", {"line.length": "4 m"}),
+    ("ArrayModule", "device_friction"): ("single_bend", {"line.length": "4 m"}),
+    ("ArrayModule", "centrifugal"): ("single_bend", {"line.length": "4 m"}),
     ("ArrayModule", "meters"): ("single_bend", {"line.length": "4 m"}),
     ("Cable", "line_damping"): ("friction_anchor", {"element": "4 m"}),
+    ("Cable", "device_friction"): ("friction_anchor", {"element": "4 m"}),
+    ("Cable", "gravity"): ("friction_anchor", {"element": "4 m"}),
+    ("Cable", "centrifugal"): ("capstan", {"element": "0.5 m", "rope.length": "6 m"}),
     ("Cable", "planar_slip"): ("torsion", {"element": "0.5 m"}),
     ("Cable", "meters"): ("torsion", {"element": "0.5 m"}),
     ("PowerUnit", "supply_dynamics"): ("power_unit", {}),
 }
 SAME_LAW = {
     ("ArrayModule", "planar_slip"): "that of Cable, see there",
-    ("ArrayModule", "gravity"): "weight is a load, see tests/components/test_route_devices.py",
-    ("Cable", "gravity"): "weight is a load, see tests/components/test_route_devices.py",
+    ("ArrayModule", "gravity"): "that of Cable, see there",
 }
 
 

@@ -6,6 +6,7 @@
     a word             another option of a choice that a component of the netlist has (`compression: carried`)
     an optional part   a parameter or block that the netlist gives and its class can do without (`ruck_force`)
     a treatment        of friction: exact hold, binding, or no sticking at all
+    a curve            of friction that is its constant level instead (`pad.curve: 0.4`)
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class Switch:
     now: str  # as the scene has it
     then: str  # with the settings
     settings: Mapping[str, str]
-    kind: str = "effect"  # or word, part, treatment
+    kind: str = "effect"  # or word, part, treatment, curve
 
     @property
     def label(self) -> str:
@@ -45,7 +46,7 @@ class Switch:
 
 def switches(model: Any) -> list[Switch]:
     """All switches of a scene, the declared effects first."""
-    return [*_effects(model), *_treatments(model), *_words(model), *_parts(model)]
+    return [*_effects(model), *_treatments(model), *_curves(model), *_words(model), *_parts(model)]
 
 
 def all_off(load: Load, found: list[Switch]) -> Switch | None:
@@ -96,6 +97,30 @@ def _treatments(model: Any) -> Iterator[Switch]:
     for word in dict.fromkeys(("binding" if now == EXACT else EXACT, NO_STICKING)) if now else ():
         if word != now:
             yield Switch("friction", now, word, treatment(model, word), "treatment")
+
+
+def _curves(model: Any) -> Iterator[Switch]:
+    """Curves of friction without their dependence on speed: all at once, each at its level of steady sliding."""
+    levels = {
+        path: str(value.entries["coulomb"].content)
+        for entry in model.netlist.components.values()
+        for name, one in entry.parameters.items()
+        for path, value in _maps(f"{entry.name}.{name}", one)
+        if "coulomb" in value.entries and "curve" in value.entries and value.entries["curve"].content != "coulomb"
+    }
+    if levels:
+        yield Switch("speed dependence of friction", "on", "off", levels, "curve")
+
+
+def _maps(path: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """All maps in a value, with the path that overrides them."""
+    if isinstance(value.content, dict):
+        yield path, value
+        for name, one in value.content.items():
+            yield from _maps(f"{path}.{name}", one)
+    elif isinstance(value.content, list):
+        for number, one in enumerate(value.content):
+            yield from _maps(f"{path}.{number}", one)
 
 
 def _words(model: Any) -> Iterator[Switch]:
