@@ -10,7 +10,7 @@ class ReferenceShaper(Component):
     jerk the rate is at most sqrt(2 jerk |what is left|), so that it has come down when the target is reached.
     """
 
-    passes = "target"
+    passes, at_most = "target", "most"  # steadily the target, on the way at most this rate
     target = Input("1", "Where to.", signed=True)
     period = Parameter("s", "Time between samples.", default=0.01, above=0)
     most = Parameter("1/s", "Largest rate.", above=0)

@@ -51,7 +51,7 @@ def share_of(state, name):
 
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.35, 0.6])
 def test_the_guidance_route_is_a_product_of_capstans_both_ways(mu):
-    found = one(fairlead.load("guidance_route", set={"mu": str(mu)}))
+    found = one(fairlead.load("guidance_route_ideal", set={"mu": str(mu)}))
     assert [state.speed for state in found.moving] == [0.5, -0.5]
     for state in found.moving:
         way = math.copysign(1, state.speed)
@@ -120,7 +120,7 @@ def test_the_friction_of_a_curve_is_that_of_the_speed_and_at_rest_that_from_rest
 
 
 def test_the_cones_of_two_bends_multiply_and_a_clamp_adds_what_it_carries():
-    found = one(fairlead.load("guidance_route", set={"mu": "0.6", "clamp": "20 N/m"}))
+    found = one(fairlead.load("guidance_route_ideal", set={"mu": "0.6", "clamp": "20 N/m"}))
     (bend,) = [each for each in found.standing.passages if each.name == "bend_a"]
     (deployer,) = [each for each in found.standing.passages if each.name == "deployer"]
     low, high = 200 * math.exp(-0.3 * math.pi), 200 * math.exp(0.3 * math.pi)
@@ -182,11 +182,11 @@ def test_a_drive_under_control_is_found_through_valve_gear_and_signals(tmp_path)
     parts = "parts/array_route.yaml, parts/electrohydraulic_drives.yaml"
     text = f"schema: 1\nname: eh\ninclude: [{parts}]\nrun: {{stop: 50 s}}\n"
     (tmp_path / "parts").mkdir()
-    folder = fairlead.load("guidance_route").netlist.path.parent / "parts"
+    folder = fairlead.load("guidance_route_ideal").netlist.path.parent / "parts"
     for part in folder.glob("*.yaml"):
         (tmp_path / "parts" / part.name).write_text(part.read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "eh.yaml").write_text(text, encoding="utf-8")
-    found, ideal = one(fairlead.load(tmp_path / "eh.yaml")), one(fairlead.load("guidance_route"))
+    found, ideal = one(fairlead.load(tmp_path / "eh.yaml")), one(fairlead.load("guidance_route_ideal"))
     for mine, theirs in zip(found.moving, ideal.moving, strict=True):
         assert (mine.speed, mine.way) == (pytest.approx(theirs.speed), pytest.approx(theirs.way))
         assert [each.inboard for each in mine.passages] == pytest.approx([each.inboard for each in theirs.passages])
@@ -235,7 +235,7 @@ def test_below_the_threshold_of_slip_hose_and_core_share_by_stiffness():
 
 def test_drag_on_the_hose_is_shared_with_the_core_at_the_ends_only():
     """The core's tension in the water is the mean of the total, so that both stay as long as each other."""
-    state = one(fairlead.load("guidance_route")).moving[0]
+    state = one(fairlead.load("guidance_route_ideal")).moving[0]
     sea, end = state.tension(9.5), 150.0
     free, wet = 10 - (8 + math.pi / 3), 14.25
     mean = (sea * free + (sea + end) / 2 * wet) / (free + wet)
@@ -263,7 +263,7 @@ def test_every_bundled_route_is_solved_and_shown(model):
 
 
 def test_json_has_the_numbers_of_the_table():
-    answer = CliRunner().invoke(app, ["statics", "guidance_route", "--json"])
+    answer = CliRunner().invoke(app, ["statics", "guidance_route_ideal", "--json"])
     (told,) = json.loads(answer.output)
     (out, back) = told["states"]
     assert [row["station"] for row in out["stations"]] == ["winch", "bend_a", "deployer", "bend_b", "sea", "tail"]

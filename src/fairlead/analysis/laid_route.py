@@ -45,6 +45,11 @@ class Device:
         radius = self.station.bend_radius()
         return 1 / radius if radius else 0.0
 
+    @property
+    def touches(self) -> bool:
+        """False for what the line only passes by."""
+        return self.station.rubs() is not None
+
     def friction(self, slip: float) -> float:
         """Coefficient at a slip speed [m/s] of the line, outboard positive; 0: that from rest."""
         curve = self.station.rubs()

@@ -20,7 +20,7 @@ class Machine:
     """What acts at a port: one of speed, tension, efforts; nothing of all that: it is free, or `unknown`.
 
     `ratios` tells for each group of bodies that moves with the port how fast it does; `inertia` is that of all of them
-    at the port. `left_out` names what acts on them and is not counted, such as brakes and dampers.
+    at the port, and is sped up by the line unless it is `paced`: driven with the line's speed. `left_out` names what acts on them and is not counted, such as brakes and dampers.
     """
 
     port: PortRef
@@ -32,6 +32,7 @@ class Machine:
     unknown: bool = False
     by: str = ""
     left_out: tuple[str, ...] = field(default=())
+    paced: bool = False
 
     @property
     def drives(self) -> bool:
@@ -107,7 +108,8 @@ def machine(flat: FlatModel, port: PortRef, line: str, route: str) -> Machine:
     at_a_loss = bool(unknown) and speed is None and tension is None
     acting = tuple(one for one in efforts if _acts(one)) if speed is None and tension is None and not unknown else ()
     by = by or (unknown[0] if at_a_loss else acting[0][0].path if acting else "")
-    return Machine(port, ratios, inertia, speed, tension, acting, at_a_loss, by, tuple(dict.fromkeys(left_out)))
+    paced = held is not None and tension is not None
+    return Machine(port, ratios, inertia, speed, tension, acting, at_a_loss, by, tuple(dict.fromkeys(left_out)), paced)
 
 
 def _prescribed(flat: FlatModel, prescribed: Any, ratio: float) -> Wave | None:

@@ -91,7 +91,7 @@ def _spans(found: State, element: float) -> Iterator[tuple[str, float]]:
     """The middle of every span in which nothing acts on the line, and what it is called."""
     before = found.route.winch.name if found.route.winch else "the inboard end"
     for one in found.passages:
-        free = one.device is None or (one.device.word == "Straight" and not one.device.station.slope)
+        free = one.device is None or not (one.device.touches or one.device.station.slope)
         if free and not one.piece.load and one.piece.length >= element:
             yield f"outboard of {before}", (one.piece.begin + one.piece.end) / 2
         elif one.device is not None:

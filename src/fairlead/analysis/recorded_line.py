@@ -66,4 +66,5 @@ class RecordedLine:
         return wide
 
     def name(self, child: str, k: int) -> str:
+        """Path of a child of the line."""
         return f"{self.record['line']}.{child}[{k}]"

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from fairlead.component.piecewise import PiecewisePolynomial, Sine
-from fairlead.component.values import Wave
+from fairlead.component.piecewise import PiecewisePolynomial, Sine, linear_table
+from fairlead.component.values import Wave, steady
 
 STILL = 1e-9  # m/s; less is rest
 LOOKS = 2001  # instants at which a speed without steady stretches is looked at
@@ -103,6 +104,35 @@ def scaled(wave: Wave, factor: float, offset: float = 0.0) -> Wave:
     rows[:, 3] += offset
     sine = wave.sine
     return Wave(PiecewisePolynomial(rows), Sine(sine.amplitude * factor, sine.omega, sine.phase))
+
+
+def followed(wave: Wave, most: float, begin: float, end: float) -> Wave:
+    """What follows a wave from zero at `begin`, at a rate of at most `most`: straight lines until `end`."""
+    corners = [float(t) for t in wave.polynomial.rows[1:, 0] if begin < t < end]
+    straight = not (wave.polynomial.rows[:, 5:].any() or wave.sine.amplitude)
+    looks = [] if straight else np.linspace(begin, end, LOOKS).tolist()
+    borders = sorted({begin, end, *corners, *looks})
+    times, values = [begin], [0.0]
+    for left, right in itertools.pairwise(borders):
+        first, last = _just(wave, left, right)
+        slope, t, y = (last - first) / (right - left), left, values[-1]
+        sense = math.copysign(most, first - y if first != y else slope)
+        closing = sense - slope
+        meets = left + (first - y) / closing if closing else math.inf
+        if y != first or abs(slope) > most:  # it is behind, or is left behind
+            t = right if not left < meets < right else meets
+            y += sense * (t - left)
+            times, values = [*times, t], [*values, y]
+        if t < right:
+            y = last if abs(slope) <= most else y + math.copysign(most, slope) * (right - t)
+            times, values = [*times, right], [*values, y]
+    return Wave(linear_table(times, values)) if len(times) > 1 else steady(0.0)
+
+
+def _just(wave: Wave, left: float, right: float) -> tuple[float, float]:
+    """Values just right of one border and just left of the next."""
+    tiny = 1e-9 * (right - left)
+    return wave(left + tiny), wave(right - tiny)
 
 
 def rate(wave: Wave) -> Wave:

@@ -212,7 +212,8 @@ def inboard_tension(route: LaidRoute, t: float, speed: float, way: float, accele
     """Tension [N] at the inboard end: what the winch keeps or pulls with, and what the drum takes to be sped up."""
     made = route.inboard
     kept = made.tension if made.tension is not None else -route.pull(made, t, speed, way)
-    return kept + (route.inertia(made, way) + route.mass * route.stored(way)) * acceleration
+    heavy = 0.0 if made.paced else route.inertia(made, way) + route.mass * route.stored(way)
+    return kept + heavy * acceleration
 
 
 @dataclass(frozen=True)

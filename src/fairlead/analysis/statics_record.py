@@ -53,7 +53,7 @@ def _stations(state: State) -> Iterator[dict[str, Any]]:
     yield {"station": start, "from": first.piece.begin, "to": first.piece.begin, "outboard": first.inboard}
     for k, one in enumerate(state.passages):
         level = abs(one.outboard - one.inboard) < MOVES and not one.piece.curvature
-        if level and (one.device is None or one.device.word == "Straight"):
+        if level and (one.device is None or not one.device.touches):
             continue
         row: dict[str, Any] = {
             "station": one.name or _in_sea(state, one.piece.begin), "from": one.piece.begin, "to": one.piece.end,
@@ -79,7 +79,7 @@ def _standing(held: Held) -> dict[str, Any]:
         {"station": one.name, "from": one.piece.begin, "to": one.piece.end,
          "inboard": one.inboard, "outboard": one.outboard}
         for one in held.passages
-        if one.device is not None and one.device.word != "Straight"
+        if one.device is not None and one.device.touches
     ]  # fmt: skip
     return {"t": held.t, "paid_out": held.way, "holds": held.holds, "missing": held.missing, "stations": rows}
 

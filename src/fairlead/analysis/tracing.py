@@ -3,6 +3,7 @@
 Classes say of themselves what cannot be seen from their law:
 
     passes = "target"                       the output is, steadily, that input (shapers, interlocks, lags)
+    at_most = "most"                        and on the way its rate is at most that parameter
     follows = ("reference", "measured")     the second input becomes the first (controllers with an integral)
     keeps = "wanted"                        it keeps the tension of the line at that parameter [N]
     transmits = True                        its two ends move alike, and pass on what they carry (springs, teeth)
@@ -20,7 +21,7 @@ from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
-from fairlead.analysis.schedule import scaled
+from fairlead.analysis.schedule import followed, scaled
 from fairlead.component.base import DeclarationError, terms_of
 from fairlead.component.declare import Waveform
 from fairlead.component.instantiate import Instance, PortRef
@@ -61,8 +62,19 @@ def trace(flat: FlatModel, target: PortRef, links: int = 0) -> Traced | None:
     if hasattr(kind, "keeps"):
         return Traced(instance.path, kept=float(getattr(instance.values, kind.keeps)))
     if hasattr(kind, "passes"):
-        return trace(flat, PortRef(instance.path, kind.passes), links + 1)
+        return _passed(flat, instance, trace(flat, PortRef(instance.path, kind.passes), links + 1))
     return _given(instance, source.port) or _sensed(instance, source.port) or _amplified(flat, instance, source, links)
+
+
+def _passed(flat: FlatModel, instance: Instance, before: Traced | None) -> Traced | None:
+    """What comes out of a component that passes on its input, with limited rate if it says so."""
+    kind: Any = instance.type
+    told = before.told() if before is not None else None
+    if before is None or told is None or not hasattr(kind, "at_most"):
+        return before
+    run = flat.assembly.netlist.run
+    most = float(getattr(instance.values, kind.at_most))
+    return Traced(before.by, wave=followed(told, most, run.start, run.stop))
 
 
 def _given(instance: Instance, output: str) -> Traced | None:
