@@ -95,6 +95,21 @@ def test_compression_in_a_tube_grows_along_its_outer_wall(scene):
     assert passage(state, "tube").inboard == pytest.approx(-100 * math.exp(0.3 * 2))
 
 
+def test_a_line_that_runs_fast_presses_less_by_its_mass_times_speed_squared(scene):
+    """What is kept of the tension, T - m v^2, grows by exp(mu theta)."""
+    bend, fast = "{type: Bend, start: 3 m, angle: 90 deg, radius: 2 m, friction: 0.3}", "effects: {centrifugal: on}"
+    (state,) = one(scene(scene_of(bend, speed="-4 m/s", more=fast))).moving
+    want = 16 + (100 - 16) * math.exp(0.3 * math.pi / 2)
+    assert passage(state, "bend").inboard == pytest.approx(want)
+    assert passage(state, "bend").side_wall == pytest.approx((want - 16) / 2)
+
+
+def test_without_friction_on_the_devices_they_change_nothing(scene):
+    bend = "{type: Bend, start: 3 m, angle: 90 deg, radius: 2 m, friction: 0.3}"
+    (state,) = one(scene(scene_of(bend, more="effects: {device_friction: off}"))).moving
+    assert passage(state, "bend").inboard == pytest.approx(100)
+
+
 def test_a_free_wheel_takes_what_its_bearing_takes(scene):
     bearing = "{friction: 0.1, radius: 0.05 m}"
     wheel = f"{{type: Pulley, start: 3 m, angle: 90 deg, radius: 0.5 m, friction: 0.5, bearing: {bearing}}}"

@@ -32,6 +32,7 @@ class Device:
     begin: float
     end: float
     station: Any
+    curve: Any = None  # of its friction on the line
     machine: Machine | None = None
     clamps: tuple[Wave, ...] | None = ()
 
@@ -48,12 +49,11 @@ class Device:
     @property
     def touches(self) -> bool:
         """False for what the line only passes by."""
-        return self.station.rubs() is not None
+        return self.curve is not None
 
     def friction(self, slip: float) -> float:
         """Coefficient at a slip speed [m/s] of the line, outboard positive; 0: that from rest."""
-        curve = self.station.rubs()
-        return 0.0 if curve is None else coefficient(curve, slip)
+        return 0.0 if self.curve is None else coefficient(self.curve, slip)
 
 
 def coefficient(curve: Any, slip: float) -> float:
@@ -195,7 +195,8 @@ def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
         port = _port(f"{route.path}.{one.name}.{made.surface}") if moved else None
         mover = machine(flat, port, *ends) if port is not None else None
         clamps = _clamps(flat, f"{route.path}.{one.name}", one.station) if made is not None and made.clamp else ()
-        devices.append(Device(one.name, word, one.begin, one.end, one.station, mover, clamps))
+        curve = one.station.rubs() if line.values.device_friction == "on" else None
+        devices.append(Device(one.name, word, one.begin, one.end, one.station, curve, mover, clamps))
     aliases = flat.assembly.aliases
     winch = next((one for one in devices if one.word == "Winch" and line.values.start < one.end), None)
     inboard = aliases[f"{line.path}.inboard"]

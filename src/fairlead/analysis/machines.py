@@ -20,7 +20,8 @@ class Machine:
     """What acts at a port: one of speed, tension, efforts; nothing of all that: it is free, or `unknown`.
 
     `ratios` tells for each group of bodies that moves with the port how fast it does; `inertia` is that of all of them
-    at the port, and is sped up by the line unless it is `paced`: driven with the line's speed. `left_out` names what acts on them and is not counted, such as brakes and dampers.
+    at the port, and is sped up by the line unless it is `paced`: driven with the line's speed. `left_out` names what
+    acts on them and is not counted, such as brakes and dampers.
     """
 
     port: PortRef

@@ -31,14 +31,15 @@ def pieces(route: LaidRoute, t: float, speed: float, way: float, acceleration: f
         p, weight = device.station, route.line.line.load
         pressed = device.squeeze(t) + (weight * math.cos(p.slope) if p.bears_weight() else 0.0)
         load += weight * math.sin(p.slope)
-        piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round())
+        lightened = route.mass * speed**2 if route.values.centrifugal == "on" else 0.0
+        piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round(), lightened)
         slid = 0.0 if device.machine is not None else device.friction(speed) * _grip(route, device, piece)
         yield device, piece, math.copysign(slid, speed)
 
 
 def _grip(route: LaidRoute, device: Device, piece: Piece) -> float:
     """Factor of the friction of a curve that depends on the load, which is that of one element of the mesh."""
-    curve = device.station.rubs()
+    curve = device.curve
     if curve is None or curve.load_exponent is None or not (piece.pressed or piece.curvature):
         return 1.0
     element = max(route.line.line.mesh.lengths)

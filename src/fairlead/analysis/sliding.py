@@ -24,7 +24,8 @@ class Piece:
     """A piece of route on which nothing changes.
 
     `curvature` [1/m]; `pressed` [N/m] what presses besides tension; `load` [N/m] all that acts outboard per length
-    beside friction: fall + drag, less inertia; `all_round`: the line is held from outside too.
+    beside friction: fall + drag, less inertia; `all_round`: the line is held from outside too; `lightened` [N]: mass
+    per length times speed squared, by which a line that runs round a curve presses as if its tension were less.
     """
 
     begin: float
@@ -33,6 +34,7 @@ class Piece:
     pressed: float = 0.0
     load: float = 0.0
     all_round: bool = False
+    lightened: float = 0.0
 
     @property
     def length(self) -> float:
@@ -47,6 +49,11 @@ class Piece:
 
 def beyond(piece: Piece, tension: float, friction: float, run: float) -> float:
     """Tension [N] after `run` [m] (outboard positive) from where it is `tension`; `friction` is d mu."""
+    return piece.lightened + _presses(piece, tension - piece.lightened, friction, run)
+
+
+def _presses(piece: Piece, tension: float, friction: float, run: float) -> float:
+    """The same for the tension that presses; where it changes its sign, the wall changes."""
     while True:
         sign = 1.0 if tension > 0 or (tension == 0 and _slope(piece, friction, 0.0) * run > 0) else -1.0
         wall = sign if sign > 0 or piece.all_round else 0.0  # +1 inner wall, -1 outer wall, 0 none

@@ -53,7 +53,7 @@ class Passage:
     @property
     def side_wall(self) -> float:
         """Largest load per length on the wall, T/R [N/m]."""
-        return float(np.abs(self.tension).max() * self.piece.curvature)
+        return float(np.abs(self.tension - self.piece.lightened).max() * self.piece.curvature)
 
 
 @dataclass(frozen=True)
