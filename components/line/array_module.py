@@ -18,6 +18,7 @@ from fairlead.components.mechanics.mass import Mass
 
 from fairlead.component import (
     Block,
+    Choice,
     Composite,
     Count,
     Effect,
@@ -65,6 +66,8 @@ class ArrayModule(Composite):
     graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None)
     start = Parameter("m", "Position of the inboard end along the route at the start.", default=0.0)
     tension = Parameter("N", "Uniform tension at the start.", default=0.0, least=0)
+    profile = Choice(("uniform", "statics"), "Tension along the line at the start: uniform, or as it slides steadily.",
+                     default="uniform")  # fmt: skip
     connector_mass = Parameter("kg", "Mass of each end connector.", default=0.0, least=0)
     diameter = Parameter("m", "Outside diameter.", default=0.085, above=0)
     weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)

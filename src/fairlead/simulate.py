@@ -72,9 +72,10 @@ class Model:
     @functools.cached_property
     def flat(self) -> FlatModel:
         """Nodes, groups and links."""
+        from fairlead.analysis.start_profile import laid_under_statics
         from fairlead.flatten.flatten import flatten
 
-        return flatten(self.assembly)
+        return laid_under_statics(flatten(self.assembly))
 
     @functools.cached_property
     def system(self) -> System:
@@ -92,6 +93,7 @@ class Model:
         from fairlead.analysis.names import unknown_signals
         from fairlead.analysis.recording import unreasonable
         from fairlead.analysis.remarks import remarks
+        from fairlead.analysis.start_profile import laid_under_statics
         from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
@@ -111,6 +113,7 @@ class Model:
         else:
             self.assembly, self.flat = assembly, flat
             try:
+                self.flat = laid_under_statics(flat)
                 assert self.system is not None
             except ModelError as error:
                 faults += error.faults

@@ -21,7 +21,7 @@ from fairlead.analysis.cone import Held, held
 from fairlead.analysis.laid_route import Device, LaidRoute, laid_routes
 from fairlead.analysis.pieces import Laid, bearing, pieces, tail
 from fairlead.analysis.schedule import STILL, Schedule
-from fairlead.analysis.sliding import Piece, along
+from fairlead.analysis.sliding import Piece, along, beyond
 from fairlead.flatten.flat_model import FlatModel
 
 POINTS = 33  # along a piece, beside the connectors in it
@@ -107,6 +107,10 @@ class State:
         """Tension [N] at a place of the route [m]."""
         for one in self.passages:
             if one.piece.begin <= place <= one.piece.end:
+                stands = one.device is None or one.device.machine is None
+                run = place - one.piece.begin
+                if stands and run:
+                    return beyond(one.piece, one.inboard, one.friction, run)
                 return float(np.interp(place, one.places, one.tension))
         return math.nan
 
