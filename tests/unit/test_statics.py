@@ -214,6 +214,15 @@ def test_to_speed_up_the_line_takes_its_mass_times_the_acceleration(scene):
     assert hand.force == pytest.approx(-(100 + 30 * 0.15))
 
 
+def test_the_torque_of_a_winch_speeds_up_its_drum_and_what_lies_on_it(scene):
+    drum = "{type: Winch, radius: 0.5 m, moment: 10 kg*m^2}"
+    text = scene_of(drum, speed="{ramp: {to: -0.3 m/s, over: 2 s}}", rope="").replace("start: 0 m", "start: -20 m")
+    (start,) = one(scene(text.replace("haul.flange, rope.inboard", "haul.flange, route.winch.rim"))).starts
+    winch = start.drives[0]
+    assert winch.force == pytest.approx(-(100 + 10 * 0.15))
+    assert winch.torque == pytest.approx(-(100 + 30 * 0.15) * 0.5 - 10 * 0.15 / 0.5)
+
+
 def test_hose_and_core_share_a_slipping_bend_as_the_closed_form_says():
     """Physics 7a: T_hose behind the bend from equal lengths of hose and core between the connectors."""
     settings = {"mu": "0.6", "line.bulkhead_friction": "0.5"}

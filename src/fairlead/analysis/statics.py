@@ -58,13 +58,22 @@ class Passage:
 
 @dataclass(frozen=True)
 class Drive:
-    """What a drive gives: force outboard on the line [N], and for a clamp what it can hold."""
+    """What a drive gives: force outboard on the line [N], and for a clamp what it can hold.
+
+    `own` is the force that speeding up the drive itself takes beside, with what is stored on a drum [N].
+    """
 
     name: str
     force: float
     speed: float
     capacity: float | None = None  # N
     lever: float | None = None  # m, of the shaft
+    own: float = 0.0
+
+    @property
+    def torque(self) -> float | None:
+        """Torque at the shaft, paying out positive [N m]; None where there is no shaft."""
+        return (self.force + self.own) * self.lever if self.lever is not None else None
 
     @property
     def factor(self) -> float | None:
@@ -297,7 +306,8 @@ def _assembled(march: _March, acceleration: float, remarks: tuple[str, ...]) -> 
         passages.append(Passage(device.name if device else "", device, piece, friction, march.places[k], found[k]))
         if device is not None and device.machine is not None and (_drives(device) or device.machine.efforts):
             given = float(found[k][0] - found[k][-1]) - piece.load * piece.length
-            drives.append(Drive(device.name, given, march.speed, capacity(device, piece), lever(device)))
+            own = device.machine.inertia * acceleration if device.machine.drives else 0.0
+            drives.append(Drive(device.name, given, march.speed, capacity(device, piece), lever(device), own))
     state = State(route, march.t, march.speed, march.way, tuple(passages), (), acceleration, remarks)
     return replace(state, drives=(*_end_drives(state), *drives))
 
@@ -313,7 +323,9 @@ def _end_drives(state: State) -> Iterator[Drive]:
     for name, made, force in ends if passages else ():
         if made.drives or made.efforts or made.tension is not None:
             arm = route.radius(state.way) if made is route.inboard and winch else None
-            yield Drive(name, force, state.speed, None, arm)
+            stored = route.stored(state.way) if made is route.inboard else 0.0
+            heavy = route.inertia(made, state.way) + route.mass * stored if made.drives or made.paced else 0.0
+            yield Drive(name, force, state.speed, None, arm, heavy * state.acceleration)
 
 
 def _end_tension(march: _March, acceleration: float, *, inboard: bool) -> float:

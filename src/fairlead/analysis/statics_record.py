@@ -8,7 +8,7 @@ from typing import Any
 
 from fairlead.analysis.cone import Held
 from fairlead.analysis.shares import shares
-from fairlead.analysis.statics import Drive, State, Statics
+from fairlead.analysis.statics import State, Statics
 
 MOVES = 1e-9  # N; a span in which the tension changes by less is not told
 
@@ -86,10 +86,6 @@ def _standing(held: Held) -> dict[str, Any]:
 
 def _drives(state: State) -> Iterator[dict[str, Any]]:
     for one in state.drives:
-        yield {"drive": one.name, "state": name(state), "force": one.force, "torque": _torque(one),
+        yield {"drive": one.name, "state": name(state), "force": one.force, "torque": one.torque,
                "power": None if state.acceleration else one.power, "clamp": one.capacity,
                "factor": one.factor}  # fmt: skip
-
-
-def _torque(one: Drive) -> float | None:
-    return one.force * one.lever if one.lever is not None else None

@@ -19,7 +19,7 @@ LIMIT_BROKEN = 5
 NAMES = {
     "peak": "peak tension", "lowest": "lowest tension", "core": "lowest core tension", "hose": "lowest hose tension",
     "side_wall": "side-wall load", "scuffed": "scuffed on a device", "inner_scuffed": "scuffed in the hose",
-    "slipped": "slid on belts", "registration": "de-registration",
+    "slipped": "slid on belts, wheels", "registration": "de-registration",
 }  # fmt: skip
 UNITS = {"side_wall": "N/m", "scuffed": "m", "inner_scuffed": "m", "slipped": "m", "registration": "m"}
 
