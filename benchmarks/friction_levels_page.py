@@ -21,7 +21,7 @@ think of. Here it is put to the test: `guidance_route`, deployment, stop and rec
 electrohydraulic drives sampled at 10 ms, 50 s, on its own settings, at frictions of 0.05 to 1.0 of the hose on the
 bends times three speeds of the ship.
 
-```sh
+```
 python benchmarks/friction_levels.py            # runs what is missing in benchmarks/data/friction_levels.jsonl
 python benchmarks/friction_levels.py --table    # this page
 ```
@@ -31,9 +31,9 @@ python benchmarks/friction_levels.py --table    # this page
 ![Tensions before and after the deployer over friction, and the time they take](figures/friction_levels.png)
 
 From a friction of 0.5 on the hose does not follow the core any more (the bulkheads drag it along up to 0.50 T_core/T,
-section 7a of `physics.md`): single elements of hose stick and slip, the core goes slack for moments, and at 4 m/s the hose
-is compressed beyond the 160 N at which it rucks from 0.75 on. That is what the route does, not what the engine does; it
-costs steps, and the time grows with it. The winch is then no longer held within a few newtons.
+section 7a of `physics.md`): single elements of hose stick and slip, the core goes slack for moments, and at 4 m/s the
+hose is compressed beyond the 160 N at which it rucks from 0.75 on. That is what the route does, not what the engine
+does; it costs steps, and the time grows with it. The winch is then no longer held within a few newtons.
 
 Deviation: the largest of the four tensions of the route, deploying (mean over 18 to 24.9 s) and hauling (34 to 44 s),
 from those of steady sliding, which a line that sticks and slips does not have. The lowest tensions are those of the
