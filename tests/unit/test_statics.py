@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.analysis.shares import shares
+from fairlead.analysis.statics_record import record
 from fairlead.cli import app
 from fairlead.errors import UsageError
 
@@ -192,6 +193,33 @@ def test_between_two_drives_the_tension_is_told_to_be_open(scene):
     assert passage(state, "deployer").outboard == pytest.approx(100)
 
 
+def test_a_tensioner_between_two_drives_sets_the_tension_there(scene):
+    """The loop of a dancer takes two parts of line, so each has half the force; the bend adds its capstan."""
+    bend = "{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}"
+    loop = "{type: Tensioner, start: 8 m, force: 300 N}"
+    belts = "{type: Deployer, start: 10 m, length: 2 m, friction: 0.5, clamp: 500 N/m}"
+    text = scene_of(bend, loop, belts, rope="")
+    text = text.replace("  load:", "  run: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
+    text = text.replace("connections:\n", "connections:\n  - [run.flange, route.deployer.belt]\n")
+    (state,) = one(scene(text)).moving
+    assert state.remarks == ()
+    assert passage(state, "bend").outboard == pytest.approx(150)
+    assert passage(state, "bend").inboard == pytest.approx(150 * math.exp(0.3))
+    assert passage(state, "deployer").inboard == pytest.approx(150)
+
+
+def test_a_start_in_which_a_rope_would_have_to_push_is_told(scene):
+    """Pushed in at its outboard end, it would have to speed up itself and a drum of 40 kg that pulls with 10 N."""
+    drum = "{type: Winch, radius: 0.5 m, moment: 10 kg*m^2}"
+    text = scene_of(drum, speed="{ramp: {to: -1 m/s, over: 1 s}}", rope="").replace("start: 0 m", "start: -20 m")
+    text = text.replace("haul.flange, rope.inboard", "haul.flange, rope.outboard")
+    text = text.replace("load.flange, rope.outboard", "load.flange, route.winch.rim")
+    text = text.replace("force: 100", "force: -10")
+    missing = 40 * 1 + 30 * 1 - 10
+    told = " ".join(record(one(scene(text)))["remarks"])
+    assert f"the line goes slack at 10 m, {missing:.4g} N are missing there" in told
+
+
 def test_a_drive_under_control_is_found_through_valve_gear_and_signals(tmp_path):
     """The deployer follows the reference of its controller, the winch keeps its tension by torque."""
     parts = "parts/array_route.yaml, parts/electrohydraulic_drives.yaml"
@@ -294,3 +322,15 @@ def test_json_has_the_numbers_of_the_table():
     assert out["stations"][1]["outboard"] == pytest.approx(200 * math.exp(0.35 * math.pi / 2))
     assert back["stations"][1]["outboard"] == pytest.approx(200 * math.exp(-0.35 * math.pi / 2))
     assert {row["drive"] for row in told["drives"]} == {"winch", "deployer"}
+
+
+@pytest.mark.parametrize("speed", ["0", "3 kg", "fast"])
+def test_a_speed_that_is_none_is_a_usage_error(speed):
+    answer = CliRunner().invoke(app, ["statics", "capstan", "--speed", speed])
+    assert answer.exit_code == 2
+    assert "--speed" in answer.output
+
+
+def test_the_table_of_a_weak_clamp_says_what_check_says():
+    answer = CliRunner().invoke(app, ["statics", "weak_clamp"])
+    assert "its belts hold 270 N" in answer.output

@@ -206,13 +206,21 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
     if right_known and (drivers or not left_known):
         tension = tail(route, t, speed, way)
         tension -= route.inertia(route.outboard, way) * acceleration
-        end = march.inward(tension)
+        end = march.inward(tension, range(len(laid) - 1, -1, -1))
     between = [k for k in range(begin, end) if k not in found and not _drives(laid[k][0])]
     if between:
-        tension = float(route.values.tension)
-        remarks.append(_undetermined(laid, between, tension))
-        march.outward(tension, between)
+        loop = next((one for one in route.devices if one.word == "Tensioner" and _holds(laid, between, one)), None)
+        here = between[0] if loop is None else next(k for k in between if laid[k][1].begin == loop.begin)
+        tension = float(route.values.tension) if loop is None else loop.station.force(t) / 2
+        remarks += [_undetermined(laid, between, tension)] if loop is None else []
+        march.outward(tension, [k for k in between if k >= here])
+        march.inward(tension, [k for k in reversed(between) if k < here])
     return _assembled(march, acceleration, tuple(remarks))
+
+
+def _holds(laid: list[Laid], between: list[int], loop: Device) -> bool:
+    """True when a tensioner stands between two drives: its loop, half way out, sets the tension there."""
+    return any(laid[k][1].begin == loop.begin for k in between)
 
 
 def _places(route: LaidRoute, piece: Piece, way: float) -> NDArray[np.float64]:
@@ -250,9 +258,9 @@ class _March:
             tension = float(self.found[k][-1])
         return len(self.laid)
 
-    def inward(self, tension: float) -> int:
-        """From the outboard end of the last piece; returns the number after the drive it comes to."""
-        for k in range(len(self.laid) - 1, -1, -1):
+    def inward(self, tension: float, order: Iterable[int]) -> int:
+        """From the outboard end of the first of them; returns the number after the drive it comes to."""
+        for k in order:
             if _drives(self.laid[k][0]):
                 return k + 1
             self.found[k] = self._passed(k, tension, outward=False)

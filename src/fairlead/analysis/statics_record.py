@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from fairlead.analysis.cone import Held
+from fairlead.analysis.remarks import side_walls, weak_clamps
 from fairlead.analysis.shares import shares
 from fairlead.analysis.statics import State, Statics
 
@@ -22,8 +23,29 @@ def record(found: Statics) -> dict[str, Any]:
         "states": [state_record(state) for state in found.moving],
         "standing": _standing(found.standing),
         "drives": [row for state in (*found.moving, *found.starts) for row in _drives(state)],
-        "remarks": list(dict.fromkeys([*found.remarks, *(text for state in found.moving for text in state.remarks)])),
+        "remarks": list(dict.fromkeys(_remarks(found))),
     }  # fmt: skip
+
+
+def _remarks(found: Statics) -> Iterator[str]:
+    """What is open or not counted, and what `check` would warn of."""
+    yield from found.remarks
+    for state in found.moving:
+        yield from state.remarks
+    if hasattr(found.route.values, "hose") or not found.route.pushes:
+        yield from _slack(found)
+    for fault in (*weak_clamps(found), *side_walls(found)):
+        yield f"{fault.what} {fault.way_out}".rstrip(".")
+
+
+def _slack(found: Statics) -> Iterator[str]:
+    """States in which a line that cannot push would have to."""
+    for state in (*found.moving, *found.starts):
+        one = min(state.passages, key=lambda each: float(each.tension.min()))
+        k = int(one.tension.argmin())
+        if one.tension[k] < -MOVES:
+            missing = f"{-one.tension[k]:.4g} N are missing there"
+            yield f"{name(state)}: the line goes slack at {one.places[k]:.4g} m, {missing}"
 
 
 def state_record(state: State) -> dict[str, Any]:

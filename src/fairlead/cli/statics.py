@@ -26,10 +26,11 @@ def statics(
     """Tensions, clamp, drives and ruck margin of a line on its route, paying out, hauling and at rest; no run."""
     import fairlead
     from fairlead.analysis.statics_record import record
-    from fairlead.quantities import si
+    from fairlead.cli.study import number as given
 
+    wanted = None if speed is None else given("--speed", speed, "m/s")
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
-    found = [record(one) for one in model.statics(None if speed is None else abs(si(speed, "m/s")))]
+    found = [record(one) for one in model.statics(wanted)]
     if as_json:
         typer.echo(json.dumps(finite(found), indent=2))
     elif not quiet:
