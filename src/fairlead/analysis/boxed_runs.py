@@ -1,6 +1,6 @@
 """The runs of a study of cost within its budget: kept ones at once, new ones while there is time.
 
-Loading an engine, or compiling it once for this machine, is outside the budget.
+Loading an engine, or compiling it or the laws of a scene once for this machine, is outside the budget.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class BoxedRuns:
     note: Note = lambda _: None
     usual: float = 0.0  # s that the scene as it is takes
     end: float = math.inf
-    warm: set[tuple[str, str]] = field(default_factory=set)
+    warm: set[tuple[tuple[str, str], ...]] = field(default_factory=set)
 
     def run(self, settings: Mapping[str, str], cap: float, names: Sequence[str] | None = None,
             members: Mapping[str, Sequence[str]] | None = None) -> Timed | None:  # fmt: skip
@@ -71,12 +71,13 @@ class BoxedRuns:
         return math.inf if self.full else max(WORTH_WAITING, SLOWER * self.usual)
 
     def _warm_up(self, settings: Mapping[str, str]) -> None:
-        kind = (settings.get("run.engine", "rodas"), settings.get("run.method", ""))
+        """One step of an engine or of equations that are new to this study."""
+        kind = tuple(sorted((name, value) for name, value in settings.items() if name != "run.accuracy"))
         if kind in self.warm:
             return
         self.warm.add(kind)
         begun = time.perf_counter()
-        self.note(f"loading {kind[0]}")
+        self.note(f"loading {settings.get('run.engine', 'rodas')}")
         start = self.span[0]
         timed_run(self.load, {**settings, "run.max_steps": "1"}, [], (start, start + 1e-3), 600.0)
         self.end += time.perf_counter() - begun
