@@ -220,6 +220,15 @@ def test_a_start_in_which_a_rope_would_have_to_push_is_told(scene):
     assert f"the line goes slack at 10 m, {missing:.4g} N are missing there" in told
 
 
+def test_a_line_that_lies_on_the_drum_altogether_has_nothing_to_solve(scene):
+    bend = "{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}"
+    text = scene_of("{type: Winch, radius: 0.5 m}", bend).replace("start: 0 m", "start: -40 m")
+    text = text.replace("haul.flange, rope.inboard", "haul.flange, route.winch.rim")
+    found = one(scene(text))
+    assert all(not state.passages for state in found.moving)
+    assert record(found)["remarks"] == []
+
+
 def test_a_drive_under_control_is_found_through_valve_gear_and_signals(tmp_path):
     """The deployer follows the reference of its controller, the winch keeps its tension by torque."""
     parts = "parts/array_route.yaml, parts/electrohydraulic_drives.yaml"

@@ -211,9 +211,10 @@ def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
 
 def _clamps(flat: FlatModel, path: str, station: Any) -> tuple[Wave, ...] | None:
     """What presses each belt: as given, and what a signal adds."""
-    added = trace(flat, flat.assembly.aliases[f"{path}.clamp"])
+    entry, given = flat.assembly.aliases.get(f"{path}.clamp"), getattr(station, "clamp", None)
+    added = trace(flat, entry) if entry is not None else None
     told = added.told() if added is not None else None
-    return None if told is None else (station.clamp, told)
+    return None if told is None or given is None else (given, told)
 
 
 def _port(path: str) -> PortRef:

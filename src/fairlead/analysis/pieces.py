@@ -16,6 +16,8 @@ Laid = tuple[Device | None, Piece, float]
 def pieces(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> Iterator[Laid]:
     """From the drum, or the inboard end of the line, to its outboard end; `speed` 0 gives the friction from rest."""
     first, last = route.ends(way)
+    if last <= first:  # all of the line is on the drum
+        return
     inertia = route.mass * acceleration
     borders = {first, last}
     for one in (*route.devices, *route.seas):

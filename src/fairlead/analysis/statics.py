@@ -323,12 +323,14 @@ def _assembled(march: _March, acceleration: float, remarks: tuple[str, ...]) -> 
 def _end_drives(state: State) -> Iterator[Drive]:
     """What acts at the ends of the line: the winch, a hand."""
     route, passages = state.route, state.passages
+    if not passages:
+        return
     winch = route.winch is not None
     ends = [
         (route.winch.name if route.winch else "inboard end", route.inboard, -passages[0].inboard),
         ("outboard end", route.outboard, passages[-1].outboard),
     ]
-    for name, made, force in ends if passages else ():
+    for name, made, force in ends:
         if made.drives or made.efforts or made.tension is not None:
             arm = route.radius(state.way) if made is route.inboard and winch else None
             stored = route.stored(state.way) if made is route.inboard else 0.0

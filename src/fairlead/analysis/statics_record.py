@@ -40,7 +40,7 @@ def _remarks(found: Statics) -> Iterator[str]:
 
 def _slack(found: Statics) -> Iterator[str]:
     """States in which a line that cannot push would have to."""
-    for state in (*found.moving, *found.starts):
+    for state in (each for each in (*found.moving, *found.starts) if each.passages):
         one = min(state.passages, key=lambda each: float(each.tension.min()))
         k = int(one.tension.argmin())
         if one.tension[k] < -MOVES:
