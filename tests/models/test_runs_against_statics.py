@@ -1,0 +1,48 @@
+"""Runs of bundled routes beside statics: two computations of the same netlist that share no law."""
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.analysis.margins import margins
+from fairlead.analysis.quasi_static import against_statics
+from fairlead.analysis.shares import shares
+
+ROUTES = ["guidance_route", "guidance_route_ideal", "crustacean"]
+BAND = 0.02  # of physics 7b; single elements that stick and slip, and a mesh of a few elements on a bend, leave 1 %
+
+
+@pytest.mark.parametrize("name", ROUTES)
+def test_tensions_of_steady_motion_are_those_of_statics(bundled, name):
+    found = against_statics(fairlead.load(name).flat, bundled(name))
+    assert found["difference"] < BAND, found
+
+
+def test_the_core_in_the_water_has_the_mean_of_the_tension_while_the_line_is_paid_out(bundled):
+    """Between the last bend and the end connector hose and core stay as long as each other."""
+    result = bundled("guidance_route_ideal")
+    (found,) = fairlead.load("guidance_route_ideal").statics()
+    core = shares(found.moving[0]).shares[-1].core[0]  # at 25 s
+    rows = np.searchsorted(result.t, np.arange(24.0, 24.95, 0.05))
+    told = np.mean(result["line.core[150].tension"][rows])
+    assert told == pytest.approx(core, rel=0.03)  # the line has come 0.5 m further since, and bulkheads slip a little
+
+
+def test_margins_of_the_whole_route_are_those_of_its_signals(bundled):
+    result = bundled("guidance_route_ideal")
+    (line,) = margins(result)
+    hose = result.columns(result.match("line.hose[*].tension"))
+    core = result.columns(result.match("line.core[*].tension"))
+    assert line.whole.hose.value == hose.min()
+    assert line.whole.peak.value == (hose + core).max()
+    assert line.ruck_margin(line.whole) == pytest.approx(160 / -hose.min())
+    assert [one.name for one in line.stations][:3] == ["winch", "tensiometer", "bend_a"]
+    assert line.missing == ()
+
+
+def test_what_slides_on_belts_is_what_is_paid_out_less(bundled):
+    """Up to the stop of the weak clamp's belts: their way less that of the end of the line."""
+    result = bundled("weak_clamp", {"run.stop": "26 s"})
+    (line,) = margins(result)
+    run, paid = (result[name][-1] - result[name][0] for name in ("belts.x", "line.hose_node[160].x"))
+    assert line.whole.slipped.value == pytest.approx(run - paid, abs=0.05)
