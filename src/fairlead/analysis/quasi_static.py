@@ -13,7 +13,8 @@ import numpy as np
 
 from fairlead.analysis.recorded_line import RecordedLine
 from fairlead.analysis.schedule import STILL, Schedule, Stretch
-from fairlead.analysis.statics import State, Statics, state, statics
+from fairlead.analysis.states import State
+from fairlead.analysis.statics import Statics, state, statics
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.results import Result
 

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from fairlead.analysis.laid_route import LaidRoute
 from fairlead.analysis.slow_drives import slow_drives
-from fairlead.analysis.statics import WANTED, State, Statics, statics
+from fairlead.analysis.states import State
+from fairlead.analysis.statics import WANTED, Statics, statics
 from fairlead.analysis.widths import too_wide
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from fairlead.analysis.laid_route import coefficient
 
 if TYPE_CHECKING:
-    from fairlead.analysis.statics import Passage, State
+    from fairlead.analysis.states import Passage, State
 
 Values = NDArray[np.float64]
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from fairlead.analysis.laid_route import LaidRoute, laid_routes
 from fairlead.analysis.schedule import LOOKS, STILL
-from fairlead.analysis.statics import State, state
+from fairlead.analysis.states import State
+from fairlead.analysis.statics import state
 from fairlead.component.instantiate import Instance
 from fairlead.component.values import Values
 from fairlead.errors import Fault, ModelError

@@ -9,7 +9,8 @@ from typing import Any
 from fairlead.analysis.cone import Held
 from fairlead.analysis.remarks import side_walls, weak_clamps
 from fairlead.analysis.shares import shares
-from fairlead.analysis.statics import State, Statics
+from fairlead.analysis.states import State
+from fairlead.analysis.statics import Statics
 
 MOVES = 1e-9  # N; a span in which the tension changes by less is not told
 
