@@ -22,8 +22,10 @@ from fairlead.components.route.bearing_load import Told
 from fairlead.components.route.drum import StoredNode, WoundNode
 from fairlead.components.route.route_line import RouteLine, Surface
 from fairlead.components.route.tow import SeaDrag, TailEnd
+from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.window import Reach, Window, total
 
+from fairlead.component.instantiate import PortRef
 from fairlead.errors import Fault
 
 FIXED_DEVICE = 1e9  # kg; what a body bound to a fixed device counts as
@@ -329,10 +331,16 @@ class _On:
                     self.to.join_to(f"{layer}[{k}].carriage", f"{self.path}.{one.name}.carriage.flange")
 
     def bare(self) -> None:
-        """Standing devices that nothing presses on, as guides of a line without weight, need no ground."""
+        """Surfaces that no node can touch: standing ones, as guides of a line without weight, need no ground."""
+        joined = {ref for join in self.to.assembly.joins for ref in join.ports}
         ground = f"{self.path}.surface"
-        if not any(ref.instance == ground for join in self.to.assembly.joins for ref in join.ports):
+        if not any(ref.instance == ground for ref in joined):
             self.to.assembly.instances.pop(ground, None)
+        for name, mover in self.route.machinery.items():
+            instance, _, port = f"{self.path}.{name}.{mover.surface}".rpartition(".")
+            if mover.surface and PortRef(instance, port) not in joined:
+                self.to.child(f"untouched_{name}", Untouched)
+                self.to.join_to(f"untouched_{name}.surface", f"{instance}.{port}")
 
     def table(self, reach: Reach, *windows: Window) -> Any:
         """The sum of windows; the same table for all nodes of the same reach."""

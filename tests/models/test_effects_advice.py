@@ -7,7 +7,9 @@ magnitude of 1 - 1/(1 + i w tau) times the amplitude: w tau / sqrt(1 + (w tau)^2
 
 import json
 import math
+import pathlib
 
+import fairlead.models
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -130,6 +132,22 @@ def test_all_effects_off_names_none_of_a_component_that_went_with_another():
     assert "effects.motor_friction" in together.settings
     assert "effects.load_dependence" not in together.settings
     assert load(together.settings).check() == []
+
+
+ALIKE = {"long_deployment", "slack_start", "weak_clamp", "guidance_route_ideal", "guidance_route_electric"}  # and slow
+BUNDLED = {path.stem for path in pathlib.Path(next(iter(fairlead.models.__path__))).glob("*.yaml")} - ALIKE
+
+
+@pytest.mark.parametrize("name", sorted(BUNDLED))
+def test_every_effect_of_a_bundled_model_can_be_switched_off_and_all_together(name):
+    def load(more):
+        return fairlead.load(name, set=more)
+
+    found = switches(load({}))
+    off = [one for one in found if one.kind == "effect" and one.then == "off"]
+    for one in [*off, all_off(load, found)]:
+        assert one is not None
+        assert load(one.settings).flat.instances
 
 
 def test_the_command_prints_a_sentence_for_each(tmp_path):
