@@ -140,3 +140,57 @@ def test_factors_of_a_line_on_a_belt_that_moves_grow_with_its_length_only(scene:
         return len(plan.arrays["lower_rows"]) + len(plan.arrays["upper_rows"])
 
     assert entries(80) < 2.3 * entries(40)
+
+
+def test_a_bristle_that_is_bent_to_its_end_on_both_sides_of_a_reversal_is_followed(simulate: Scene) -> None:
+    """Coulomb friction of 5 N over twenty half strokes of 0.2 m, but for what the bristle gives at each end."""
+    result = simulate("""
+    components:
+      floor: {type: Ground}
+      slide: {type: MotionSource, position: {sine: {amplitude: 0.1 m, frequency: 1 Hz}}}
+      pad: {type: Contact, normal_force: 10 N, curve: 0.5}
+    connections: [[floor.flange, pad.a], [pad.b, slide.flange]]
+    friction: {method: lugre}
+    run: {stop: 5 s, accuracy: 1e-3}
+    """)
+    assert result.run["energy"]["dissipated"] == pytest.approx(5 * 0.4 * 5, rel=5e-3)
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-5])
+def test_what_carries_a_block_on_a_shaken_table_is_its_mass_times_acceleration(simulate: Scene, accuracy) -> None:
+    """Bound at 80 % of stiction: between the steps, too, the force is m a but for the little the block creeps."""
+    result = simulate("""
+    components:
+      table: {type: MotionSource, position: {sine: {amplitude: 10 mm, frequency: 3 Hz, phase: 90 deg}}}
+      block: {type: Mass, mass: 2 kg, position: 10 mm}
+      pad: {type: Contact, normal_force: 20 N, curve: 0.444}
+    connections: [[table.flange, pad.a], [pad.b, block.flange]]
+    friction: {method: binding, creep: 1e-5 m/s}
+    run: {stop: 3 s}
+    record: {every: 3 ms, signals: [pad.friction]}
+    """, **{"run.accuracy": accuracy})  # fmt: skip
+    omega = 2 * np.pi * 3
+    force = 2 * 0.01 * omega**2 * np.cos(omega * result.t)
+    later = result.t > 0.1
+    assert np.abs(result["pad.friction"] - force)[later].max() < {1e-3: 0.2, 1e-5: 0.02}[accuracy] * 8.88
+
+
+def test_forces_so_large_that_their_rounding_is_above_the_tolerance_have_a_start(scene: Scene) -> None:
+    """Two held contacts in line carry 3e5 N; a weight of 1e-8 N is less than that number can resolve."""
+    text = """
+    components:
+      wall: {type: Ground}
+      left: {type: Mass, mass: 1 kg}
+      right: {type: Mass, mass: 3 kg}
+      pull: {type: ForceSource, force: 3e5 N}
+      one: {type: Contact, method: hold, normal_force: 1e6 N, curve: 0.5}
+      two: {type: Contact, method: hold, normal_force: 1e6 N, curve: 0.5}
+      three: {type: Contact, method: hold, normal_force: 1e6 N, curve: 0.5}
+    connections:
+      - [wall.flange, one.a, three.a]
+      - [left.flange, one.b, two.a]
+      - [two.b, right.flange, three.b, pull.flange]
+    run: {stop: 1 s, accuracy: 1e-9}
+    """
+    outcome = integrate(scene(text).system, Run(stop=1.0))
+    assert outcome.ok, outcome.sentence

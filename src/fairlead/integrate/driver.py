@@ -175,6 +175,8 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     write_numbers(memory, {**calls, "context": problem.context})
     memory.number["max_passes"] = passes_allowed(run, nz)
     memory.number["weighs_guards"] = int(memory.array["guard_inertia"].any())
+    memory.array["watched"][:] = watched(problem)
+    memory.number["n_watched"] = int(memory.array["watched"].sum())
     memory.number["n_algebraic"] = int(n - np.count_nonzero(problem.differential))
     memory.array["last_toggle"][:] = -NEVER
     memory.array["blocked_until"][:] = -NEVER
@@ -239,6 +241,12 @@ def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
         "has_limits": int(np.any(getattr(problem, "limit_guard", 0))),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
     }  # fmt: skip
+
+
+def watched(problem: Problem) -> Integers:
+    """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
+    stiff = np.asarray(getattr(problem, "stiff", np.zeros(len(problem.initial))), dtype=bool) | np.isfinite(problem.cap)
+    return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
 
 
 def controlled(problem: Problem) -> Integers:

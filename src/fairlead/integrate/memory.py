@@ -15,7 +15,8 @@ import numpy as np
 INTEGERS = (
     # sizes
     "n", "n_core", "n_positions", "n_meters", "n_meter_entries", "n_entries",
-    "n_algebraic", "n_guards", "n_zones", "n_outputs", "n_jacobian", "n_mass", "n_matrix", "stages",
+    "n_algebraic", "n_watched", "n_guards", "n_zones", "n_outputs", "n_jacobian", "n_mass", "n_matrix",
+    "stages",
     "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
     # C functions of the problem, and their context
     "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
@@ -86,7 +87,7 @@ VECTORS = {
 INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
-    "differential": "n", "quadrature": "n",
+    "differential": "n", "quadrature": "n", "watched": "n",
     # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
     "controlled": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
     "held_position": "n_zones", "held_speed": "n_zones",

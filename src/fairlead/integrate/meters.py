@@ -17,6 +17,8 @@ from fairlead.integrate.interpolant import interpolate
 
 OFF = 0.3
 """In weights. At a thousandth, runs of all kinds lost digits to the interpolant; here those with creep alone change."""
+LITTLE = 0.01
+"""What has passed, in the unit of the quadrature, below which the error is no longer measured by it."""
 INNER = 5.0**-0.5
 
 
@@ -56,12 +58,12 @@ def meter_piece(m, h):
 
 @compiled
 def judge_meters(m):
-    """Set `meters_off` if the method itself finds a quadrature wrong by OFF in this step, relative above one."""
+    """Set `meters_off` if the method itself finds a quadrature wrong by OFF, of what has passed, in this step."""
     error, quadrature, weight = reals(m.at_error_vector, m.n), indices(m.at_quadrature, m.n), reals(m.at_weight, m.n)
     y = reals(m.at_y_end, m.n)
     m.meters_off = 0
     for k in range(m.n):
-        if quadrature[k] == 1 and abs(error[k]) > OFF * weight[k] * max(1.0, abs(y[k])):
+        if quadrature[k] == 1 and abs(error[k]) > OFF * weight[k] * max(LITTLE, abs(y[k])):
             m.meters_off = 1
 
 

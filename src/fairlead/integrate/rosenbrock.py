@@ -112,18 +112,19 @@ def combine(m):
 
 @compiled
 def midpoint_defect(m, h):
-    """Into `error_vector`: how far the dense output of algebraic unknowns is off in the middle of the step.
+    """Into `error_vector`: how far the dense output of the unknowns watched is off in the middle of the step.
 
     A stiffly accurate method meets the algebraic equations at the end of a step of any size, so its
     error estimate says nothing about a multiplier that follows a force in time: without this, a held
-    contact under a swinging load would be stepped over. The residual of the interpolant,
-    r = f - M y', through the factors of W, is the missing estimate (as in Rodas5Pr, Steinebach 2024);
-    it behaves as the error of the dense output.
+    contact under a swinging load would be stepped over. So it is with stiff unknowns, the slip of a bound contact on
+    a surface that moves, a bristle that is bent to its end on both sides of a reversal: right where a step ends,
+    and anything in between. The residual of the interpolant, r = f - M y', through the factors of W, is the missing
+    estimate (as in Rodas5Pr, Steinebach 2024); it behaves as the error of the dense output.
     """
     n = m.n
     y, y_end, D = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, 3 * n)
     u, v, f, error = reals(m.at_u, n), reals(m.at_v, n), reals(m.at_f, n), reals(m.at_error_vector, n)
-    differential = indices(m.at_differential, n)
+    watched = indices(m.at_watched, n)
     for k in range(n):
         change = y_end[k] - y[k]
         u[k] = y[k] + 0.5 * change + 0.25 * (D[k] + 0.5 * D[n + k] + 0.25 * D[2 * n + k])
@@ -134,7 +135,7 @@ def midpoint_defect(m, h):
     add_mass_times(m, m.at_v, m.at_error_vector)
     solve(m, m.at_error_vector)
     for k in range(n):
-        if differential[k] == 1:
+        if watched[k] == 0:
             error[k] = 0.0
 
 

@@ -36,6 +36,8 @@ its zone and will cross by itself. A contact at rest just inside a border would 
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
+NEARER = 0.1
+"""How much less far guards are looked ahead for when single switches go in a circle."""
 ALL, HALF_AS_WRONG, WORST, LEAST_INDEX = 0, 1, 2, 3
 PATIENCE = 10
 """Passes in which the number of violators need not fall below what it was."""
@@ -110,9 +112,15 @@ def recurs(m):
 
 @compiled
 def next_stage(m):
-    """Change fewer zones a pass from now on; patterns of before may come again."""
+    """Change fewer zones a pass from now on; patterns of before may come again.
+
+    When fewer cannot be, look less far ahead: a load a little above what a contact holds that falls fast moves it now,
+    and no longer a moment later.
+    """
     m.stage = m.stage + 1 if m.weighs_guards == 1 else max(m.stage + 1, LEAST_INDEX)
     m.stage_from = m.passes
+    if m.stage > LEAST_INDEX:
+        m.look *= NEARER
 
 
 @compiled

@@ -24,6 +24,9 @@ NOT_CONSISTENT = 3
 SETTLED_UPDATE = 1e-6
 """A Newton update of the algebraic unknowns below this, in units of their weights, is the last."""
 
+ROUNDED = 1e-3
+"""An update below this that no longer halves is rounding: of a force of 3e5 N, 1e-11 N is."""
+
 
 @compiled
 def prepare_consistent(m):
@@ -98,7 +101,7 @@ def consistent(m, iterations):
         size = update(m, 1.0)
         if not isfinite(size):
             return NOT_CONSISTENT
-        if m.n_algebraic == 0 or size <= SETTLED_UPDATE:
+        if m.n_algebraic == 0 or size <= SETTLED_UPDATE or (size <= ROUNDED and size > 0.5 * previous):
             slope_change(m)
             return DONE
         if iterations > 12 and size > 0.9 * previous:  # nor as large: the root of a root is stepped over for ever

@@ -58,7 +58,7 @@ def attempt(m):
         judge_meters(m)
     if m.error <= 1.0 or m.adaptive == 0:
         prepare_interpolant(m)
-        if m.n_algebraic > 0 and m.adaptive == 1:
+        if m.n_watched > 0 and m.adaptive == 1:
             midpoint_defect(m, h)
             m.error = max(m.error, weighted_norm(m, m.at_error_vector))
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):

@@ -112,6 +112,7 @@ def _system(
         zones=memory["zones"],
         differential=np.array([u.differential for u in unknowns], dtype=bool),
         quadrature=np.array([u.kind == "ledger" for u in unknowns], dtype=bool),
+        stiff=np.array([u.kind == "state" for u in unknowns], dtype=bool),
         absolute=chosen.absolute,
         relative=chosen.relative,
         cap=chosen.cap,

@@ -52,6 +52,7 @@ class System:
     zones: Integers
     differential: NDArray[np.bool_]
     quadrature: NDArray[np.bool_]
+    stiff: NDArray[np.bool_]  # states inside components, as a bristle: some follow what drives them within a step
     absolute: Floats
     relative: Floats
     cap: Floats

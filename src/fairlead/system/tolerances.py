@@ -2,7 +2,7 @@
 
 The error weight of unknown i is  min(absolute_i + relative_i |y_i|, cap_i).  Positions get no relative
 part: a stiff line far from the origin would lose its tension in it. The speeds of a binding contact are
-capped at a tenth of its creep: with a weight as large as the creep itself a run never ends.
+capped at a tenth of its creep, or less: with a weight as large as the creep itself a run never ends.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ Floats = NDArray[np.float64]
 # Sizes that matter in a scene of handling equipment, by unit; the accuracy is relative to these.
 NOMINAL = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "rad": 1e-2, "rad/s": 1.0, "N*m": 10.0, "Pa": 1e5, "V": 1.0, "A": 1.0,
            "m^3/s": 1e-5, "m^3": 1e-6}  # fmt: skip
-CREEP_SHARE = 0.1  # weight of a speed at a binding contact, in creeps
+# Weight of a speed at a binding contact, in creeps: the force of what is bound follows the slip, and is known to
+# that share of stiction. At accuracies finer than the ordinary it is less, by the root of the accuracy.
+CREEP_SHARE, ORDINARY = 0.1, 1e-3
 # What a guard may exceed zero by at an accepted point: rounding of quantities of its unit, no more.
 GUARD_ROUNDING = {"m/s": 1e-10, "rad/s": 1e-9, "m": 1e-10, "rad": 1e-9, "N": 1e-7, "N*m": 1e-7, "Pa": 1e-2,
                   "V": 1e-9, "A": 1e-9, "m^3/s": 1e-14, "m^3": 1e-15}  # fmt: skip
@@ -43,6 +45,7 @@ def weights(flat: FlatModel, numbering: Numbering, accuracy: float) -> Weights:
     absolute = np.array([accuracy * nominal(u) for u in unknowns])
     relative = np.array([0.0 if u.kind in ("position", "ledger") else accuracy for u in unknowns])
     cap = np.full(len(unknowns), np.inf)
+    share = CREEP_SHARE * min(1.0, accuracy / ORDINARY) ** 0.5
     for instance in flat.instances:
         creep = instance.values.given.get("creep")
         if not isinstance(creep, float):
@@ -50,7 +53,7 @@ def weights(flat: FlatModel, numbering: Numbering, accuracy: float) -> Weights:
         for port in ("a", "b"):
             rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
             if rate is not None:
-                cap[rate] = min(cap[rate], CREEP_SHARE * creep)
+                cap[rate] = min(cap[rate], share * creep)
     return Weights(absolute, relative, cap)
 
 
