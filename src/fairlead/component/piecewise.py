@@ -11,6 +11,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -47,6 +48,15 @@ class PiecewisePolynomial:
         """Value at x."""
         row = self.rows[self.piece_at(x)]
         return float(np.polynomial.polynomial.polyval(x - row[2], row[3:]))
+
+    @cached_property
+    def is_continuous(self) -> bool:
+        """True if the pieces meet, each at the end of the one before, with the same value."""
+        size = np.abs(self.rows[:, 3]).max(initial=1e-300)
+        return all(
+            before[1] == row[0] and abs(_value(before, row[0]) - _value(row, row[0])) <= 1e-9 * size
+            for before, row in itertools.pairwise(self.rows)
+        )
 
     def integral(self, start: float) -> PiecewisePolynomial:
         """Antiderivative that is zero at `start`; pieces of degree at most three."""

@@ -16,6 +16,8 @@ from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
 
 NONE, CROSSING, COMPANION = 0, 1, 2
+HAIR = 1e-3
+"""How far past a kink, in theta, a step may end."""
 NEAR = 2.0**-10
 """Distance in theta over which the slope of a guard at an end of the step is taken."""
 
@@ -184,6 +186,11 @@ def climb(m, h, i, top, floor):
         q = (x - a) * (gb - gx)
         if not p - q > 0.0:
             return 1.0
+        left, right = (gx - ga) / (x - a), (gb - gx) / (b - x)
+        slope, bend = (left * (b - x) + right * (x - a)) / (b - a), (left - right) / (b - a)
+        # The parabola through the points rises above the middle one by slope^2/(4 bend); what it does not see, no more.
+        if gx + 0.5 * slope * slope / bend < floor:
+            return 1.0
         new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
         new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))
         if abs(new - x) < 1e-3 * (b - a):
@@ -210,22 +217,31 @@ def locate(m, h, right_end):
     earliest secant root of all guards that cross in the bracket, so the first of them is found
     without locating the others; a point that does not shrink the bracket well is followed by a
     bisection.
+
+    Where nothing but kinks is crossed a hair past the first secant root will do: the law is continuous there, and
+    goes on in its old piece for that hair.
     """
     ng = m.n_guards
+    kink = indices(m.at_kink_guard, ng)
     left, right, probe = reals(m.at_g_left, ng), reals(m.at_g_right, ng), reals(m.at_g_probe, ng)
     a, b = 0.0, right_end
     bias_left, bias_right, last = 1.0, 1.0, 0
     closeness = max(4e-16 * max(abs(m.t), abs(m.t + h)) / h, 4e-16)
     width, slow = b - a, 0
-    while b - a > closeness:
+    only_kinks = False
+    while b - a > (HAIR if only_kinks else closeness):
         x = b
+        only_kinks = True
         for i in range(ng):
             if left[i] < 0.0 and right[i] >= 0.0:
+                only_kinks = only_kinks and kink[i] == 1
                 ga, gb = bias_left * left[i], bias_right * right[i]
                 x = min(x, b - (b - a) * (gb / (gb - ga)))
         if slow >= 3:
             x = 0.5 * (a + b)
             slow = 0
+        if only_kinks:
+            x += HAIR
         x = min(max(x, a + 0.5 * closeness), b - 0.5 * closeness)
         if not a < x < b:
             break
@@ -238,6 +254,8 @@ def locate(m, h, right_end):
             copy(probe, right)
             bias_left = 0.5 * bias_left if last == 1 else 1.0
             bias_right, last = 1.0, 1
+            if only_kinks:
+                break
         else:
             a = x
             copy(probe, left)

@@ -200,6 +200,7 @@ def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dic
         "a": tableau.a.ravel(), "C": tableau.C.ravel(), "c": tableau.c, "d": tableau.d,
         "m": tableau.m, "e": tableau.e, "H": tableau.H.ravel(),
         "zones": problem.zones, "guard_machine": problem.guard_machine,
+        "kink_guard": np.asarray(getattr(problem, "kink_guard", np.zeros(len(problem.guard_machine))), np.int64),
         "guard_inertia": getattr(problem, "guard_inertia", np.zeros(len(problem.guard_machine))),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),

@@ -26,7 +26,8 @@ A problem may also have `stiff` [n]: differential unknowns that may follow what 
 `rodas` looks at them inside its steps too, as it does at algebraic ones and those with a cap. And `guard_inertia`
 [ng], live memory if the callbacks write to it: for a guard on the slip of a contact that may hold, the inertia that
 resists its force; 0 for others. Settling then knows which of two wrong zones is the more so, a force beyond its
-limit or an acceleration against the friction (settling.py).
+limit or an acceleration against the friction (settling.py). And `kink_guard` [ng]: guards at which f is continuous and
+nothing but its slope jumps, as between two pieces of a table; `rodas` steps a hair past those instead of on them.
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
 that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time.

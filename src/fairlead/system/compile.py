@@ -26,7 +26,7 @@ from fairlead.system.plain_python import called_controllers
 from fairlead.system.ranks import signal_ranks
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
-from fairlead.system.switching import guards, holders, limits, machine_owners, machine_zones
+from fairlead.system.switching import guards, holders, kinks, limits, machine_owners, machine_zones
 from fairlead.system.system import Pattern, System
 from fairlead.system.timing import samplers, start_pieces
 from fairlead.system.tolerances import Weights, guard_tolerances, weights
@@ -121,6 +121,7 @@ def _system(
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),
         limit_guard=limits(blocks),
+        kink_guard=kinks(blocks),
         linear=all(_is_linear(block, numbering) for block in blocks),
         machine_names=[path for path, _ in machines],
         guard_names=[name for name, _ in named],

@@ -63,7 +63,7 @@ def context(
         "N_WORK": program.length, "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
         "CIRCLE_AT": circle_at,
-        "GUARDS_READ": int(len(memory["circle_pairs"]) > 0 or any(b.kernel.structure.guards_read for b in blocks)),
+        "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),
     }  # fmt: skip
     vector = np.zeros(layout.CONTEXT, dtype=np.int64)
     for name, value in sizes.items():

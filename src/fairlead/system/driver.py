@@ -17,7 +17,7 @@ import inspect
 from pathlib import Path
 
 from fairlead.native import Build, Native, digest, load_or_compile
-from fairlead.system.unions import add_shares, guard_shares, look_around, unite
+from fairlead.system.unions import add_shares, guard_shares, look_around, regroup, unite
 
 SIGNATURES = {
     "rhs": (("I8", "float", "F8", "F8"), "None"),
@@ -287,7 +287,7 @@ def outputs(ctx, t, y, out):
 
 
 SHARED = (
-    unite, look_around, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
+    unite, look_around, regroup, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
 )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ with g_j = C_j M^-1 C_j^T. Both brackets vanish, for what the first equations ha
 of C, and the second leave of the bracket what is normal to it. Speeds eliminated, forces and w have a symmetric
 positive definite matrix, whatever holds, so that every order of pivots serves. Of held bodies that hang on
 nothing prescribed one has w = 0. Which, is found by union-find over the contacts that hold, the ratio of speeds
-carried along, because there may be gears (`regroup` in driver.py).
+carried along, because there may be gears (`unite` in unions.py).
 
 A contact that slides in name only, because others hold its two sides together, has no slip whose sign could
 tell when it holds again. It does when its share falls below its friction: s_j = C_j w, limited.

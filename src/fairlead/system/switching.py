@@ -6,6 +6,7 @@ A machine is a position in `zones`: the zone of an instance, or the interval in 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -50,9 +51,14 @@ def _targets(block: Block) -> list[tuple[int, int, int]]:
 
 def _slots(block: Block) -> list[Named]:
     """Names of the guards that share a slot, in all zones, and their unit."""
+    shared = _sharing(block)
+    return [("/".join(dict.fromkeys(g["name"] for g in slot)), min(g["unit"] for g in slot)) for slot in shared]
+
+
+def _sharing(block: Block) -> list[list[dict[str, Any]]]:
+    """By slot: the guards of all zones that share it."""
     s = block.kernel.structure
-    sharing = [[known[k] for known in s.guards.values() if k < len(known)] for k in range(s.slots)]
-    return [("/".join(dict.fromkeys(g["name"] for g in slot)), min(g["unit"] for g in slot)) for slot in sharing]
+    return [[known[k] for known in s.guards.values() if k < len(known)] for k in range(s.slots)]
 
 
 def holds(blocks: Sequence[Block]) -> tuple[Integers, int]:
@@ -86,6 +92,17 @@ def limits(blocks: Sequence[Block]) -> Integers:
         s = block.kernel.structure
         slots = [max((int(g[k]["limits"]) for g in s.guards.values() if k < len(g)), default=0) for k in range(s.slots)]
         found += slots * block.count
+    return np.array(found, dtype=np.int64)
+
+
+def kinks(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard that leads from one piece of a continuous table to the next."""
+    smooth = {table.machine for table in tables(blocks) if table.polynomial.is_continuous}
+    found: list[int] = []
+    for block in blocks:
+        slots = [{(g["to"] < 0, g["machine"]) for g in of_slot} for of_slot in _sharing(block)]
+        for row in block.machines:
+            found += [all(leads and row[machine] in smooth for leads, machine in slot) for slot in slots]
     return np.array(found, dtype=np.int64)
 
 

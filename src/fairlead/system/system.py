@@ -61,6 +61,7 @@ class System:
     guard_inertia: Floats
     holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
     limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
+    kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
     machine_names: Sequence[str]
     guard_names: Sequence[str]

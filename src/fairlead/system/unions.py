@@ -76,11 +76,9 @@ def look_around(ctx, t, y):
             partials[at + ctx[N_CIRCLES] + k] = pins[k]
 
 
-def add_shares(ctx, t, y):
-    """What contacts of circles have more in their rows while they hold, and the rows of the shares."""
-    zones, partials, at, n = i8(ctx[ZONES]), f8(ctx[PARTIALS]), ctx[CIRCLE_AT], ctx[N]
-    pairs, coef, seen = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_SEEN])
-    z, w, changed = f8(ctx[Z]), f8(ctx[W]), 0
+def regroup(ctx, t, y):
+    """Find the unions anew if a contact that makes them is not in the zone it was seen in."""
+    zones, pairs, seen, changed = i8(ctx[ZONES]), i8(ctx[CIRCLE_PAIRS]), i8(ctx[CIRCLE_SEEN]), 0
     for j in range(0, ctx[N_CIRCLES]):
         zone = 0
         if pairs[7 * j + 5] >= 0:
@@ -90,6 +88,13 @@ def add_shares(ctx, t, y):
     if changed == 1:
         unite(ctx, t, y)
         look_around(ctx, t, y)
+
+
+def add_shares(ctx, t, y):
+    """What contacts of circles have more in their rows while they hold, and the rows of the shares."""
+    regroup(ctx, t, y)
+    partials, at, n = f8(ctx[PARTIALS]), ctx[CIRCLE_AT], ctx[N]
+    pairs, coef, z, w = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), f8(ctx[Z]), f8(ctx[W])
     for j in range(0, ctx[N_CIRCLES]):
         force, a, b = pairs[7 * j], pairs[7 * j + 3], pairs[7 * j + 4]
         apart = partials[at + j] * (coef[4 * j + 2] * y[force] - coef[4 * j] * z[a] - coef[4 * j + 1] * z[b])
@@ -106,6 +111,7 @@ def add_shares(ctx, t, y):
 
 def guard_shares(ctx, t, y, g):
     """The guards that end sliding in name: the slip speed that what is missing to the limit would build up in tau."""
+    regroup(ctx, t, y)
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     z, seen, still, tau = f8(ctx[Z]), i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_STILL]), f8(ctx[TAU])
     for j in range(0, ctx[N_CIRCLES]):
