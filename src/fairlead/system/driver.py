@@ -125,9 +125,13 @@ def jacobian(ctx, t, y, values, ft):
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     if ctx[FIXED_DONE] == 0:
         fix(ctx, t, y)
+    schedule = i8(ctx[SCHEDULE])
+    for s in range(0, ctx[N_SCHEDULE]):
+        b = schedule[3 * s]
+        start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
+        call_kernel(kernels[b], PARTIALS_SIGNALS, block, start, stop, z, zones, tables, partials)
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], PARTIALS_SIGNALS, block, 0, counts[b], z, zones, tables, partials)
         call_kernel(kernels[b], PARTIALS_FLOWS, block, 0, counts[b], z, zones, tables, partials)
         call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
     work, program, coefficient = f8(ctx[WORK]), i8(ctx[PROGRAM]), f8(ctx[PROGRAM_COEF])
