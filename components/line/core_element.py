@@ -10,11 +10,11 @@ PLAY = 1e-9  # strain beyond which a loose element is taut again, so that one at
 class Core(Component):
     """Tension-only element with damping.
 
-    taut    tension = stretch EA/length + damping * rate     while both stretch and tension are positive
-    slack   tension = 0
+    taut      tension = stretch EA/length + damping * rate     while both stretch and tension are positive
+    closing   tension = 0     still stretched, but closing so fast that the damping would push
+    loose     tension = 0
 
-    With one of the two conditions alone the zones would fire into each other: a damped element that is
-    stretched but closing fast would push.
+    What is left of the stretch of a closing element gives its energy to the damping, not to the ends.
     """
 
     a = Translational("inboard end")
@@ -25,7 +25,7 @@ class Core(Component):
     line_damping = Effect("Damping of the element; off: none.")
     tension = Output("N", "Tension, never negative.")
     slack = Output("1", "1 while slack.")
-    zones = Zones("taut", "loose")
+    zones = Zones("taut", "closing", "loose")
 
     @zone("taut")
     def taut(p, a, b):
@@ -36,22 +36,36 @@ class Core(Component):
         tension = elastic + lossy
         return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=lossy * rate)
 
+    @zone("closing")
+    def closing(p, a, b):
+        """Carries nothing, and loses what it had stored."""
+        stretch = b.x - a.x - p.length
+        elastic = p.axial_stiffness / p.length * stretch
+        return Law(a=0, b=0, tension=0, slack=1, stored=elastic * stretch / 2, dissipated=-elastic * (b.v - a.v))
+
     @zone("loose")
     def loose(p, a, b):
         """Carries nothing."""
         return Law(a=0, b=0, tension=0, slack=1)
 
-    @guard("taut", to="loose", unit="N")
+    @guard("taut", "closing", to="loose", unit="N")
     def shortens(p, a, b):
         """The ends are closer than the element is long."""
         return -p.axial_stiffness / p.length * (b.x - a.x - p.length)
 
-    @guard("taut", to="loose", unit="N")
+    @guard("taut", to="closing", unit="N")
     def would_push(p, a, b):
         """Closing so fast that the damping would push."""
         if p.line_damping == "off":
             return None
         return -(p.axial_stiffness / p.length * (b.x - a.x - p.length) + damped(p, b.v - a.v))
+
+    @guard("closing", to="taut", unit="N")
+    def catches(p, a, b):
+        """Closing no longer so fast."""
+        if p.line_damping == "off":
+            return None
+        return p.axial_stiffness * ((b.x - a.x) / p.length - 1 - PLAY) + damped(p, b.v - a.v)
 
     @guard("loose", to="taut", unit="N")
     def tightens(p, a, b):
