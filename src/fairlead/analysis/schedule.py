@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Iterator
@@ -40,11 +41,15 @@ class Schedule:
 
     def way(self, t: float) -> float:
         """Way since the begin [m]."""
-        path, sine = self.wave.polynomial.integral(self.begin), self.wave.sine
+        path, sine = self._path, self.wave.sine
         if not sine.amplitude:
             return path(t)
         swing = [math.cos(sine.omega * at + sine.phase) for at in (self.begin, t)]
         return path(t) + sine.amplitude / sine.omega * (swing[0] - swing[1])
+
+    @functools.cached_property
+    def _path(self) -> PiecewisePolynomial:
+        return self.wave.polynomial.integral(self.begin)
 
     def stretches(self) -> list[Stretch]:
         """All of them, in order; a speed that swings has none."""
@@ -67,9 +72,19 @@ class Schedule:
             return max(here, key=lambda one: (round(abs(one.speed), 9), one.end - one.begin))
         if sign == 0:
             return Stretch(self.begin, self.begin, 0.0) if abs(self.speed(self.begin)) <= STILL else None
-        times = np.linspace(self.begin, self.end, LOOKS)
-        t, speed = max(((float(t), self.speed(float(t))) for t in times), key=lambda one: sign * one[1])
+        t, speed = max(self._looks(sign), key=lambda one: sign * one[1])
         return Stretch(t, t, speed) if sign * speed > STILL else None
+
+    def _looks(self, sign: int) -> Iterator[tuple[float, float]]:
+        """The instant of every piece at which the speed is greatest in a direction."""
+        sine = self.wave.sine
+        for begin, end, row in self._pieces():
+            t = np.linspace(begin, end, LOOKS if row[5:].any() or sine.amplitude else 2)
+            speed = np.polynomial.polynomial.polyval(t - row[2], row[3:]) + sine.amplitude * np.sin(
+                sine.omega * t + sine.phase
+            )
+            k = int((sign * speed).argmax())
+            yield float(t[k]), float(speed[k])
 
     def furthest(self, sign: int) -> float | None:
         """The instant of a steady stretch at which most line is out; None when the speed never has that sign."""
