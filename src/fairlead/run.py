@@ -215,6 +215,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
         "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
+        "limits": watch.limits.plain(),
     }  # fmt: skip
 
 

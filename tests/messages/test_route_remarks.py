@@ -87,7 +87,7 @@ def test_the_deliberately_weak_clamp_is_told_and_may_run():
 
 def test_a_curve_in_which_the_tension_presses_harder_than_the_line_bears(scene):
     found = remark(scene(BELTS % (", side_wall: 40 N/m", "200 N/m", "-0.2 m/s")))
-    assert "route.bend: at -0.2 m/s the line is pressed with 50 N/m (tension over radius)" in found.what
+    assert "route.bend: hauled at 0.2 m/s the line is pressed with 50 N/m (tension over radius)" in found.what
     assert "more than rope bears, 40 N/m" in found.what
     assert found.where.line == 9
 

@@ -105,6 +105,13 @@ def test_a_limit_that_is_kept_ends_with_zero_and_one_that_is_broken_with_five(tm
     assert "limit broken: line.hose[2].tension = -25 N at t = 2 s, allowed: above -22 N" in broken.output
 
 
+def test_what_a_run_saw_between_its_recorded_rows_counts(tmp_path):
+    seen = [{**LIMITS[0], "nearest": ["line.hose[1].tension", -31.5, 0.7]}]
+    answer = CliRunner().invoke(app, ["margins", str(written(tmp_path, seen))])
+    assert answer.exit_code == 5
+    assert "line.hose[1].tension = -31.5 N at t = 0.7 s" in answer.output
+
+
 def test_a_killed_run_is_judged_as_far_as_it_came(tmp_path):
     tight = [{**LIMITS[0], "bound": -22.0, "text": "above -22 N"}]
     path = written(tmp_path, tight, finish=False)

@@ -30,9 +30,17 @@ class Limit:
     sense: float
     bound: float
     unit: str
-    worst: float = 0.0
-    broken: str = ""
     pattern: str = ""
+    worst: float = -np.inf
+    nearest: tuple[str, float, float] | None = None  # (signal, value, t) of the worst
+
+    @property
+    def broken(self) -> str:
+        """The worst in a sentence, if it broke the limit."""
+        if self.nearest is None or self.worst <= 0:
+            return ""
+        name, value, t = self.nearest
+        return f"{name} = {value:.6g} {self.unit} at t = {t:.6g} s, allowed: {self.text}"
 
     def watch(self, t: NDArray[np.float64], rows: NDArray[np.float64]) -> None:
         """Take recorded rows (k, m)."""
@@ -42,8 +50,7 @@ class Limit:
         k, j = divmod(int(beyond.argmax()), beyond.shape[1])
         if beyond[k, j] > self.worst:
             self.worst = float(beyond[k, j])
-            value = rows[k, self.columns[j]]
-            self.broken = f"{self.names[j]} = {value:.6g} {self.unit} at t = {t[k]:.6g} s, allowed: {self.text}"
+            self.nearest = self.names[j], float(rows[k, self.columns[j]]), float(t[k])
 
 
 @dataclass
@@ -58,11 +65,10 @@ class Limits:
             limit.watch(t, rows)
 
     def plain(self) -> list[dict[str, object]]:
-        """As `run.json` keeps them, so that `fairlead margins` can ask again."""
-        return [
-            {"signal": one.pattern, "sense": one.sense, "bound": one.bound, "unit": one.unit, "text": one.text}
-            for one in self.limits
-        ]
+        """As `run.json` keeps them, with what came nearest so far, so that `fairlead margins` can tell it."""
+        names = ("signal", "sense", "bound", "unit", "text", "nearest")
+        told = ((one.pattern, one.sense, one.bound, one.unit, one.text, one.nearest) for one in self.limits)
+        return [dict(zip(names, each, strict=True)) for each in told]
 
     def broken(self) -> list[str]:
         """A sentence for every limit that was broken, at its worst."""

@@ -1,4 +1,4 @@
-"""Limits of a run asked again of its results, also of a run that was killed before it could tell."""
+"""Limits of a run: what the run itself kept of them, or its results, when it was killed before it could tell."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fairlead.system.system import glob
 
 @dataclass(frozen=True)
 class Judged:
-    """A limit and the recorded value that came nearest to it, or went furthest beyond."""
+    """A limit and the value that came nearest to it, or went furthest beyond."""
 
     signal: str
     text: str
@@ -31,6 +31,10 @@ def judged(result: Result) -> list[Judged]:
 
 
 def _judge(result: Result, limit: dict[str, Any]) -> Judged | None:
+    if limit.get("nearest"):  # by the run, which saw what happened between recorded rows
+        name, value, t = limit["nearest"]
+        broken = limit["sense"] * (value - limit["bound"]) > 0
+        return Judged(name, limit["text"], limit["unit"], limit["bound"], value, t, broken)
     wanted = re.compile(glob(limit["signal"]))
     names = [signal.name for signal in result.signals if wanted.fullmatch(signal.name)]
     if not names or not len(result.t):

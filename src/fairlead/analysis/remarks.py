@@ -67,7 +67,9 @@ def side_walls(found: Statics) -> Iterator[Fault]:
                 worst[one.name] = one.side_wall, state
     for name, (load, state) in worst.items():
         device = f"{found.route.route.path}.{name}"
-        what = f"{device}: at {state.speed:.3g} m/s the line is pressed with {load:.4g} N/m (tension over radius), "
+        when = f"hauled at {-state.speed:.3g}" if state.speed < 0 else f"paid out at {state.speed:.3g}"
+        when = f"{when} m/s" if not state.acceleration else f"changing its speed at {state.t:.4g} s"
+        what = f"{device}: {when} the line is pressed with {load:.4g} N/m (tension over radius), "
         bears = f"more than {found.route.line.path} bears, {most:.4g} N/m."
         yield Fault(where(found.route, name), what + bears, "Use a larger radius, or a line that bears more.")
 

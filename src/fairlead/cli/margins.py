@@ -37,7 +37,7 @@ def margins(
 
     result = Result.open(results.parent if results.is_file() else results)
     lines, limits = of_lines(result), judged(result)
-    broken = [_broken(one) for one in limits if one.broken] or list(result.run.get("limits_broken") or ())
+    broken = [_broken(one) for one in limits if one.broken]
     if as_json:
         typer.echo(json.dumps(_record(result, lines, limits, broken), indent=2))
     elif not quiet:

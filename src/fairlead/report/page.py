@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "report.html"
 MOST_ROWS = 60
-APART = ("name", "description", "format", "limits_broken")  # shown elsewhere on the page, or not at all
+# Shown elsewhere on the page, or not at all.
+APART = ("name", "description", "format", "limits_broken", "limits", "routes")
 
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
