@@ -1,5 +1,43 @@
 """The cases by theme; importing this package fills the table."""
 
-from tests.hard.cases import accuracy, simultaneous, stiction
+from tests.hard.cases import (
+    accuracy,
+    chains,
+    curves,
+    feedback,
+    guards,
+    hydraulics,
+    normal_force,
+    prescribed,
+    random_networks,
+    random_routes,
+    ratios,
+    reversal,
+    routes,
+    shaken,
+    simultaneous,
+    slow,
+    stiction,
+    symmetry,
+)
 
-__all__ = ["accuracy", "simultaneous", "stiction"]
+__all__ = [
+    "accuracy",
+    "chains",
+    "curves",
+    "feedback",
+    "guards",
+    "hydraulics",
+    "normal_force",
+    "prescribed",
+    "random_networks",
+    "random_routes",
+    "ratios",
+    "reversal",
+    "routes",
+    "shaken",
+    "simultaneous",
+    "slow",
+    "stiction",
+    "symmetry",
+]
