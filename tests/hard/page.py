@@ -41,9 +41,9 @@ This page is written by `make hard`; the cases are in `tests/hard/cases`, scenes
 """
 
 
-def write(path: Path, done: Done) -> None:
-    """Write the page."""
-    parts = [HEAD, _summary(done), _failures(done), _cases(done), _made(done)]
+def write(path: Path, done: Done, left: int) -> None:
+    """Write the page; `left` rows are not played yet."""
+    parts = [HEAD, _summary(done), _failures(done), _cases(done), _made(done, left)]
     path.write_text("\n".join(parts), encoding="utf-8")
 
 
@@ -115,14 +115,13 @@ def _cell(one: Attempt) -> str:
     return f"{MARKS[one.verdict]}{auto}, {one.seconds:.2g} s, {one.switches} switches{closure}"
 
 
-def _made(done: Done) -> str:
+def _made(done: Done, left: int) -> str:
     packages = ", ".join(f"{name} {version(name)}" for name in ("fairlead", "numpy", "numba", "scikit-sundae"))
     total = sum(one.seconds for _, one in done)
     today = datetime.date.today().isoformat()
-    return (
-        f"{len(done)} rows, {total:.0f} s. Python {platform.python_version()}, {packages}, {platform.system()} "
-        f"{platform.machine()}, {os.cpu_count()} processors ({today}).\n"
-    )
+    played = f"{len(done)} rows, {total:.0f} s; {left} not played yet."
+    machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors ({today})."
+    return f"{played} Python {platform.python_version()}, {packages}, {machine}\n"
 
 
 def _line(*cells: str) -> str:

@@ -20,6 +20,7 @@ from tests.hard import invariants
 SCENES = Path(fairlead.__file__).parents[2] / "models" / "hard"
 CREEP = 1e-5  # m/s, of binding contacts where a case does not say otherwise
 PRESLIDING = 2e-5  # m, of bristles: what Contact takes when nothing is said
+RELAXATION = 2e-3  # s, of LuGre, likewise: who starts to slide at once is pushed back by the friction times this
 Verdict = Literal["ok", "stopped", "wrong", "stuck", "crashed"]
 
 

@@ -22,6 +22,7 @@ from tests.hard.worker import Worker
 
 ROOT = Path(__file__).parents[2]
 KEPT, PAGE = ROOT / "results" / "hard" / "rows.jsonl", ROOT / "docs" / "stability.md"
+PRICES = ("cheap", "fair", "slow")  # the order in which rows are played
 COLOURS = {"ok": "green", "stopped": "yellow", "wrong": "red", "stuck": "red", "crashed": "red"}
 
 
@@ -36,7 +37,7 @@ def main(words: list[str] | None = None) -> int:
     done: list[tuple[Row, Attempt]] = []
     left = 0
     try:
-        for number, row in enumerate(chosen, 1):
+        for number, row in enumerate(sorted(chosen, key=lambda row: PRICES.index(row.case.cost)), 1):
             status.update(f"{number}/{len(chosen)} {row.name}")
             found = None if asked.again else kept.get(row)
             if found is None and time.monotonic() > ends:
@@ -54,13 +55,14 @@ def main(words: list[str] | None = None) -> int:
     finally:
         worker.end()
         status.stop()
+    done.sort(key=lambda pair: chosen.index(pair[0]))
     if asked.table:
         console.print(table(done))
     console.print(summary(done))
     if left:
         console.print(f"{left} of {len(chosen)} rows are still to be played.")
-    if not asked.only and not left:
-        write(PAGE, done)
+    if not asked.only:
+        write(PAGE, done, left)
         console.print(f"Written to {PAGE.relative_to(ROOT)}.")
     return 0
 
