@@ -251,6 +251,12 @@ def test_to_speed_up_the_line_takes_its_mass_times_the_acceleration(scene):
     assert hand.force == pytest.approx(-(100 + 30 * 0.15))
 
 
+def test_a_free_wheel_takes_what_its_inertia_takes_while_the_speed_changes(scene):
+    wheel = "{type: Pulley, start: 3 m, angle: 90 deg, radius: 0.5 m, friction: 0.5, moment: 4 kg*m^2}"
+    (start,) = one(scene(scene_of(wheel, speed="{ramp: {to: -0.3 m/s, over: 2 s}}", rope=""))).starts
+    assert start.drives[0].force == pytest.approx(-(100 + 30 * 0.15 + 4 / 0.5**2 * 0.15))
+
+
 def test_the_torque_of_a_winch_speeds_up_its_drum_and_what_lies_on_it(scene):
     drum = "{type: Winch, radius: 0.5 m, moment: 10 kg*m^2}"
     text = scene_of(drum, speed="{ramp: {to: -0.3 m/s, over: 2 s}}", rope="").replace("start: 0 m", "start: -20 m")

@@ -107,7 +107,7 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
     found: dict[int, NDArray[np.float64]] = {}
     begin, end = 0, len(laid)
     places = [_places(route, piece, way) for _, piece, _ in laid]
-    march = _March(route, laid, places, t, speed, way, found)
+    march = _March(route, laid, places, t, speed, way, acceleration, found)
     if left_known or not (right_known or drivers):
         tension = inboard_tension(route, t, speed, way, acceleration)
         begin = march.outward(tension, range(len(laid)))
@@ -123,7 +123,7 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
         remarks += [_undetermined(laid, between, tension)] if loop is None else []
         march.outward(tension, [k for k in between if k >= here])
         march.inward(tension, [k for k in reversed(between) if k < here])
-    return _assembled(march, acceleration, tuple(remarks))
+    return _assembled(march, tuple(remarks))
 
 
 def _holds(laid: list[Laid], between: list[int], loop: Device) -> bool:
@@ -155,6 +155,7 @@ class _March:
     t: float
     speed: float
     way: float
+    acceleration: float
     found: dict[int, NDArray[np.float64]]
 
     def outward(self, tension: float, order: Iterable[int]) -> int:
@@ -181,6 +182,7 @@ class _March:
         if device is None or device.machine is None:
             return along(piece, tension, friction, self.places[k], begin=outward)
         rise = moved(self.route, device, self.t, self.speed, tension) - piece.load * piece.length
+        rise += device.machine.inertia * self.acceleration
         return self.between(k, tension, tension + rise) if outward else self.between(k, tension - rise, tension)
 
     def between(self, k: int, before: float, after: float) -> NDArray[np.float64]:
@@ -211,20 +213,20 @@ def _undetermined(laid: list[Laid], between: list[int], tension: float) -> str:
     )
 
 
-def _assembled(march: _March, acceleration: float, remarks: tuple[str, ...]) -> State:
+def _assembled(march: _March, remarks: tuple[str, ...]) -> State:
     """Passages in order, those of drives from the tensions on both sides; and what the drives give."""
     route, found, passages, drives = march.route, march.found, [], []
     for k, (device, piece, friction) in enumerate(march.laid):
         if k not in found:
-            before = float(found[k - 1][-1]) if k - 1 in found else _end_tension(march, acceleration, inboard=True)
-            after = float(found[k + 1][0]) if k + 1 in found else _end_tension(march, acceleration, inboard=False)
+            before = float(found[k - 1][-1]) if k - 1 in found else _end_tension(march, inboard=True)
+            after = float(found[k + 1][0]) if k + 1 in found else _end_tension(march, inboard=False)
             found[k] = march.between(k, before, after)
         passages.append(Passage(device.name if device else "", device, piece, friction, march.places[k], found[k]))
         if device is not None and device.machine is not None and (_drives(device) or device.machine.efforts):
             given = float(found[k][0] - found[k][-1]) - piece.load * piece.length
-            own = device.machine.inertia * acceleration if device.machine.drives else 0.0
+            own = device.machine.inertia * march.acceleration if device.machine.drives else 0.0
             drives.append(Drive(device.name, given, march.speed, capacity(device, piece), lever(device), own))
-    state = State(route, march.t, march.speed, march.way, tuple(passages), (), acceleration, remarks)
+    state = State(route, march.t, march.speed, march.way, tuple(passages), (), march.acceleration, remarks)
     return replace(state, drives=(*_end_drives(state), *drives))
 
 
@@ -246,11 +248,11 @@ def _end_drives(state: State) -> Iterator[Drive]:
             yield Drive(name, force, state.speed, None, arm, heavy * state.acceleration)
 
 
-def _end_tension(march: _March, acceleration: float, *, inboard: bool) -> float:
+def _end_tension(march: _March, *, inboard: bool) -> float:
     """Tension beside a drive that is the first or the last of all."""
     route = march.route
     if inboard and not route.inboard.drives:
-        return inboard_tension(route, march.t, march.speed, march.way, acceleration)
+        return inboard_tension(route, march.t, march.speed, march.way, march.acceleration)
     if not inboard and not route.outboard.drives:
         return tail(route, march.t, march.speed, march.way)
     return float(route.values.tension)
