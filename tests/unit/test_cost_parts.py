@@ -73,6 +73,25 @@ def test_a_finer_mesh_is_one_of_smaller_elements_or_of_more_blocks():
     assert meshes(fairlead.load("belt"), [2]) == []
 
 
+def test_a_graded_line_is_made_finer_at_every_place(scene):
+    """Its `element` decides nothing."""
+    text = """
+        components:
+          rope: {type: Cable, length: 6 m, element: 1 m, graded: [[0 m, 0.5 m], [3 m, SIZE]], mass: 1 kg/m,
+                 stiffness: 1 kN}
+          route: {type: Route, stations: [{type: Straight, length: 9 m}]}
+        connections: [[rope.path, route.path]]
+        run: {stop: 1 s}
+    """.replace("\n        ", "\n    ")
+    (fine,) = meshes(scene(text.replace("SIZE", "0.2 m")), [2])
+    assert dict(fine.settings) == {"rope.graded.0.1": "0.25", "rope.graded.1.1": "0.1"}
+    counts = []
+    for settings in ({}, fine.settings):
+        made = scene(text.replace("SIZE", "0.2 m"), **settings).assembly.instances
+        counts.append(sum("line[" in path for path in made))
+    assert counts[1] == pytest.approx(2 * counts[0], abs=1)
+
+
 def test_a_run_is_kept_whole_or_not_at_all(tmp_path):
     kept = KeptRuns(tmp_path)
     timed = Timed("finished", cpu=0.5, values=np.eye(2), events=((0.1, "pad", "stuck", "slip"),))

@@ -25,11 +25,12 @@ from fairlead.analysis.effect_row import Row, Size
 from fairlead.analysis.kept_runs import KeptRuns, key_of
 from fairlead.analysis.sameness import same
 from fairlead.analysis.switches import Switch, all_off, switches
-from fairlead.analysis.timed_run import BRIEF, Load, Timed, in_turns, timed_run
+from fairlead.analysis.timed_run import BRIEF, Load, Timed, in_turns, on_grid, timed_run
 from fairlead.errors import FairleadError, NumericalError
 
 SHARE = 0.1  # of the budget that the scene as it is may take; a longer one is looked at over less time
 SHORTEST = 0.2  # s; with less time left no run is begun
+SLOWER, WORTH_WAITING = 5.0, 1.0  # times the scene as it is, s; a switch that takes longer is cut off
 FINER = 0.1  # accuracy of the run that tells the floor
 Note = Callable[[str], None]
 
@@ -54,7 +55,7 @@ def effects(
     load: Load, *, budget: float = 60.0, signals: Sequence[str] = ("*",), kept: KeptRuns | None = None,
     libraries: Iterable[str] = (), note: Note | None = None,
 ) -> Effects:  # fmt: skip
-    """Switch all that a scene can switch, within `budget` seconds; loading and compiling are not counted.
+    """Switch all that a scene can switch, within `budget` seconds; laws compiled for the first time are not counted.
 
     Raises ModelError, UsageError for a wrong scene or pattern, NumericalError when the scene as it is does not run.
     """
@@ -66,6 +67,7 @@ def effects(
     runner = _Runner(load, kept or KeptRuns(None), model.netlist.digest, tuple(libraries), names, (run.start, run.stop))
     base, whole = runner.run({}, SHARE * budget), True
     runner.end = time.perf_counter() + budget
+    runner.compiled = {block.kernel.variant for block in model.system.blocks}
     if base.status == "budget" and base.reached > run.start:
         runner.span = (run.start, run.start + float(f"{0.9 * (base.reached - run.start):.1g}"))
         base, whole = runner.run({}, budget), False
@@ -95,19 +97,24 @@ def _try(switch: Switch, runner: _Runner, model: Any, found: Effects, units: lis
         found.left_out.append(switch.label)
         return
     note(switch.label)
-    begun = time.perf_counter()
     try:
-        system = runner.load(switch.settings).system
-        untouched = same(model.system, system)
+        made = runner.loaded(switch.settings)
+        untouched = same(model.system, made.system)
     except FairleadError as error:
         found.rows.append(Row(switch, Timed("cannot be", str(error).splitlines()[0])))
         return
-    runner.end += time.perf_counter() - begun
     if untouched:
         found.untouched.append(switch.label)
         return
-    timed = runner.run(switch.settings, runner.left)
-    found.rows.append(_row(switch, timed, Size.of(system), found, runner.names, units))
+    patience = max(WORTH_WAITING, SLOWER * found.base.wall)
+    left = runner.left
+    timed = runner.run(switch.settings, min(left, patience), made)
+    if timed.status == "budget":
+        if left < patience:  # not slow, but begun too late
+            found.left_out.append(switch.label)
+            return
+        timed = replace(timed, reason=f"takes more than {SLOWER:g} times as long; not worth a change.")
+    found.rows.append(_row(switch, timed, Size.of(made.system), found, runner.names, units))
 
 
 def _row(switch: Switch, timed: Timed, size: Size, found: Effects, names: list[str], units: list[str]) -> Row:
@@ -135,20 +142,31 @@ class _Runner:
     names: list[str]
     span: tuple[float, float]
     end: float = 0.0
+    compiled: set[Any] = field(default_factory=set)  # variants of laws, in this process
 
     @property
     def left(self) -> float:
         """Seconds of the budget."""
         return self.end - time.perf_counter()
 
-    def run(self, settings: Any, cap: float) -> Timed:
+    def loaded(self, settings: Any) -> Any:
+        """The scene with settings; laws that are compiled for the first time on this machine are not counted."""
+        begun = time.perf_counter()
+        model = self.load(on_grid(settings, self.span))
+        fresh = {block.kernel for block in model.system.blocks if not block.kernel.native.cached}
+        if not {kernel.variant for kernel in fresh} <= self.compiled:
+            self.end += time.perf_counter() - begun
+            self.compiled |= {kernel.variant for kernel in fresh}
+        return model
+
+    def run(self, settings: Any, cap: float, made: Any = None) -> Timed:
+        """A run; `made` is the scene with these settings when it has been loaded already."""
         key = key_of(self.digest, ("effects", sorted(settings.items()), self.names, self.span), self.libraries)
         timed = self.kept.get(key, cap)  # a run cut off at less than `cap` is made again
         if timed is None:
-            begun = time.perf_counter()
-            timed_run(self.load, {**settings, "run.max_steps": "1"}, [], self.span, cap)  # loads or compiles
-            self.end += time.perf_counter() - begun
-            timed = timed_run(self.load, settings, self.names, self.span, cap)
+            if made is None:  # the first one loads or compiles the engine
+                timed_run(self.load, {**settings, "run.max_steps": "1"}, [], self.span, cap)
+            timed = timed_run(self.load if made is None else lambda _: made, settings, self.names, self.span, cap)
             if settings and timed.finished and timed.wall < BRIEF:
                 cpu, beside, scatter = in_turns(self.load, settings, self.span, cap)
                 timed = replace(timed, cpu=cpu, beside=beside, scatter=scatter)

@@ -16,6 +16,7 @@ from fairlead.quantities import QuantityError, si
 from fairlead.results.signal import family
 
 SIZES, COUNTS = ("element",), ("elements", "blocks")  # how netlists and components call the size and the number
+GRADED, SIZE = "graded", 1  # rows of a place and the size of elements there
 PER_ELEMENT = ("friction", "normal", "drag", "dissipated", "creep_rate")  # last words of what belongs to one element
 
 
@@ -29,17 +30,26 @@ class Mesh:
 
 
 def mesh_settings(model: Any) -> dict[str, float]:
-    """Parameters of scene or components that say how fine the elements are, with their values in SI."""
+    """Parameters of scene or components that say how fine the elements are, with their values in SI.
+
+    A parameter of the scene is taken for what its components say by it; a graded line has a size for every place.
+    """
     netlist = model.netlist
-    scene = {name: value.content for name, value in netlist.parameters.items() if name in (*SIZES, *COUNTS)}
-    if scene:
-        return _numbers(scene)
-    found = {
-        f"{entry.name}.{name}": value.content
-        for entry in netlist.components.values()
-        for name, value in entry.parameters.items() if name in (*SIZES, *COUNTS)
-    }  # fmt: skip
-    return _numbers(found)
+    entries = netlist.components.values()
+    found = {name: value.content for name, value in netlist.parameters.items() if name in (*SIZES, *COUNTS)}
+    if not found:
+        found = {
+            f"{entry.name}.{name}": value.content
+            for entry in entries if GRADED not in entry.parameters
+            for name, value in entry.parameters.items() if name in (*SIZES, *COUNTS)
+        }  # fmt: skip
+    rows = [
+        (f"{entry.name}.{GRADED}.{number}.{SIZE}", row.content[SIZE].content)
+        for entry in entries if isinstance(getattr(entry.parameters.get(GRADED), "content", None), list)
+        for number, row in enumerate(entry.parameters[GRADED].content)
+        if isinstance(row.content, list) and len(row.content) > SIZE
+    ]  # fmt: skip
+    return _numbers(found | dict(rows))
 
 
 def meshes(model: Any, factors: Sequence[float]) -> list[Mesh]:
@@ -49,7 +59,9 @@ def meshes(model: Any, factors: Sequence[float]) -> list[Mesh]:
     for factor in factors if now else ():
         settings = {name: _scaled(name, value, factor) for name, value in now.items()}
         name, text = next(iter(settings.items()))
-        found.append(Mesh(f"{name.rpartition('.')[2]} {text}", settings, factor))
+        known = name.rpartition(".")[2] in (*SIZES, *COUNTS)
+        label = f"{name.rpartition('.')[2]} {text}" if known else f"elements / {factor:g}"
+        found.append(Mesh(label, settings, factor))
     return found
 
 
@@ -90,7 +102,7 @@ def _numbers(found: Mapping[str, Any]) -> dict[str, float]:
     numbers = {}
     for name, content in found.items():
         try:
-            numbers[name] = si(content, "m" if name.rpartition(".")[2] in SIZES else "1")
+            numbers[name] = si(content, "1" if name.rpartition(".")[2] in COUNTS else "m")
         except QuantityError:  # not a size of elements after all
             continue
     return numbers

@@ -27,7 +27,7 @@ GRID = 1000  # intervals between the common times
 REPEATS = 5
 BRIEF = 0.2  # s; when the runs together took longer, their time is known well enough
 TURNS = 9
-SCATTER = 0.05  # of the ratio of two times that were taken one after the other, on a machine that others share
+SCATTER = 0.15  # of the ratio of two times that were taken one after the other, on a machine that others share
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 Members = Mapping[str, Sequence[str]]  # an output -> the signals whose mean it is, where it is of another mesh
 
