@@ -36,8 +36,9 @@ its zone and will cross by itself. A contact at rest just inside a border would 
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
-NEARER = 0.1
-"""How much less far guards are looked ahead for when single switches go in a circle."""
+NEARER, LOOKS = 0.1, 3
+"""How much less far guards are looked ahead for when single switches go in a circle, and how often. Nearer still no
+guard would be seen to rise, and laws that contradict each other would pass for settled."""
 ALL, HALF_AS_WRONG, WORST, LEAST_INDEX = 0, 1, 2, 3
 PATIENCE = 10
 """Passes in which the number of violators need not fall below what it was."""
@@ -119,7 +120,7 @@ def next_stage(m):
     """
     m.stage = m.stage + 1 if m.weighs_guards == 1 else max(m.stage + 1, LEAST_INDEX)
     m.stage_from = m.passes
-    if m.stage > LEAST_INDEX:
+    if LEAST_INDEX < m.stage <= LEAST_INDEX + LOOKS:
         m.look *= NEARER
 
 
