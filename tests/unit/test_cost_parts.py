@@ -34,6 +34,13 @@ def test_a_constant_output_is_not_compared_and_a_flag_neither():
     assert errors(np.round(T), np.round(T), unit="1") == []
 
 
+def test_what_varies_by_rounding_only_is_not_compared():
+    """The slip of a contact that holds is 1e-16 m/s of noise in both runs, beside one that slips by 0.1 m/s."""
+    noise = 1e-16 * np.random.default_rng(0).standard_normal((2, len(T)))
+    mine, theirs = (np.stack([0.1 * T, one], axis=1) for one in noise)
+    assert [one.name for one in output_errors(["a.slip", "b.slip"], ["m/s", "m/s"], mine, theirs)] == ["a.slip"]
+
+
 def test_what_is_constant_in_one_of_two_is_wrong_by_all_of_its_range():
     (found,) = errors(T, np.zeros(1001))
     assert found.worst / found.scale == 1.0

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from fairlead.results.signal import family
 
 LEAST_SCALE = 1e-12  # relative to the values themselves: below it an output is constant
+ROUNDING = 1e-9  # of the largest range in its unit: what varies less, as the slip of a contact that holds, is rounding
 Events = Sequence[tuple[float, str, str, str]]
 
 
@@ -71,9 +72,12 @@ def output_errors(
     """
     errors = []
     sizes = np.maximum(scales(names, reference), scales(names, values)).tolist()
+    largest: dict[str, float] = defaultdict(float)
+    for unit, size in zip(units, sizes, strict=True):
+        largest[unit] = max(largest[unit], size)
     for column, (name, unit) in enumerate(zip(names, units, strict=True)):
         mine, theirs, scale = values[:, column], reference[:, column], sizes[column]
-        if scale == 0 or not (np.all(np.isfinite(mine)) and np.all(np.isfinite(theirs))):
+        if scale <= ROUNDING * largest[unit] or not (np.all(np.isfinite(mine)) and np.all(np.isfinite(theirs))):
             continue
         if unit == "1" and np.array_equal(theirs, np.round(theirs)):
             continue
