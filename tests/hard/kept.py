@@ -25,8 +25,12 @@ class Kept:
 
     def get(self, row: Row) -> Attempt | None:
         """The attempt at a row as it is now."""
-        found = self._lines.get((row.case.name, row.engine, row.treatment))
+        found = self.last(row)
         return found if found is not None and found.version == version(row) else None
+
+    def last(self, row: Row) -> Attempt | None:
+        """The last attempt at a row, whatever has changed since."""
+        return self._lines.get((row.case.name, row.engine, row.treatment))
 
     def put(self, attempt: Attempt) -> None:
         """Add a line at once."""

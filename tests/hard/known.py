@@ -35,7 +35,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("steep falling curve, tustin *", "stepping", "hold", MIDPOINT),
     ("steep falling curve, stribeck over 1e-07 m/s", "stepping", "hold", MIDPOINT),
     ("mirrored blocks stay mirrored, falling curve", "stepping", "hold", MIDPOINT),
-    ("time constants from 1e 7 to 1e3 seconds", "stepping", "hold", MIDPOINT),
+    ("time constants over ten decades", "stepping", "hold", MIDPOINT),
     ("steep falling curve, tustin over 1e-07 m/s", "rodas*", "hold", DWELL),
     ("steep falling curve, tustin over 1e-0[57] m/s", "ida", "[hb]*", CAUSE),
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),

@@ -10,7 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from tests.hard.attempt import Attempt
-from tests.hard.registry import ENGINES, TREATMENTS, Case, Row
+from tests.hard.registry import ENGINES, TREATMENTS, Row
 
 Done = Sequence[tuple[Row, Attempt]]
 MARKS = {"ok": "ok", "stopped": "**stopped**", "wrong": "**wrong**", "stuck": "**stuck**", "crashed": "**crashed**"}
@@ -82,44 +82,42 @@ def _failures(done: Done) -> str:
 
 
 def _cases(done: Done) -> str:
-    lines = [
-        "## The cases",
-        "",
-        "Times are wall times of a row, set-up and oracle included; closure is the worst of its runs.",
-        "",
-    ]
-    theme = ""
-    for case in dict.fromkeys(row.case.name for row, _ in done):
-        mine = [(row, one) for row, one in done if row.case.name == case]
-        first = mine[0][0].case
-        if first.theme != theme:
-            theme = first.theme
-            lines += [f"### {theme.replace('_', ' ').capitalize()}", ""]
-        lines += _case(first, [one for _, one in mine])
+    told = "Cells: verdict (*ok* on the engine of `auto`), wall time of it all, switches, worst energy closure."
+    lines = ["## The cases", "", told, ""]
+    themes: dict[str, dict[str, list[tuple[Row, Attempt]]]] = {}
+    for row, one in done:
+        themes.setdefault(row.case.theme, {}).setdefault(row.case.title, []).append((row, one))
+    for theme, titles in themes.items():
+        lines += [f"### {theme.replace('_', ' ').capitalize()}", ""]
+        for title, mine in titles.items():
+            lines += _titled(title, mine)
     return "\n".join(lines)
 
 
-def _case(case: Case, attempts: list[Attempt]) -> list[str]:
-    words = list(dict.fromkeys(one.treatment for one in attempts))
-    lines = [f"**{case.name}.** {case.what}", f"*Oracle:* {case.oracle}", "",
-             _line("engine", *words), _line(*["---"] * (len(words) + 1))]  # fmt: skip
-    for engine in dict.fromkeys(one.engine for one in attempts):
-        cells = {one.treatment: _cell(one) for one in attempts if one.engine == engine}
-        lines.append(_line(f"`{engine}`", *(cells.get(word, "-") for word in words)))
+def _titled(title: str, mine: Done) -> list[str]:
+    """A case with all its variants: what it is, its oracle, and how each engine fared."""
+    first = mine[0][0].case
+    words = list(dict.fromkeys(row.treatment for row, _ in mine))
+    lines = [f"**{title.capitalize()}.** {first.what}", f"*Oracle:* {first.oracle}", "",
+             _line("variant", "engine", *words), _line(*["---"] * (len(words) + 2))]  # fmt: skip
+    for name, engine in dict.fromkeys((row.case.name, row.engine) for row, _ in mine):
+        cells = {one.treatment: _cell(one) for _, one in mine if (one.case, one.engine) == (name, engine)}
+        variant = name.removeprefix(title).removeprefix(", ")
+        lines.append(_line(variant, f"`{engine}`", *(cells.get(word, "-") for word in words)))
     return [*lines, ""]
 
 
 def _cell(one: Attempt) -> str:
-    closure = "" if one.closure is None else f", closure {one.closure:.0e}"
-    auto = " (auto)" if one.auto else ""
-    return f"{MARKS[one.verdict]}{auto}, {one.seconds:.2g} s, {one.switches} switches{closure}"
+    verdict = MARKS[one.verdict] if not one.auto or one.verdict != "ok" else "*ok*"
+    closure = "" if one.closure is None else f", {one.closure:.0e}"
+    return f"{verdict}, {one.seconds:.2g} s, {one.switches}{closure}"
 
 
 def _made(done: Done, left: int) -> str:
     packages = ", ".join(f"{name} {version(name)}" for name in ("fairlead", "numpy", "numba", "scikit-sundae"))
     total = sum(one.seconds for _, one in done)
     today = datetime.date.today().isoformat()
-    played = f"{len(done)} rows, {total:.0f} s; {left} not played yet."
+    played = f"{len(done)} rows, {total:.0f} s; {left} to be played, for the first time or after a change."
     machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors ({today})."
     return f"{played} Python {platform.python_version()}, {packages}, {machine}\n"
 

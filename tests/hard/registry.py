@@ -54,6 +54,11 @@ class Case:
         self.function(play, **self.arguments)
 
     @property
+    def title(self) -> str:
+        """The name without the variant."""
+        return self.function.__name__.replace("_", " ")
+
+    @property
     def source(self) -> str:
         """What decides the outcome beside fairlead itself: the text of the file the case is in."""
         return _source(self.function.__module__)

@@ -40,8 +40,10 @@ def main(words: list[str] | None = None) -> int:
         for number, row in enumerate(sorted(chosen, key=lambda row: PRICES.index(row.case.cost)), 1):
             status.update(f"{number}/{len(chosen)} {row.name}")
             found = None if asked.again else kept.get(row)
-            if found is None and time.monotonic() > ends:
+            if found is None and (asked.write or time.monotonic() > ends):
                 left += 1
+                if old := kept.last(row):
+                    done.append((row, old))
                 continue
             if found is None:
                 found = Attempt(**{**worker.play(row).plain(), "version": version(row)})
@@ -51,7 +53,7 @@ def main(words: list[str] | None = None) -> int:
             done.append((row, found))
     except KeyboardInterrupt:
         console.print("Interrupted; what was played is kept, the next call goes on from here.")
-        left = len(chosen) - len(done)
+        left += len(chosen) - len(done)
     finally:
         worker.end()
         status.stop()
@@ -60,7 +62,7 @@ def main(words: list[str] | None = None) -> int:
         console.print(table(done))
     console.print(summary(done))
     if left:
-        console.print(f"{left} of {len(chosen)} rows are still to be played.")
+        console.print(f"{left} of {len(chosen)} rows are still to be played, for the first time or after a change.")
     if not asked.only:
         write(PAGE, done, left)
         console.print(f"Written to {PAGE.relative_to(ROOT)}.")
@@ -73,6 +75,7 @@ def _options() -> argparse.ArgumentParser:
     parser.add_argument("--only", action="append", metavar="WORDS", help=only)
     parser.add_argument("--budget", type=float, metavar="S", help="start no further row after so many seconds")
     parser.add_argument("--again", action="store_true", help="play rows again that are known")
+    parser.add_argument("--write", action="store_true", help="play nothing, write the page from the rows that are kept")
     parser.add_argument("--table", action="store_true", help="print every row, known ones too")
     parser.add_argument("--kept", type=Path, default=KEPT, help="where rows are kept")
     return parser

@@ -81,7 +81,7 @@ def stiff_core_in_a_soft_hose(play: Play, ratio: float) -> None:
 
 
 @case()
-def time_constants_from_1e_7_to_1e3_seconds(play: Play) -> None:
+def time_constants_over_ten_decades(play: Play) -> None:
     """Masses on dampers whose speeds decay with time constants from 1e-7 to 1e3 s, and a block that stops by friction.
 
     Oracle: v = exp(-t/tau) for every one of them, 1 - t for the block; 2000 s.
