@@ -153,10 +153,10 @@ class _Runner:
         """The scene with settings; laws that are compiled for the first time on this machine are not counted."""
         begun = time.perf_counter()
         model = self.load(on_grid(settings, self.span))
-        fresh = {block.kernel for block in model.system.blocks if not block.kernel.native.cached}
-        if not {kernel.variant for kernel in fresh} <= self.compiled:
+        fresh = {block.kernel.variant for block in model.system.blocks if not block.kernel.native.cached}
+        if not fresh <= self.compiled:
             self.end += time.perf_counter() - begun
-            self.compiled |= {kernel.variant for kernel in fresh}
+            self.compiled |= fresh
         return model
 
     def run(self, settings: Any, cap: float, made: Any = None) -> Timed:
