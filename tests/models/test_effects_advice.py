@@ -112,6 +112,19 @@ def test_a_component_with_a_word_of_its_own_is_switched_too(lagging):
     assert dict(lag.settings) == {"effects.lag": "on", "gauge.effects.lag": "on"}
 
 
+def test_laws_that_are_compiled_on_the_way_are_not_counted(lagging):
+    """As in the first study on a machine, where nothing comes from the cache."""
+    load = lagging("0.05 s")
+
+    def compiling(more):
+        model = load(more)
+        for block in model.system.blocks:
+            object.__setattr__(block.kernel.native, "cached", False)
+        return model
+
+    assert the(effects(compiling), "lag off").change > 0
+
+
 def test_a_switch_that_changes_no_equation_is_told_and_not_run():
     """Coulomb friction without exponents has no term for load and temperature, whatever is on."""
     found = effects(lambda more: fairlead.load("belt", set={"run.stop": "1 s", **more}))
