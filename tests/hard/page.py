@@ -117,7 +117,7 @@ def _made(done: Done, left: int) -> str:
     packages = ", ".join(f"{name} {version(name)}" for name in ("fairlead", "numpy", "numba", "scikit-sundae"))
     total = sum(one.seconds for _, one in done)
     today = datetime.date.today().isoformat()
-    played = f"{len(done)} rows, {total:.0f} s; {left} to be played, for the first time or after a change."
+    played = f"{len(done)} rows, {total:.0f} s; {left} of all wait to be played again after a later change of fairlead."
     machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors ({today})."
     return f"{played} Python {platform.python_version()}, {packages}, {machine}\n"
 

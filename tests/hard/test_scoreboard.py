@@ -31,7 +31,7 @@ def test_the_page_shows_a_failure_with_its_reason_and_counts_it(tmp_path):
     assert "| `auto` | 0 of 1 (1 wrong) |" in text
     assert f"| {ROW.case.name} | {ROW.engine} | {ROW.treatment} | auto | **wrong** | x is 1, must be 2 |" in text
     assert ROW.case.oracle in text
-    assert "3 to be played" in text
+    assert "3 of all wait" in text
 
 
 def test_every_known_failure_is_that_of_a_row():
