@@ -76,6 +76,7 @@ def begin_settling(m):
     m.one_by_one = 0
     m.stage, m.stage_from, m.fewest, m.waited = ALL, 0, m.n_guards + 1, 0
     m.look = 0.0
+    m.nearness = 1.0
     copy(indices(m.at_zones, m.n_zones), indices(m.at_zones_history, m.n_zones))
 
 
@@ -122,6 +123,7 @@ def next_stage(m):
     m.stage_from = m.passes
     if LEAST_INDEX < m.stage <= LEAST_INDEX + LOOKS:
         m.look *= NEARER
+        m.nearness *= NEARER
 
 
 @compiled
@@ -152,12 +154,14 @@ def choose(m):
 
 @compiled
 def all_at_limits(m):
-    """True if every violator is within its tolerance, and still is a little later: either of its zones will do."""
+    """True if every violator is within its tolerance, there and as far ahead as was looked first: any zone will do."""
     g, tolerance = reals(m.at_g, m.n_guards), reals(m.at_guard_tolerance, m.n_guards)
     probe, fired = reals(m.at_g_probe, m.n_guards), indices(m.at_fired, m.n_guards)
     within = True
     for k in range(m.n_fired):
-        within = within and g[fired[k]] <= tolerance[fired[k]] and probe[fired[k]] <= tolerance[fired[k]]
+        i = fired[k]
+        ahead = g[i] + (probe[i] - g[i]) / m.nearness
+        within = within and g[i] <= tolerance[i] and ahead <= tolerance[i]
     return within
 
 
