@@ -2,8 +2,9 @@
 
 The error of an engine at accuracy 1e-4 is estimated by itself, as the distance to its result at 1e-6. Then
 
-    |A - B| at 1e-4  is at most the sum of both estimates (and a tenth: the estimates have errors of their own)
-    |A - B| at 1e-6  is at most a fifth of it: both go to the same solution, of order one in the accuracy or better
+    |A - B| at 1e-6  is at most a fifth of the sum of both estimates: both go to the same solution, of order one in the
+                     accuracy or better; or it is below the weight of a position there, and less was never asked for
+    |A - B| at 1e-4  is at most that sum over 1 - 1/5, for the estimates leave out the error at 1e-6
 
 Compared are all positions at 51 times.
 """
@@ -19,6 +20,7 @@ from fairlead.integrate import Run, integrate
 from fairlead.system.compile import compile
 
 LOOSE, TIGHT = 1e-4, 1e-6
+FALL, POSITION = 1 / 5, 1e-2  # of errors from LOOSE to TIGHT; m, the size a position's accuracy refers to
 MODELS = sorted(path.stem for path in Path(fairlead.models.__file__).parent.glob("*.yaml"))
 SPAN = {"belt": 5.0, "block_and_spring": 4.0, "sandwich": 2.0, "hundred_blocks": 0.5, "single_bend": 2.0,
         "guidance_route": 0.1, "guidance_route_ideal": 0.1, "guidance_route_electric": 0.1,
@@ -58,5 +60,5 @@ def test_rodas_and_ida_agree_within_their_error_estimates(name):
     model, span = fairlead.load(name), SPAN.get(name, SHORT)
     found = {(e, a): positions(model, span, e, a) for e in ("rodas", "ida") for a in (LOOSE, TIGHT)}
     estimates = sum(np.abs(found[engine, LOOSE] - found[engine, TIGHT]).max() for engine in ("rodas", "ida"))
-    assert np.abs(found["rodas", LOOSE] - found["ida", LOOSE]).max() <= 1.1 * estimates
-    assert np.abs(found["rodas", TIGHT] - found["ida", TIGHT]).max() <= 0.2 * estimates
+    assert np.abs(found["rodas", LOOSE] - found["ida", LOOSE]).max() <= estimates / (1 - FALL)
+    assert np.abs(found["rodas", TIGHT] - found["ida", TIGHT]).max() <= max(FALL * estimates, TIGHT * POSITION)
