@@ -41,7 +41,8 @@ whole run, of the core in the route.
 
 {table}
 
-Times are CPU seconds on a machine shared with others (commits {commits}). The energy ledger closes to {closure:.0e}
+Times are CPU seconds on a machine shared with others (commits {commits}). The
+energy ledger closes to {closure:.0e}
 of what was supplied or better in all.
 """
 

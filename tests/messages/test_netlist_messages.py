@@ -53,6 +53,8 @@ SEEDED = [
     ("name: belt", "name: 12", "belt.yaml:2:7: name = 12 is not a text\n    Put it in quotes"),
     ("name: belt", "name: [a]", "belt.yaml:2:7: name = a list of 1 is not a text"),
     ("name: belt", "name: belt\nname: strap", "belt.yaml:3:1: name is given twice\n    It stands at belt.yaml:2:1"),
+    ("name: belt", 'name: "../up"', "belt.yaml:2:7: name: ../up is no name for a scene\n    Results go to a folder of that"),
+    ("name: belt", 'name: "[red]x"', "belt.yaml:2:7: name: [red]x is no name for a scene"),
     ("  wall:", "  pad:", "belt.yaml:11:3: pad is given twice\n    It stands at belt.yaml:10:3 already."),
     ("100 N/m", "100 N/m\n    stiffness: 3", "belt.yaml:10:5: stiffness is given twice"),
     ("type: Spring", "tpye: Spring", "belt.yaml:7:3: spring.type is missing\n    Is tpye a misspelling of it?"),

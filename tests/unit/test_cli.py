@@ -288,3 +288,13 @@ def test_every_error_of_ours_has_an_exit_code_of_the_documented_ones() -> None:
         return {kind}.union(*(family(child) for child in kind.__subclasses__()))
 
     assert {kind.exit_code for kind in family(FairleadError)} <= {1, 2, 3, 4, 5}
+
+
+@pytest.mark.parametrize(
+    ("closure", "warned"), [(None, False), (1e-9, False), (0.09, False), (0.9, True), (float("nan"), True)]
+)
+def test_a_run_whose_energy_does_not_add_up_is_not_called_well(capsys, closure, warned):
+    from fairlead.cli.run import _say_what_went_wrong
+
+    _say_what_went_wrong({"status": "finished", "energy": {"closure": closure}})
+    assert ("do not trust this run" in capsys.readouterr().err) == warned

@@ -91,6 +91,7 @@ def test_compare_prints_a_table(answer):
     assert "treatment" in said.output
     assert "error against hold at accuracy 1e-07" in said.output
     assert answer("compare", "block_and_spring", "--vary", "pad.method=hold,,tanh").exit_code == 2
+    assert answer("compare", "block_and_spring", "--vary", "pad.method=nonsense,none", "--json").exit_code == 1
 
 
 def test_a_new_law_is_short_keeps_the_contract_unedited_and_runs(answer, tmp_path):

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+LARGEST = 700.0  # of what a float can be, e to that
 SHORT = 1e-12  # of an exponent: below it the tension changes along a straight line
 
 
@@ -82,6 +83,8 @@ def _linear(tension: float, rate: float, straight: float, run: float) -> float:
     """Solution of dT/ds = rate T + straight."""
     if abs(rate * run) < SHORT:
         return tension + straight * run
+    if rate * run > LARGEST:  # a line that nothing could haul
+        return math.copysign(math.inf, tension + straight / rate)
     return tension * math.exp(rate * run) + straight * math.expm1(rate * run) / rate
 
 

@@ -12,6 +12,9 @@ from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Ve
 if TYPE_CHECKING:
     from fairlead.analysis.compare import Comparison, Row
 
+MODEL_ERROR = 1
+"""How the process ends when no treatment could be started."""
+
 
 def compare(
     netlist: Netlist,
@@ -48,6 +51,8 @@ def compare(
     elif not quiet:
         _print(found)
         typer.echo(f"wrote {figure}")
+    if all(row.status == "not started" for row in found.rows):
+        raise typer.Exit(MODEL_ERROR)
 
 
 def parse_variations(texts: list[str]) -> dict[str, list[str]]:

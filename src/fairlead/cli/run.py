@@ -15,6 +15,8 @@ EXIT_CODES = {"finished": 0, "interrupted": 130, "budget": 4}
 """How the status in run.json ends the process; any other status is a numerical failure."""
 NUMERICAL_FAILURE = 3
 LIMIT_BROKEN = 5
+OPEN = 0.1
+"""An energy ledger that misses more than this share of what passed is not that of a run to be trusted."""
 
 
 def run(
@@ -116,5 +118,11 @@ def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
         typer.echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
     if chattering := outcome.get("chattering"):
         typer.echo(f"warning: toggled faster than their dwell: {', '.join(chattering)}", err=True)
+    closure = (outcome.get("energy") or {}).get("closure")
+    if outcome["status"] == "finished" and closure is not None and not closure <= OPEN:
+        typer.echo(
+            f"warning: the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this "
+            "run. Ask for a finer accuracy, or look for a number far from all others.", err=True,
+        )  # fmt: skip
     for broken in outcome.get("limits_broken") or ():
         typer.echo(f"limit broken: {broken}", err=True)

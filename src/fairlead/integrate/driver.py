@@ -65,6 +65,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
                 again = int(memory.number["factorisations"]) <= replanned_at + 1
                 if again or not replan(memory, problem):
                     status = Status.SINGULAR
+                    flush(memory, run, take)
                 replanned_at = int(memory.number["factorisations"])
             elif status == Status.PAUSED:
                 attempts = next_attempts(attempts, spent)

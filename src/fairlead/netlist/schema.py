@@ -12,6 +12,8 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstr
 from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
 
 Scalar = bool | int | float | str
+# The results of a run go to a folder of the scene's name, so it is one on every system and leads nowhere else.
+SceneName = Annotated[str, StringConstraints(pattern=r"^(\w[\w +.-]*)?$", max_length=80)]
 ComponentName = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
 PortPath = Annotated[
     str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*(\[\d+\])?(\.\w+(\[\d+\])?)+$", max_length=200)
@@ -40,8 +42,8 @@ class Part(Strict):
 
     version: Literal[1] = Field(alias="schema")
     """Version of the netlist format: 1."""
-    name: str = ""
-    """Name of the scene; the file's name when left out."""
+    name: SceneName = ""
+    """Name of the scene, letters, digits and " _+-." in it; the file's name when left out."""
     description: str = ""
     """What the scene shows, and where it comes from."""
     include: list[str] = []

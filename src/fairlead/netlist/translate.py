@@ -88,6 +88,11 @@ def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: 
         what = f"{subject} is {given}; at least {error['ctx']['min_length']} needed"
         joins = "A connection joins two or more ports: [spring.a, ground.flange]."
         return Fault(value.where, what, joins if error["loc"][0] == "connections" else "")
+    if error["type"] in ("string_pattern_mismatch", "string_too_long") and error["loc"][0] == "name":
+        return Fault(
+            value.where, f"name: {given} is no name for a scene",
+            "Results go to a folder of that name: up to 80 letters, digits, spaces and _ + - . in it.",
+        )  # fmt: skip
     if error["type"] in ("string_pattern_mismatch", "string_too_long") and error["loc"][0] == "connections":
         return Fault(
             value.where, f"{given} is not a port", "A port is written component.port, as in spring.a."
