@@ -349,3 +349,13 @@ def test_a_speed_that_is_none_is_a_usage_error(speed):
 def test_the_table_of_a_weak_clamp_says_what_check_says():
     answer = CliRunner().invoke(app, ["statics", "weak_clamp"])
     assert "its belts hold 270 N" in answer.output
+
+
+def test_the_torque_of_a_winch_that_a_given_force_turns_is_that_force_times_its_radius():
+    """Speeding up the drum takes a part of it: the line feels less, the shaft gives all the same."""
+    model = fairlead.load("guidance_route_ideal")
+    (found,) = model.statics()
+    drives = [drive for state in (*found.moving, *found.starts) for drive in state.drives]
+    torques = [drive.torque for drive in drives if drive.name == "winch"]
+    assert len(torques) > 1
+    assert torques == pytest.approx([-200 * 0.65] * len(torques), rel=1e-9)

@@ -244,7 +244,7 @@ def _end_drives(state: State) -> Iterator[Drive]:
         if made.drives or made.efforts or made.tension is not None:
             arm = route.radius(state.way) if made is route.inboard and winch else None
             stored = route.stored(state.way) if made is route.inboard else 0.0
-            heavy = route.inertia(made, state.way) + route.mass * stored if made.drives or made.paced else 0.0
+            heavy = route.inertia(made, state.way) + route.mass * stored
             yield Drive(name, force, state.speed, None, arm, heavy * state.acceleration)
 
 
