@@ -8,7 +8,7 @@ from fairlead.components.friction.curve import Curve
 from fairlead.components.line.core_element import Core
 from fairlead.components.line.hose_element import Hose
 from fairlead.components.line.laid_line import LaidLine
-from fairlead.components.line.mesh import bulkheads, cut
+from fairlead.components.line.mesh import bulkheads, cut, too_fine
 from fairlead.components.line.meter import Meter
 from fairlead.components.line.registration import Registration
 from fairlead.components.line.relaxing_hose import RelaxingHose
@@ -94,6 +94,7 @@ class ArrayModule(Composite):
 
     def check(p):
         """An element is no longer than a module."""
+        yield from too_fine(p.length, p.element)
         if p.element > p.length / p.modules:
             whole = "the line" if p.modules == 1 else "a module"
             yield (

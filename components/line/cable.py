@@ -7,7 +7,7 @@ import math
 from fairlead.components.line.core_element import Core
 from fairlead.components.line.hose_element import Hose
 from fairlead.components.line.laid_line import LaidLine
-from fairlead.components.line.mesh import cut
+from fairlead.components.line.mesh import cut, too_fine
 from fairlead.components.line.meter import Meter
 from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
 from fairlead.components.line.torsion import TORSION, twisting
@@ -71,6 +71,7 @@ class Cable(Composite):
 
     def check(p):
         """An element is no longer than the line; only what can push can ruck."""
+        yield from too_fine(p.length, p.element)
         if p.element > p.length / p.modules:
             what = f"an element of {p.element:g} m is longer than the line of {p.length / p.modules:g} m"
             yield "element", what, "Make it shorter."

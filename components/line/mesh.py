@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from fairlead.components.route.window import Reach
 
 MOST_NODES = 200_000
+MOST_ELEMENTS = 20_000
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,16 @@ class Mesh:
     def neighbours(self, node: int) -> list[int]:
         """Elements that meet at a node, inboard first."""
         return [k for k in (node - 1, node) if 0 <= k < self.elements]
+
+
+def too_fine(length: float, element: float) -> Iterator[tuple[str, str, str]]:
+    """The mistake of elements so short that there are more than anybody can wait for."""
+    if length > MOST_ELEMENTS * element:
+        yield (
+            "element",
+            f"elements of {element:g} m make {length / element:.3g} of them in {length:g} m; at most {MOST_ELEMENTS}",
+            f"Make them at least {length / MOST_ELEMENTS:.2g} m.",
+        )
 
 
 def _tidy(length: float) -> float:

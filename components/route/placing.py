@@ -59,6 +59,9 @@ def names(stations: Iterable[Any]) -> list[str]:
         made.append(f"{word}_{seen[word]}" if word in many and station.name is None else word)
     return made
 
+MOST_TURNS = 6
+"""Turns of a line round one device; a capstan has three or four."""
+
 
 def misplaced(stations: Iterable[Any]) -> Iterator[tuple[str, str, str]]:
     """(parameter, what is wrong, way out) for names given twice, devices that overlap, and slits between them."""
@@ -67,6 +70,11 @@ def misplaced(stations: Iterable[Any]) -> Iterator[tuple[str, str, str]]:
         if count > 1:
             again = [one.number for one in placed if one.name == name][1]
             yield f"stations[{again}].name", f"{count} devices are called {name}", "Give each a name of its own."
+    for one in placed:
+        turns = getattr(one.station, "angle", 0.0) / (2 * math.pi)
+        if turns > MOST_TURNS:
+            what = f"{one.name} turns the line {turns:.3g} times round; {MOST_TURNS} are allowed"
+            yield f"stations[{one.number}].angle", what, "A bare number is in rad; write 90 deg for degrees."
     ordered = sorted(placed, key=lambda one: (one.begin, one.end))
     for before, after in itertools.pairwise(ordered):
         gap = after.begin - before.end

@@ -35,6 +35,18 @@ def test_devices_that_overlap(scene):
     assert "begin where it ends" in text
 
 
+def test_degrees_written_as_a_bare_number(scene):
+    text = told(scene, [BEND.replace("90 deg", "90")])
+    assert "stations[0].angle: bend turns the line 14.3 times round; 6 are allowed" in text
+    assert "A bare number is in rad; write 90 deg for degrees." in text
+
+
+def test_elements_that_nobody_can_wait_for(scene):
+    text = told(scene, [BEND], line="length: 20 m, element: 1 um, start: 1 m")
+    assert "rope.element: elements of 1e-06 m make 2e+07 of them in 20 m; at most 20000" in text
+    assert "Make them at least 0.001 m." in text
+
+
 def test_two_devices_of_one_name(scene):
     later = "{name: bend, type: Guide, start: 6 m, length: 1 m, friction: 0.3}"
     assert "2 devices are called bend" in told(scene, [BEND.replace("{", "{name: bend, "), later])
