@@ -12,6 +12,7 @@ from typing import Any
 from fairlead.components.route.window import Window
 
 TOUCHES = 1e-6  # m; ends that are this close are one place
+MOST_TURNS = 6  # of a line round one device; a capstan has three or four
 
 
 @dataclass(frozen=True)
@@ -58,9 +59,6 @@ def names(stations: Iterable[Any]) -> list[str]:
         seen[word] += 1
         made.append(f"{word}_{seen[word]}" if word in many and station.name is None else word)
     return made
-
-MOST_TURNS = 6
-"""Turns of a line round one device; a capstan has three or four."""
 
 
 def misplaced(stations: Iterable[Any]) -> Iterator[tuple[str, str, str]]:
