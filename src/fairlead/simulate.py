@@ -55,27 +55,26 @@ class Model:
 
     @functools.cached_property
     def assembly(self) -> Assembly:
-        """Component instances. Raises ModelError with the mistakes of this stage and those before."""
-        from fairlead.component.instantiate import instantiate
+        """Component instances. Raises ModelError with everything that `check` would tell."""
+        from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
-        from fairlead.errors import without_echoes
 
-        try:
-            assembly = instantiate(self.netlist, known_types(self.libraries))
-        except ModelError as error:
-            more = without_echoes(error.faults, self._faults)
-            raise ModelError(_in_order([*self._faults, *more])) from None
-        if self._faults:
-            raise ModelError(self._faults)
+        assembly, faults = instantiate(self.netlist, known_types(self.libraries))
+        if faults or self._faults:
+            self.check()
         return assembly
 
     @functools.cached_property
     def flat(self) -> FlatModel:
-        """Nodes, groups and links."""
+        """Nodes, groups and links. Raises ModelError with everything that `check` would tell."""
         from fairlead.analysis.start_profile import laid_under_statics
         from fairlead.flatten.flatten import flatten
 
-        return laid_under_statics(flatten(self.assembly))
+        try:
+            return laid_under_statics(flatten(self.assembly))
+        except ModelError:
+            self.check()
+            raise
 
     @functools.cached_property
     def system(self) -> System:

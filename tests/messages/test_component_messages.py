@@ -241,13 +241,68 @@ def test_mistakes_of_all_stages_are_told_at_once(tmp_path):
         "6:29: block.mass = 1 m is a length, not a mass.",
         "8:3: tie.b is connected to nothing.",
         "9:59: pad.curve.curve: there is no curve stribek. Did you mean stribeck?",
+        "12:30: pad.d: ",
         "13:13: other.flang: Mass has ports flange; outputs x, v. Did you mean other.flange?",
         "16:10: limits.other.y: no signal has this name.",
     ):
         assert f"scene.yaml:{mistake}" in said
     lines = [int(line.split(":")[1]) for line in said.splitlines() if not line.startswith("    ")]
     assert lines == sorted(lines)
-    assert len(lines) == 7
+    assert len(lines) == 8
+
+
+MISREAD = """
+components:
+  floor: {type: Ground}
+  block: {type: Mass, mass: -2 kg}
+  pad: {type: Contact, normal_force: -10 N, curve: 0.3}
+  spring: {type: Spring, stifness: 400 N/m}
+  hand: {type: MotionSource, velocity: 1 kg}
+  drum: {type: Inertia}
+  gear: {type: RigidLink, length: 1 kg}
+  rope: {type: Cable, length: 24 m, element: 0.15 m, mass: -0.8 kg/m, stiffness: 500 kN}
+  route: {type: Route, stations: [{type: Winch, radius: -0.4 m}, {type: Bend, start: 2 m, angle: 90 deg, radius: 1 m}]}
+connections:
+  - [floor.flange, pad.a]
+  - [pad.b, block.flange, spring.a]
+  - [spring.b, hand.flange]
+  - [gear.a, block.flange]
+  - [gear.b, drum.shaft]
+  - [rope.path, route.path]
+  - [rope.inbord, route.winch.rimm]
+run: {stop: 2 s}
+"""
+
+
+def test_a_mistake_in_a_parameter_does_not_hide_those_of_the_wiring(scene):
+    """What is joined is known although a number is not; and nothing is said of numbers that are not the user's."""
+    with pytest.raises(ModelError) as caught:
+        scene(MISREAD).check()
+    said = [fault.what for fault in caught.value.faults]
+    of_numbers = ("block.mass", "pad.normal_force", "spring.stifness", "hand.velocity", "drum.moment", "gear.length",
+                  "rope.mass", "route.stations[0].radius", "route.stations[1].friction")  # fmt: skip
+    of_wiring = ("rope.inbord: Cable has ports inboard", "route.winch.rimm: there is no component route.winch. Did you",
+                 "drum.shaft is a rotational port, gear.b a translational one")  # fmt: skip
+    for words in (*of_numbers, *of_wiring):
+        assert [what for what in said if what.startswith(words)], words
+    assert len(said) == len(of_numbers) + len(of_wiring)
+
+
+def test_a_run_is_refused_with_all_that_check_would_say(scene, tmp_path):
+    model = scene(MISREAD)
+    with pytest.raises(ModelError) as caught:
+        model.run(out=tmp_path / "run")
+    with pytest.raises(ModelError) as checked:
+        scene(MISREAD).check()
+    assert [fault.what for fault in caught.value.faults] == [fault.what for fault in checked.value.faults]
+
+
+def test_where_a_word_decides_what_ports_there_are_nobody_is_blamed_for_them(scene):
+    """Whether a winch has a rim depends on its layers, which cannot be read."""
+    text = MISREAD.replace("radius: -0.4 m", "radius: 0.4 m, layers: maybe").replace("rimm", "shaft")
+    with pytest.raises(ModelError) as caught:
+        scene(text).check()
+    assert not [fault.what for fault in caught.value.faults if "route.winch" in fault.what]
 
 
 def test_mistakes_of_the_netlist_and_of_the_components_are_told_together(tmp_path):

@@ -16,6 +16,7 @@ from fairlead.component.declare import PATH, SWITCH, Input, Output, Port
 from fairlead.component.friction_block import sound
 from fairlead.component.parameters import read
 from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, is_head
+from fairlead.component.stand_in import stand_in
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
@@ -80,6 +81,7 @@ class Assembly:
     aliases: dict[str, PortRef] = field(default_factory=dict)  # outer name of an output or port -> the inner one
     effects: dict[str, dict[str, str]] = field(default_factory=dict)  # component -> its effects, on or off
     broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
+    stand_ins: set[str] = field(default_factory=set)  # made with other values, for there are mistakes in their own
     excused: set[PortRef] = field(
         default_factory=set
     )  # ports joined to what could not be read: not open, if unconnected
@@ -122,7 +124,7 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
             near = did_you_mean(entry.type, types) or f"There are {listing(sorted(types), 30)}."
             what = f"{entry.name}: there is no component type {shown(entry.type)}. {near}"
             faults.append(Fault(entry.type_where, what, "--library adds types from a file of yours."))
-        found = _read(assembly.scene, kind, entry.parameters, entry.name, entry.where, faults) if kind else None
+        found = _read(assembly, kind, entry.parameters, entry.name, entry.where, faults) if kind else None
         if found is None:
             assembly.broken.add(entry.name)
         else:
@@ -135,8 +137,10 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
 
 
 def _read(
-    scene: Scene, kind: type[Declared], given: Mapping[str, Value], name: str, where: Location, faults: list[Fault]
-) -> Values | None:
+    assembly: Assembly, kind: type[Declared], given: Mapping[str, Value], name: str, where: Location,
+    faults: list[Fault],
+) -> Values | None:  # fmt: skip
+    scene = assembly.scene
     member = scene.member(kind, given)
     if is_head(member):
         key, words = member.key, list(member.members)
@@ -144,9 +148,13 @@ def _read(
         what = f"{name}.{key}: there is no {key} {shown(chosen.plain())}. {did_you_mean(str(chosen.plain()), words)}"
         faults.append(Fault(chosen.where, what.rstrip(), f"There are {listing(words)}."))
         return None
-    values, found = read(member, scene.complete(kind, given), name, where, scene.folder)
+    whole = scene.complete(kind, given)
+    values, found = read(member, whole, name, where, scene.folder)
     faults += found
-    return None if found else values
+    if not found:
+        return values
+    assembly.stand_ins.add(name)
+    return stand_in(member, {key: value.plain() for key, value in whole.items()}, scene.folder)
 
 
 def _expanded(assembly: Assembly, path: str, values: Values, where: Location) -> list[Fault]:

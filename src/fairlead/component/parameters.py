@@ -61,6 +61,11 @@ def read(
     return in_force(values), _contradictions(kind, values, raw, path, where)
 
 
+def validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Path) -> Values:
+    """Values from parameters as written, without their places. Raises pydantic's ValidationError."""
+    return in_force(_values(kind, model_of(kind).model_validate(plain, context={"folder": folder})))
+
+
 def make(kind: type[Declared], **given: Any) -> Values:
     """Values from numbers in SI and ready parts, tables and waves: for composites, tests and tools."""
     model = model_of(kind).model_validate(nested(kind, given), context={"folder": pathlib.Path()})

@@ -5,6 +5,8 @@ flat = flatten(assembly)       route -> wire -> group -> check
 
 from __future__ import annotations
 
+import re
+
 from fairlead.component.base import Family
 from fairlead.component.instantiate import Assembly, PortRef
 from fairlead.errors import Fault, Location, ModelError
@@ -37,12 +39,17 @@ def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
     faults += wrong
     node_of = {port: number for number, node in enumerate(nodes) for port in node.ports}
     groups, group_of, wrong = group(assembly, nodes, node_of)
-    faults += wrong
+    faults += [fault for fault in wrong if not _of_a_stand_in(assembly, fault)]
     instances = tuple(assembly.instances.values())
     flat = FlatModel(assembly, instances, tuple(nodes), tuple(groups), node_of, group_of, links)
     faults += _without_effect(flat) + _held_between_prescribed(flat) + _missing_inputs(flat)
     _start_sources(flat)
     return flat, sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what))
+
+
+def _of_a_stand_in(assembly: Assembly, fault: Fault) -> bool:
+    """True for what is said of lengths, ratios and starts of a component whose numbers are not the user's."""
+    return any(re.search(rf"\b{name}\b", fault.what) for name in assembly.stand_ins)
 
 
 def _without_effect(flat: FlatModel) -> list[Fault]:

@@ -97,7 +97,7 @@ def _other_unit(declared: dict[PortRef, Input | Output], output: PortRef) -> Por
 def _mixed(graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
     """Told where the two kinds meet."""
     edges = graph.subgraph(declared).edges
-    a, b = next((a, b) for a, b in edges if _kind(declared[a]) != _kind(declared[b]))
+    a, b = min(tuple(sorted(ends)) for ends in edges if len({_kind(declared[end]) for end in ends}) > 1)
     one, two, where = _kind(declared[a]), _kind(declared[b]), edges[a, b]["where"]
     if "signal" in (one, two):
         a, b, one = (b, a, two) if one == "signal" else (a, b, one)
