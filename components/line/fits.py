@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from fairlead.components.line.mesh import finest
-from fairlead.components.route.placing import Placed, slits
+from fairlead.components.route.placing import TOUCHES, Placed, slits
 
 from fairlead.errors import Fault, Location
 
@@ -25,6 +25,9 @@ def fits(assembly: Any, line: Any, laid: Any, route: Any) -> list[Fault]:
         where = _where(assembly, route, one)
         name = f"{route.path}.{one.name}"
         found += [Fault(where, f"{name}: {what}.", way) for what, way in _device(one, line, laid)]
+    for one in placed:
+        if one.station.type.word == "Winch":
+            found += [Fault(_start(assembly, laid), what, way) for what, way in _untouched(assembly, laid, route, one)]
     shortest, loops = finest(line.mesh), [one for one in placed if one.station.type.word == "Tensioner"]
     if len(loops) > 1:
         what = f"{route.path} has {len(loops)} tensioners; a line runs through one at most."
@@ -67,6 +70,33 @@ def _device(one: Placed, line: Any, laid: Any) -> Iterator[tuple[str, str]]:
         yield f"it is {extent:.3g} m long, shorter than its edge of {one.station.edge:.3g} m", "Use a shorter edge."
     if one.station.type.word == "Winch" and one.station.layers == "on":
         yield from _drum(one, p)
+
+
+def _untouched(assembly: Any, laid: Any, route: Any, winch: Placed) -> Iterator[tuple[str, str]]:
+    """A line that a winch does not hold, and nothing else does."""
+    p, drum = laid.values, f"{route.path}.{winch.name}"
+    begin, end = p.start, p.start + p.length
+    if begin > winch.end - TOUCHES and not _held_otherwise(assembly, laid, route):
+        away = f"begins {begin - winch.end:.3g} m outboard of" if begin > winch.end + TOUCHES else "only reaches"
+        yield (
+            f"{laid.path} {away} {drum}, and nothing else holds it: it lies from {begin:g} to {end:g} m, and what "
+            f"lies inboard of {winch.end:g} m is on the drum.",
+            f"Let it start below {winch.end:g} m by what is to be paid out, or leave out the winch and drive "
+            f"{laid.path}.inboard.",
+        )
+
+
+def _held_otherwise(assembly: Any, laid: Any, route: Any) -> bool:
+    """Whether something else moves the line: a connection at its inboard end, or a device that grips it."""
+    named = {end.text for ends in assembly.netlist.connections for end in ends}
+    return f"{laid.path}.inboard" in named or any(one.station.type.word == "Deployer" for one in route.line.placed)
+
+
+def _start(assembly: Any, laid: Any) -> Location:
+    """Where the netlist says where the line begins; the line itself when it does not."""
+    entry = assembly.netlist.components.get(laid.path)
+    start = entry.parameters.get("start") if entry is not None else None
+    return start.where if start is not None else laid.where
 
 
 def _drum(one: Placed, p: Any) -> Iterator[tuple[str, str]]:

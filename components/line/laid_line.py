@@ -20,6 +20,7 @@ from fairlead.components.mechanics.rigid_link import RigidLink
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.route.bearing_load import Told
 from fairlead.components.route.drum import StoredNode, WoundNode
+from fairlead.components.route.placing import Placed
 from fairlead.components.route.route_line import RouteLine, Surface
 from fairlead.components.route.tow import SeaDrag, TailEnd
 from fairlead.components.route.untouched import Untouched
@@ -68,7 +69,7 @@ class LaidLine:
             return faults
         add = _On(self, Laying(assembly, line), route.path, route.line)
         for i in range(self.mesh.elements + 1):
-            if f"{line.path}.{self.outer}[{i}]" not in add.to.prescribed:  # friction could not change a given motion
+            if PortRef(f"{line.path}.{self.outer}[{i}]", "flange") not in add.to.prescribed:  # friction changes nothing
                 add.node(i)
         add.ends()
         add.loops()
@@ -91,6 +92,8 @@ class _On:
         two = bool(self.line.inner) and i not in self.line.mesh.connectors
         bulkhead = (self.line.bulkheads or {}).get(i) if two else None
         surfaces = self.route.surfaces if self.line.values.device_friction == "on" else []
+        if i == 0 and any(self.given_by(drum) for drum in self.drums()):  # friction could not change its motion
+            surfaces = []
         squeezed = self.clamps(i, body, reach) if surfaces or bulkhead is not None else {}
         slots = [made for surface in surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
         if bulkhead is not None:
@@ -246,7 +249,7 @@ class _On:
             made, station = self.route.machinery[one.name], one.station
             given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
             name = f"stored_{body.partition('_')[0]}[{i}]" if self.line.inner else f"stored[{i}]"
-            if station.layers == "off" and i == 0 and self.line.values.start < one.end:
+            if i == 0 and one in self.drums():
                 self.fasten(body, f"{self.path}.{one.name}.{made.surface}")
                 continue
             if station.layers == "off":
@@ -257,6 +260,16 @@ class _On:
                 self.to.join_to(f"{stored}.drum", f"{self.path}.{one.name}.{made.surface}")
                 self.to.join_to(f"{stored}.radius", f"{self.path}.{one.name}.layers.radius_now")
             self.to.join(f"{stored}.node", f"{body}.flange")
+
+    def drums(self) -> list[Placed]:
+        """The drum that the inboard end of the line is fastened to, if it is."""
+        winches = self.route.of_type("Winch")
+        return [one for one in winches if one.station.layers == "off" and self.line.values.start < one.end]
+
+    def given_by(self, drum: Placed) -> bool:
+        """Whether the motion of a drum's rim is given."""
+        instance, _, port = f"{self.path}.{drum.name}.{self.route.machinery[drum.name].surface}".rpartition(".")
+        return PortRef(instance, port) in self.to.prescribed
 
     def fasten(self, body: str, rim: str) -> None:
         """The inboard end of a line that lies on the drum is fastened to it: one body, which holds all tension."""

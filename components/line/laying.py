@@ -86,12 +86,20 @@ class Laying:
         return float(self.assembly.instances[f"{self.line.path}.{name}"].values.mass)
 
     @functools.cached_property
-    def prescribed(self) -> set[str]:
-        """Paths of all instances that a motion source drives directly."""
-        instances = self.assembly.instances
-        driven = (
-            join.ports
-            for join in self.assembly.joins
-            if any(hasattr(instances[r.instance].type, "prescribes") for r in join.ports)
-        )
-        return {ref.instance for ports in driven for ref in ports}
+    def prescribed(self) -> set[PortRef]:
+        """Ports whose motion is given: those of motion sources, and what links, racks and gears tie to them."""
+        given, tied = [], [join.ports for join in self.assembly.joins]
+        for path, instance in self.assembly.instances.items():
+            given += [PortRef(path, port) for port in getattr(instance.type, "prescribes", dict)()]
+            ties = getattr(instance.type, "ties", None)
+            tied += [(PortRef(path, a), PortRef(path, b)) for a, b, *_ in (ties(instance.values) if ties else ())]
+        beside: dict[PortRef, list[tuple[PortRef, ...]]] = {}
+        for ports in tied:
+            for port in ports:
+                beside.setdefault(port, []).append(ports)
+        found = set(given)
+        while given:
+            more = {port for ports in beside.get(given.pop(), ()) for port in ports} - found
+            found |= more
+            given += more
+        return found

@@ -110,3 +110,64 @@ run: {stop: 1 s}
 def test_a_rope_that_cannot_push_cannot_ruck(scene):
     text = told(scene, [BEND], line="length: 20 m, element: 0.25 m, start: 1 m, ruck_force: 100 N")
     assert "rope.ruck_force: a line that cannot push cannot ruck" in text
+
+
+WINCH = """
+parameters: {start: -12 m}
+components:
+  rope: {type: Cable, length: 24 m, element: 0.25 m, start: "{start}", tension: 300 N, mass: 1 kg/m, stiffness: 500 kN}
+  route:
+    type: Route
+    stations:
+      - {type: Winch, radius: 0.4 m}
+      - {type: Bend, start: 2 m, angle: 90 deg, radius: 1 m, friction: 0.3}
+      - {name: wheel, type: Pulley, start: 5 m, angle: 45 deg, radius: 0.8 m, friction: 0.5}
+  drive: {type: MotionSource, velocity: {ramp: {to: -0.3 m/s, over: 1 s}}}
+  load: {type: ForceSource, force: 300 N}
+connections:
+  - [rope.path, route.path]
+  - [drive.flange, DRIVEN]
+  - [load.flange, rope.outboard]
+friction: {method: hold}
+run: {stop: 5 s}
+"""
+ON_THE_WINCH = WINCH.replace("DRIVEN", "route.winch.rim")
+
+
+@pytest.mark.parametrize(
+    ("start", "says", "way_out"),
+    [
+        (
+            "0.3 m",
+            "rope begins 0.3 m outboard of route.winch, and nothing else holds it: it lies from 0.3 to 24.3 m, and what lies "
+            "inboard of 0 m is on the drum",
+            "Let it start below 0 m by what is to be paid out",
+        ),
+        ("0 m", "rope only reaches route.winch, and nothing else holds it", "or leave out the winch and drive rope.inb"),
+    ],
+)
+def test_a_line_that_its_winch_does_not_hold_is_refused_by_check_and_run(scene, tmp_path, start, says, way_out):
+    check, run = (scene(ON_THE_WINCH, start=start) for _ in range(2))
+    for refused in (check.check, lambda: run.run(tmp_path / "no")):
+        with pytest.raises(ModelError) as caught:
+            refused()
+        (fault,) = caught.value.faults
+        assert fault.what.startswith(says)
+        assert way_out in fault.way_out
+
+
+def test_a_line_on_a_drum_of_given_speed_runs_with_exact_hold(scene, tmp_path):
+    """Its inboard end is fastened to the drum, so that a friction of its own would be between two given motions."""
+    model = scene(ON_THE_WINCH)
+    assert model.check() == []
+    result = model.run(out=tmp_path / "run", stop=1.0)
+    assert result.status == "finished"
+    assert not result.match("rope.outer[0].slip")
+
+
+@pytest.mark.parametrize("between", ["shaft: {type: Gear, ratio: 2}", "shaft: {type: Gear, ratio: 0.5}"])
+def test_so_it_does_when_the_speed_is_given_through_a_gear(scene, between):
+    through = ON_THE_WINCH.replace("  drive:", f"  {between}\n  pinion: {{type: Rack, radius: 1 m}}\n  drive:")
+    geared = "[drive.flange, pinion.rack]\n  - [pinion.pinion, shaft.a]\n  - [shaft.b, route.winch.shaft]"
+    through = through.replace("[drive.flange, route.winch.rim]", geared)
+    assert scene(through).check() == []

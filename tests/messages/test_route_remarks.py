@@ -174,3 +174,44 @@ run: {stop: 5 s}
     pull = 5000 * math.exp(0.3 * math.pi / 2)
     loaded = free * math.sqrt(1 - pull / (displacement * 178e5 * 30 / 0.65))
     assert f"reaches {free:.4g} without load, {loaded:.4g} with the {pull:.4g} N of route.winch." in found.what
+
+
+PAID_OUT = """
+components:
+  rope: {type: Cable, length: 24 m, element: 0.25 m, start: -12 m, tension: 300 N, mass: 0.8 kg/m, stiffness: 500 kN}
+  route: {type: Route, stations: [{type: Winch, radius: 0.4 m},
+          {type: Bend, start: 2 m, angle: 90 deg, radius: 1 m, friction: 0.3}]}
+  drive: {type: MotionSource, velocity: {trapezoid: {to: SPEED, start: 0 s, rise: 1 s, stay: 8 s, fall: 1 s}}}
+  load: {type: ForceSource, force: 300 N}
+connections:
+  - [rope.path, route.path]
+  - [drive.flange, END]
+  - [load.flange, rope.outboard]
+friction: {method: binding}
+run: {stop: 12 s}
+"""
+
+
+def test_a_line_of_which_more_is_paid_out_than_lies_on_the_drum(scene):
+    """A trapezoid of 10 s with 8 s at full speed pays out 9 s of it."""
+    text = PAID_OUT.replace("END", "route.winch.rim")
+    assert scene(text.replace("SPEED", f"{12 / 9 - 1e-3} m/s")).check() == []
+    found = remark(scene(text.replace("SPEED", "1.5 m/s")))
+    assert found.what.startswith("route.winch: 13.5 m are paid out by 10 s, and 12 m lie on the drum; the inboard end")
+    assert found.way_out == "Let rope start at -13.5 m or further inboard."
+    assert scene(text.replace("SPEED", "-1 m/s")).check() == []
+
+
+def test_a_line_that_something_else_holds_beside_a_winch(scene):
+    text = PAID_OUT.replace("END", "rope.inboard").replace("start: -12 m", "start: 0.3 m").replace("SPEED", "0.1 m/s")
+    found = remark(scene(text))
+    assert "rope begins at 0.3 m, and what lies inboard of 0 m is on route.winch: 0.3 m are missing" in found.what
+    assert found.where.line == 5  # that of the rope
+
+
+def test_a_line_that_never_comes_off_its_drum(scene):
+    text = PAID_OUT.replace("END", "route.winch.rim").replace("start: -12 m", "start: -30 m")
+    assert scene(text.replace("SPEED", "0.7 m/s")).check() == []
+    found = remark(scene(text.replace("SPEED", "0.6 m/s")))
+    assert "rope lies on route.winch with all its length, from -30 to -6 m: 6 m must be paid out before" in found.what
+    assert found.what.endswith("comes off, and 5.4 m are.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fairlead.analysis.laid_route import LaidRoute
+from fairlead.analysis.on_the_drum import off_the_drum
 from fairlead.analysis.slow_drives import slow_drives
 from fairlead.analysis.states import State
 from fairlead.analysis.statics import WANTED, Statics, statics
@@ -14,11 +15,11 @@ from fairlead.flatten.flat_model import FlatModel
 
 
 def remarks(flat: FlatModel) -> list[Fault]:
-    """Contacts that are too wide, clamps too weak, curves too tight for the tension, drives too slow."""
+    """Contacts too wide, clamps too weak, curves too tight for the tension, winches without line, drives too slow."""
     solved = statics(flat)
     found = list(too_wide(flat))
     for one in solved:
-        found += [*weak_clamps(one), *side_walls(one)]
+        found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route)]
     return [*found, *slow_drives(flat, solved)]
 
 
