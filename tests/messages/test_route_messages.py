@@ -139,11 +139,11 @@ ON_THE_WINCH = WINCH.replace("DRIVEN", "route.winch.rim")
     [
         (
             "0.3 m",
-            "rope begins 0.3 m outboard of route.winch, and nothing else holds it: it lies from 0.3 to 24.3 m, and what lies "
-            "inboard of 0 m is on the drum",
+            "rope begins 0.3 m outboard of route.winch, and nothing else holds it: it lies from 0.3 to 24.3 m, and "
+            "what lies inboard of 0 m is on the drum",
             "Let it start below 0 m by what is to be paid out",
         ),
-        ("0 m", "rope only reaches route.winch, and nothing else holds it", "or leave out the winch and drive rope.inb"),
+        ("0 m", "rope only reaches route.winch, and nothing else holds it", "or leave out the winch and drive"),
     ],
 )
 def test_a_line_that_its_winch_does_not_hold_is_refused_by_check_and_run(scene, tmp_path, start, says, way_out):

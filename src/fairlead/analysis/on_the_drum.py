@@ -1,4 +1,4 @@
-"""Whether a winch has the line it is to haul: told when the line begins outboard of it, stays on it, or comes off it."""
+"""Whether a winch has the line it is to haul: told when the line begins outboard, stays on it, or comes off."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def off_the_drum(route: LaidRoute) -> Iterator[Fault]:
     for one in listed if route.winch is None else ():
         what = (
             f"{name} begins at {p.start:g} m, and what lies inboard of {one.end:g} m is on "
-            f"{route.route.path}.{one.name}: {p.start - one.end:.3g} m are missing, so the winch does not hold it at the start."
+            f"{route.route.path}.{one.name}: {p.start - one.end:.3g} m are missing, so the winch does not hold it."
         )
         yield Fault(_start(route), what, f"Let it start below {one.end:g} m, or leave out the winch.")
     if route.winch is None:
