@@ -26,7 +26,8 @@ class Contact(Family, Component, abstract=True):
     """
 
     key = "method"
-    default_word = "binding"
+    default_word = "hold"
+    offered = ("binding",)
     a = Translational("the surface")
     b = Translational("the body that slips on it")
     curve = Part(Curve, "Coefficient of friction over slip speed.")

@@ -7,7 +7,7 @@ from fairlead.component import Law, Parameter, Zones, guard, hold, zone
 
 
 class Hold(Rigid):
-    """Set-valued friction, the reference for every other treatment.
+    """Set-valued friction: what a contact takes that names no method, and the reference for every other treatment.
 
     held:      slip = 0, T = whatever holds, |T| <= N mu_s
     forward:   T = +N mu(v) + viscous v          backward: T = -N mu(-v) + viscous v
@@ -15,8 +15,8 @@ class Hold(Rigid):
 
     Sliding ends when the slip reaches zero: the contact is then tried as held, and lets go again in
     the direction of its force if that is above the limit. Holding does not creep.
-    Limits: one algebraic unknown for every contact, and its force must have an answer: two held contacts side by
-    side, or one between two prescribed motions, leave it open. Every switch is located: many switches, many steps.
+    Limits: one algebraic unknown for every contact. What contacts side by side leave open they share with the least
+    sum of squares; one between two prescribed motions is refused. Every switch is located: many switches, many steps.
     Source: set-valued friction after Moreau (1988); stuck and sliding as zones with the stuck force as an unknown:
     Otter, Elmqvist, Mattsson (1999), as in the Modelica Standard Library.
     """

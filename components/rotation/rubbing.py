@@ -26,6 +26,7 @@ from fairlead.component import (
     Part,
     Rotational,
 )  # fmt: skip
+from fairlead.errors import Fault, ModelError
 
 METHODS = (
     "binding", "hold", "karnopp", "reset_integrator", "dahl", "lugre", "elastoplastic", "tanh", "arctan", "root",
@@ -77,8 +78,12 @@ class Rubbing(Composite, abstract=True):
 def rubbing(p, scene, other):
     """Expansion of a contact between the shaft `b` and, at `other`, a shaft `a` or the ground."""
     word = {} if p.method is None else {"method": p.method}
-    known = scene.member(Contact, word).declaration.parameters
-    creep = {} if p.creep is None or "creep" not in known else {"creep": p.creep}
+    member = scene.member(Contact, word)
+    creeps = "creep" in member.declaration.parameters
+    if p.creep is not None and not creeps and not word and "method" not in scene.friction:
+        what = f"creep: nobody chose a treatment of friction, and {member.word} does not creep."
+        raise ModelError([Fault(None, what, "Write method: binding beside it, or leave creep out.")])
+    creep = {"creep": p.creep} if p.creep is not None and creeps else {}
     children = {
         "contact": scene.make(Contact, curve=p.curve, **word, **creep),
         "pressing": scene.make(Pressing, faces=p.faces, normal_force=p.normal_force),

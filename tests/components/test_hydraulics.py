@@ -394,6 +394,7 @@ def test_a_cylinder_pulled_out_faster_than_oil_follows_leaves_a_void(simulate):
           - [tank_b.port, cylinder.b]
           - [wall.flange, cylinder.body]
           - [cylinder.rod, pull.flange]
+        friction: {method: binding}  # the seal lies between two given motions
         run: {stop: 4 s}
     """
     result = simulate(text)

@@ -211,7 +211,7 @@ STRUCTURAL = {
     "a contact between two prescribed motions": (
         scene(WALL, "belt: {type: MotionSource, velocity: 1 m/s}", PADS[0], "[wall.flange, one.a]", "[belt.flange, one.b]", friction="{method: hold}"),
         "scene.yaml:6:3: one lies between two prescribed motions (wall.flange and belt.flange); no law determines its force.\n"
-        "    Put a Mass and a Spring between, or use method: binding.",
+        "    Put a Mass and a Spring between, or write friction: {method: binding}.",
     ),
     "a contact with both sides on one rigid body": (
         scene(BLOCK, "link: {type: RigidLink}", PADS[0], "[block.flange, one.a, link.a]", "[link.b, one.b]", friction="{method: hold}"),

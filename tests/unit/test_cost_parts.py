@@ -6,8 +6,10 @@ import pytest
 import fairlead
 from fairlead.analysis.deviation import output_errors, switching
 from fairlead.analysis.kept_runs import KeptRuns, key_of
+from fairlead.analysis.ladder import Ladder, other_equations
 from fairlead.analysis.meshes import correspondence, meshes
 from fairlead.analysis.timed_run import Timed
+from fairlead.analysis.treatments import treatment
 from fairlead.errors import ModelError, UsageError
 from fairlead.netlist.settings_file import read_settings, write_settings
 
@@ -128,10 +130,34 @@ def test_another_netlist_setting_or_library_is_another_run(tmp_path):
 
 
 def test_settings_that_are_written_are_read_again(tmp_path):
-    settings = {"run.accuracy": "0.001", "run.engine": "rodas", "pad.normal_force": "12 N"}
+    settings = {"run.accuracy": "0.001", "run.engine": "rodas", "pad.normal_force": "12 N", "pad.creep": "null"}
     file = write_settings(tmp_path / "chosen.yaml", settings, "Made by hand.\nTwice.")
     assert read_settings(file) == settings
     assert fairlead.load("belt", set=read_settings(file)).netlist.run.accuracy == 1e-3
+
+
+CREEPING = """
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 1 kg}
+      pad: {type: Contact, normal_force: 10 N, curve: 0.4, method: binding, creep: 1 mm/s, form: literal}
+    connections: [[floor.flange, pad.a], [pad.b, block.flange]]
+    run: {stop: 1 s}
+"""
+
+
+def test_another_treatment_takes_away_what_a_contact_says_of_its_own(scene):
+    settings = treatment(scene(CREEPING), "hold")
+    assert settings == {"friction.method": "hold", "pad.method": "hold", "pad.creep": "null", "pad.form": "null"}
+    assert scene(CREEPING, **settings).check() == []
+    assert treatment(scene(CREEPING), "tanh")["pad.form"] == "null"
+    assert "pad.creep" not in treatment(scene(CREEPING), "tanh")
+
+
+def test_a_creep_asked_of_a_scene_that_holds_is_tried_with_binding():
+    (found,) = other_equations(fairlead.load("belt"), Ladder(treatments=(), creeps=(1e-3,)))
+    assert found.label == "binding, creep 1 mm/s"
+    assert found.settings == {"friction.method": "binding", "friction.creep": "0.001"}
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,8 @@ ENGINES = ("rodas", "stepping", "ida")
 ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5)
 CREEPS = (10.0, 0.1)  # times that of the scene
 FINER = (0.5, 2.0)  # elements of twice and of half the size; the finest is what the others are measured against
-USUAL_TREATMENTS = (EXACT, "binding")
+CREEPING = "binding"  # the treatment in which a creep is tried where the scene has none
+USUAL_TREATMENTS = (EXACT, CREEPING)
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,9 @@ def other_equations(model: Any, ladder: Ladder) -> list[Equations]:
     chosen = ladder.creeps
     if chosen is None:
         chosen = [factor * tolerated for factor in CREEPS] if tolerated and now != EXACT else []
-    found += [Equations(f"creep {1e3 * one:.3g} mm/s", creep(model, one), "creep") for one in chosen]
+    within = {} if tolerated else treatment(model, CREEPING)
+    label = "creep" if tolerated else f"{CREEPING}, creep"
+    found += [Equations(f"{label} {1e3 * one:.3g} mm/s", {**within, **creep(model, one)}, "creep") for one in chosen]
     return found
 
 

@@ -36,10 +36,16 @@ def creep_of(model: Any) -> float | None:
 
 
 def treatment(model: Any, word: str) -> dict[str, str]:
-    """Settings that give every contact this treatment."""
-    known = {word for one in contacts(model) for word in _head(one.type).members}
-    own = (path for path, value in _settings(model, "method") if value in known)
-    return {"friction.method": word, **dict.fromkeys(own, word)}
+    """Settings that give every contact this treatment, and take away what one says that has no place in it."""
+    members = {name: kind for one in contacts(model) for name, kind in _head(one.type).members.items()}
+    if word not in members:
+        return {"friction.method": word}
+    own = [path for path, value in _settings(model, "method") if value in members]
+    foreign = {name for kind in members.values() for name in kind.declaration.parameters}
+    foreign -= set(members[word].declaration.parameters)
+    heads = [path.rpartition(".")[0] for path in own]
+    lost = [path for name in sorted(foreign) for path, _ in _settings(model, name) if path.rpartition(".")[0] in heads]
+    return {"friction.method": word, **dict.fromkeys(own, word), **dict.fromkeys(lost, "null")}
 
 
 def creep(model: Any, value: float) -> dict[str, str]:

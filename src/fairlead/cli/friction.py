@@ -20,7 +20,7 @@ def friction(
     ],
     settings: Settings,
     libraries: Libraries,
-    method: Annotated[str, typer.Option(help="For a curve: the treatment.")] = "binding",
+    method: Annotated[str, typer.Option(help="For a curve: the treatment.")] = "hold",
     normal: Annotated[str, typer.Option(help="Normal force where the scene gives none.")] = "1 N",
     out: Annotated[pathlib.Path, typer.Option(metavar="DIR", help="Leave the figures here.")] = pathlib.Path("results"),
     as_json: AsJson = False,

@@ -117,6 +117,7 @@ class Family(Declared, abstract=True):
     key: ClassVar[str] = ""
     word: ClassVar[str] = ""
     default_word: ClassVar[str] = ""
+    offered: ClassVar[tuple[str, ...]] = ()  # words that messages name first
     bare: ClassVar[tuple[str, str] | None] = None  # (word, parameter)
     members: ClassVar[dict[str, type[Family]]]
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from fairlead.component.base import Declared, Family
+from fairlead.component.base import Component, Declared, Family
+from fairlead.component.mistakes import elsewhere
 from fairlead.component.parameters import read
 from fairlead.component.scene import Scene, is_head
 from fairlead.errors import Fault, did_you_mean, listing, shown
@@ -24,6 +25,28 @@ def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene,
         if not wrong:
             kept[name] = value
     return Scene(kept, netlist.effects, netlist.path.parent), list(dict.fromkeys(faults))
+
+
+def unheard(netlist: Netlist, kinds: Iterable[type[Declared]]) -> list[Fault]:
+    """Settings that no component of the scene takes, where nobody chose the treatment they were meant for.
+
+    Beside a `method`, be it of the scene or of one contact, they may stay, so that one word changes the treatment
+    and back.
+    """
+    kinds, friction = set(kinds), netlist.friction
+    chosen = {*friction, *(name for entry in netlist.components.values() for name in entry.parameters)}
+    contacts = [kind for kind in kinds if issubclass(kind, Component) and issubclass(kind, Family) and kind.key]
+    faults = []
+    for kind in contacts if not any(kind.key in chosen for kind in contacts) else ():
+        for name, value in friction.items():
+            words = elsewhere(kind, name)
+            if value.content is None or not words or any(name in other.declaration.parameters for other in kinds):
+                continue
+            what = f"friction.{name}: no contact of the scene takes it; it belongs to {kind.key} {listing(words)}."
+            way_out = f"Write friction: {{{kind.key}: {words[0]}, {name}: ...}}, or leave {name} out: where no "
+            way_out += f"{kind.key} is written it is {kind.default_word}."
+            faults.append(Fault(value.named_at, what, way_out))
+    return list(dict.fromkeys(faults))
 
 
 def _unknown(name: str, value: Value, known: set[str]) -> list[Fault]:

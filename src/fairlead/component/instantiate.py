@@ -163,7 +163,7 @@ def _expanded(assembly: Assembly, path: str, values: Values, where: Location) ->
         _place(assembly, path, values, where)
     except ModelError as error:
         assembly.broken.add(path)
-        return [Fault(fault.where or where, fault.what, fault.way_out) for fault in error.faults]
+        return [fault if fault.where else Fault(where, f"{path}.{fault.what}", fault.way_out) for fault in error.faults]
     return []
 
 

@@ -28,6 +28,7 @@ class Spot:
     declared: Any  # its declaration; None when there is none
     owner: str  # what it is a parameter of, in words
     siblings: Mapping[str, Any]  # the parameters beside it
+    member: Any = None  # the class they are parameters of, if it is one
 
 
 def explain(kind: type[Declared], details: list[Any], tree: Value, path: str) -> list[Fault]:
@@ -50,6 +51,17 @@ def owner_name(kind: type[Declared]) -> str:
     return f"{head.__name__} ({kind.key}: {kind.word})" if whole else f"{kind.key} {kind.word}"
 
 
+def elsewhere(kind: Any, name: str) -> list[str]:
+    """Words of the family, those offered first, whose members have a parameter that `kind` itself has not.
+
+    Only of a family that takes a word when none is written: there a user may not know which one it is.
+    """
+    if kind is None or not issubclass(kind, Family) or not kind.default_word or name in kind.declaration.parameters:
+        return []
+    words = [word for word, member in kind.members.items() if name in member.declaration.parameters]
+    return sorted(words, key=lambda word: (word not in kind.offered, word))
+
+
 def _meant(name: str, allowed: Mapping[str, Any]) -> str:
     return did_you_mean(name, allowed).removeprefix("Did you mean ").removesuffix("?")
 
@@ -60,13 +72,11 @@ def _spot(kind: type[Declared], loc: tuple[Any, ...], tree: Value, path: str, wh
     siblings: Mapping[str, Any] = kind.declaration.parameters
     declared: Any = None
     family: Any = None
+    member: Any = kind
     for number, step in enumerate(loc):
         if family is not None and step in family.members:  # the tag of a union, not a key of the netlist
-            owner, siblings, family = (
-                owner_name(family.members[step]),
-                family.members[step].declaration.parameters,
-                None,
-            )
+            member, family = family.members[step], None
+            owner, siblings = owner_name(member), member.declaration.parameters
             continue
         last = number == len(loc) - 1
         inner = _inside(node, step)
@@ -77,11 +87,11 @@ def _spot(kind: type[Declared], loc: tuple[Any, ...], tree: Value, path: str, wh
         if isinstance(step, str):
             declared = siblings.get(step)
             if isinstance(declared, Block) and not last:
-                owner, siblings = f"{step} of {owner}", declared.parameters
+                owner, siblings, member = f"{step} of {owner}", declared.parameters, None
         family = declared.family if isinstance(declared, Part | Stations) else None
         if family is not None and len(family.members) == 1 and not last:
-            owner, siblings = _only(family)
-    return Spot(node, names, declared, owner, siblings)
+            owner, siblings, member = *_only(family), None
+    return Spot(node, names, declared, owner, siblings, member)
 
 
 def _only(family: Any) -> tuple[str, Mapping[str, Any]]:
@@ -102,6 +112,10 @@ def _fault(detail: Any, spot: Spot) -> Fault:
     """One mistake in words."""
     name, context, node = str(detail["loc"][-1]), detail.get("ctx", {}), spot.node
     said = f"{spot.path} = {shown(node.plain())}"
+    if detail["type"] == "extra_forbidden" and (others := elsewhere(spot.member, name)):
+        key = spot.member.key
+        what = f"{spot.path}: {spot.owner} has no parameter {name}; it belongs to {key} {listing(others)}."
+        return Fault(node.named_at, what, f"Write {key}: {others[0]}, or leave {name} out.")
     if detail["type"] == "extra_forbidden":
         what = f"{spot.path}: {spot.owner} has no parameter {name}. {did_you_mean(name, spot.siblings)}"
         return Fault(node.named_at, what.rstrip(), f"It has {listing(spot.siblings)}." if spot.siblings else "")

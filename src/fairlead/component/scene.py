@@ -57,13 +57,23 @@ class Scene:
 
     def complete(self, kind: type[Declared], given: Mapping[str, Value]) -> dict[str, Value]:
         """What a netlist gives to a component, and what the scene says of it besides."""
-        whole = {**self.defaults(kind, given), **given}
+        whole = {**self.defaults(kind, given), **self._taken(kind, given)}
         switched, own = self.switched(kind, given), given.get("effects")
         if switched and (own is None or isinstance(own.content, dict)):
             where = own or next(iter(switched.values()))
             entries = {**switched, **(own.entries if own else {})}
             whole["effects"] = Value(entries, where.where, where.key_where)
         return whole
+
+    def _taken(self, kind: type[Declared], given: Mapping[str, Value]) -> dict[str, Value]:
+        """What is given, less the nulls that belong to other members of the family.
+
+        With them, who changes the method of a contact takes away what it says of its former one.
+        """
+        members = kind.members.values() if is_head(kind) else ()
+        others = {name for member in members for name in member.declaration.parameters}
+        others -= set(self.member(kind, given).declaration.parameters)
+        return {name: value for name, value in given.items() if value.content is not None or name not in others}
 
     def switched(self, kind: type[Declared], given: Mapping[str, Any]) -> dict[str, Value]:
         """Effects of `kind` that the scene switches; what is no switch is told elsewhere."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 
 from fairlead.component.base import Family
+from fairlead.component.friction_block import unheard
 from fairlead.component.instantiate import Assembly, PortRef
 from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.collection import collected_later
@@ -42,6 +43,8 @@ def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
     faults += [fault for fault in wrong if not _of_a_stand_in(assembly, fault)]
     instances = tuple(assembly.instances.values())
     flat = FlatModel(assembly, instances, tuple(nodes), tuple(groups), node_of, group_of, links)
+    if not faults and not assembly.broken:
+        faults += unheard(assembly.netlist, (instance.type for instance in instances))
     faults += _without_effect(flat) + _held_between_prescribed(flat) + _missing_inputs(flat)
     _start_sources(flat)
     return flat, sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what))
@@ -86,7 +89,7 @@ def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
         elif all(not side.free for side in sides):
             who = " and ".join(str(side.prescribed.by) for side in sides if side.prescribed)
             what = f"{instance.path} lies between two prescribed motions ({who}); no law determines its force."
-            other = ", or use method: binding" if issubclass(instance.type, Family) else ""
+            other = ", or write friction: {method: binding}" if issubclass(instance.type, Family) else ""
             faults.append(Fault(instance.where, what, f"Put a Mass and a Spring between{other}."))
     return faults
 

@@ -48,12 +48,12 @@ class RunSettings(Strict):
     """Time at which the run ends."""
     start: Seconds = 0.0
     """Time at which the run starts."""
-    accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-3
+    accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-4
     """Relative accuracy; sets the tolerances of all unknowns together."""
     engine: Literal["auto", "rodas", "stepping", "ida"] = "auto"
     """The engine. rodas locates every switch; stepping finds many stick-slip switches inside each step; ida is an
     independent check (BDF by SUNDIALS). auto is rodas, or stepping for 200 contacts and more that hold exactly
-    and laws that are linear between switches; run.json says which and why."""
+    with laws that are linear between switches and stiction not above sliding friction; run.json says which and why."""
     method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
     """The Rosenbrock method; auto takes rodas5p. rodas3p (order 3) serves loose accuracies with few switches."""
     max_step: Duration | None = None

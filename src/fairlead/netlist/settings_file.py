@@ -47,7 +47,7 @@ def read_settings(path: str | os.PathLike[str]) -> dict[str, str]:
         what = f"{shown(tree.plain())} is not a map of settings"
         faults.append(Fault(tree.where, what, "Write a name and a value in each line, such as run.accuracy: 1e-3."))
     for name, value in tree.entries.items() if tree is not None else ():
-        if isinstance(value.content, dict | list) or value.content is None:
+        if isinstance(value.content, dict | list):
             what = f"{name}: {shown(value.plain())} is not a value"
             faults.append(Fault(value.where, what, f"Write its path in one word, such as {name}.accuracy: 1e-3."))
         else:
@@ -67,4 +67,5 @@ def write_settings(path: str | os.PathLike[str], settings: Mapping[str, str], co
 
 
 def _text(content: object) -> str:
-    return str(content).lower() if isinstance(content, bool) else str(content)
+    """As it was written; null takes a setting of another treatment away."""
+    return "null" if content is None else str(content).lower() if isinstance(content, bool) else str(content)

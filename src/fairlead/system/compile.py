@@ -36,7 +36,7 @@ HOLD_TIME = 1e-3  # s; a held contact loses a slip left over from rounding with 
 
 
 @collected_later
-def compile(flat: FlatModel, accuracy: float = 1e-3) -> System:
+def compile(flat: FlatModel, accuracy: float = 1e-4) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
     kernels = _kernels(flat)
     structures = {path: made.structure for path, made in kernels.items()}
