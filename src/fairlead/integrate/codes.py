@@ -5,10 +5,10 @@ The statuses are those of protocol.Status, spelled out because compiled code kno
 
 from __future__ import annotations
 
-START, TRY, RECORD, ARRIVE, SETTLE = 0, 1, 2, 3, 4
+START, TRY, RECORD, ARRIVE, SETTLE, WAKE = 0, 1, 2, 3, 4, 5
 
 GO_ON = 100
 """Not a status of a run: the loop takes the next phase."""
-FINISHED, PAUSED, BUFFER_FULL, REPLAN = 0, -1, -2, -3
+FINISHED, PAUSED, BUFFER_FULL, REPLAN, NARROW, WIDEN = 0, -1, -2, -3, -4, -5
 STEP_FLOOR, NOT_FINITE, UNSETTLED, INCONSISTENT, SINGULAR_MATRIX = 1, 2, 3, 4, 5
 CHATTER, MAX_STEPS, MAX_EVENTS = 6, 7, 8

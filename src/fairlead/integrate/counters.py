@@ -22,6 +22,7 @@ COUNTS = (
     "settling_passes",
     "time_events",
     "replans",
+    "partial_steps",
 )
 """Counters kept by the compiled loop, in the order they lie in memory."""
 
@@ -50,6 +51,8 @@ class Counters:
     time_events: int
     replans: int
     """Fresh pivot orders computed because the planned one lost accuracy."""
+    partial_steps: int
+    """Steps in which only what moves was computed, see parts.py."""
     switches_by_machine: NDArray[np.int64]
     rejections_by_unknown: NDArray[np.int64]
     """How often each unknown had the largest error of a rejected step."""

@@ -13,9 +13,9 @@ from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
 from fairlead.integrate.neighbours import held_entries, neighbours, what_is_held
+from fairlead.integrate.parts import NEVER_LOOK, Scope
 from fairlead.integrate.protocol import (
     CALLBACKS,
-    EVENT,
     Block,
     Integers,
     OnBlock,
@@ -36,6 +36,8 @@ BLOCK_NUMBERS = 1 << 17
 LEAST_PASSES, PATTERN_NUMBERS = 100, 1 << 22
 """Passes that a settling may take in any case, and how many zones the patterns that it remembers may have together."""
 NEVER = 1e308
+SERVED = (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN, Status.NARROW, Status.WIDEN)
+"""Returns to Python after which the loop goes on."""
 REACTIONS = {"warn": 0, "hold": 1, "stop": 2}
 
 
@@ -48,37 +50,45 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     begun = time.perf_counter()
     tableau = TABLEAUS[run.method]
     check(problem, run)
-    memory = prepare(problem, run, tableau)
-    advance = loop_of(problem, run, memory)
+    scope = Scope(problem, lambda some: prepare(some, run, tableau), engine=run.engine)
+    advance = loop_of(problem, run, scope.memory)
     blocks: list[Block] = []
     take = on_block if on_block is not None else blocks.append
     status, inside, worked, attempts, replanned_at = Status.PAUSED, 0.0, 0.0, FIRST_ATTEMPTS, -1
     try:
-        while status in (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN):
+        while status in SERVED:
             entered, working = time.perf_counter(), time.process_time()
-            status = Status(advance(memory.address, attempts))
+            status = Status(advance(scope.memory.address, attempts))
             spent = time.perf_counter() - entered
-            inside, worked = inside + spent, worked + time.process_time() - working
+            if status == Status.WIDEN and scope.memory.number["woken"]:
+                scope.memory.number["rows"] -= 1  # the row after the switch; the whole settles there once more
             if status != Status.REPLAN:
-                flush(memory, run, take)
+                flush(scope, run, take)
             if status == Status.REPLAN:
-                again = int(memory.number["factorisations"]) <= replanned_at + 1
-                if again or not replan(memory, problem):
+                again = int(scope.memory.number["factorisations"]) <= replanned_at + 1
+                if again or not replan(scope.memory, scope.problem):
                     status = Status.SINGULAR
-                    flush(memory, run, take)
-                replanned_at = int(memory.number["factorisations"])
+                    flush(scope, run, take)
+                replanned_at = int(scope.memory.number["factorisations"])
+            elif status == Status.NARROW:
+                scope.look()
+            elif status == Status.WIDEN:
+                scope.wake()
             elif status == Status.PAUSED:
                 attempts = next_attempts(attempts, spent)
+            inside, worked = inside + time.perf_counter() - entered, worked + time.process_time() - working
             over = run.max_wall is not None and time.perf_counter() - begun > run.max_wall
-            if over and status in (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN):
+            if over and status in SERVED:
                 status = Status.MAX_WALL
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
-        flush(memory, run, take)
-    culprits = culprits_of(status, memory, problem)
+        flush(scope, run, take)
+    culprits = culprits_of(status, scope.memory, scope.problem)
+    sentence = sentence_of(status, scope.memory, scope.problem, run, culprits)
+    memory = scope.finish()
     return Outcome(
         status=status,
-        sentence=sentence_of(status, memory, problem, run, culprits),
+        sentence=sentence,
         t=float(memory.number["t"]),
         y=memory.array["y"].copy(),
         culprits=culprits,
@@ -175,6 +185,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     calls["call_drift"] = calls["call_drift"] or calls["call_slip"]
     write_numbers(memory, {**calls, "context": problem.context})
     memory.number["max_passes"] = passes_allowed(run, nz)
+    memory.number["narrow_at"] = NEVER_LOOK
     memory.number["weighs_guards"] = int(memory.array["guard_inertia"].any())
     memory.array["watched"][:] = watched(problem)
     memory.number["n_watched"] = int(memory.array["watched"].sum())
@@ -266,15 +277,13 @@ def write_numbers(memory: Memory, values: dict[str, float]) -> None:
         memory.number[name] = value
 
 
-def flush(memory: Memory, run: Run, take: OnBlock) -> None:
+def flush(scope: Scope, run: Run, take: OnBlock) -> None:
     """Hand over what the buffers hold and empty them."""
-    number, array = memory.number, memory.array
-    rows, count_events, n_outputs = int(number["rows"]), int(number["events"]), int(number["n_outputs"])
+    number, array = scope.memory.number, scope.memory.array
+    rows, n_outputs = int(number["rows"]), int(number["n_outputs"])
+    events = scope.events(int(number["events"]))
     number["rows"] = 0
     number["events"] = 0
-    events = np.empty(count_events, EVENT)
-    for name in EVENT.names or ():
-        events[name] = array[f"event_{name}"][:count_events]
     t = float(number["t"])
     take(
         Block(

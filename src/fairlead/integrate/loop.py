@@ -14,8 +14,8 @@
         SETTLE   switch zones until no guard fires; choose the next step; TRY
 
 The loop returns to Python with a status when a slice is used up, a buffer is full, the planned
-pivots fail, or the run ends, and goes on where it was when called again: `phase` and the struct
-hold all there is to know.
+pivots fail, a smaller part of the problem may do or no longer does (parts.py), or the run ends, and
+goes on where it was when called again: `phase` and the struct hold all there is to know.
 """
 
 from __future__ import annotations
@@ -26,13 +26,17 @@ from fairlead.integrate.codes import (
     BUFFER_FULL,
     FINISHED,
     GO_ON,
+    NARROW,
     PAUSED,
     RECORD,
     SETTLE,
     TRY,
+    WAKE,
+    WIDEN,
 )
 from fairlead.integrate.foreign import compiled, memory_at
 from fairlead.integrate.record import record_piece, there_is_room
+from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.trial import attempt
 
 
@@ -41,10 +45,9 @@ def advance(address, attempts):
     m = memory_at(address)
     while True:
         if m.phase == TRY:
-            if m.t >= m.stop:
-                return FINISHED
-            if not there_is_room(m):
-                return BUFFER_FULL
+            status = ready(m)
+            if status != GO_ON:
+                return status
             if attempts <= 0:
                 return PAUSED
             attempts -= 1
@@ -55,10 +58,33 @@ def advance(address, attempts):
             status = arrive(m)
         elif m.phase == SETTLE:
             status = settle_here(m)
+        elif m.phase == WAKE:
+            status = settle_anew(m)
         else:
             status = start(m)
         if status != GO_ON:
             return status
+
+
+@compiled
+def ready(m):
+    """GO_ON before a trial step, or what has to be done first."""
+    if m.woken == 1:
+        return WIDEN
+    if m.t >= m.stop:
+        return FINISHED
+    if not there_is_room(m):
+        return BUFFER_FULL
+    return NARROW if m.steps >= m.narrow_at else GO_ON
+
+
+@compiled
+def settle_anew(m):
+    """Settle all that there is at a point where only a part of it was."""
+    m.n_fired = 0
+    begin_settling(m)
+    m.phase = SETTLE
+    return GO_ON
 
 
 @compiled

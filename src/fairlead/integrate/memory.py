@@ -32,6 +32,9 @@ INTEGERS = (
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # the core of W: which matrix is factored there, and whether its factors are good
     "core_kind", "core_valid", "skip_meters",
+    # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
+    # part, whether its rim has changed
+    "narrow_at", "narrowed", "woken",
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
@@ -39,7 +42,7 @@ INTEGERS = (
     "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
-    "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans",
+    "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans", "partial_steps",
 )  # fmt: skip
 """Whole numbers of the struct; those beginning with call_ are addresses of C functions."""
 
@@ -99,7 +102,7 @@ INDICES = {
     "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_mass_column": "n_hold_mass",
     "hold_mass_partner": "n_hold_mass", "hold_slope": "n_hold_slope", "hold_slope_row": "n_hold_slope",
     "hold_share": "n_hold_share", "hold_share_row": "n_hold_share", "hold_share_column": "n_hold_share",
-    "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
+    "rim": "n_zones", "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",
     "row_side": "row_capacity",

@@ -31,6 +31,12 @@ nothing but its slope jumps, as between two pieces of a table; `rodas` steps a h
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
 that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time.
+And `narrowing`, which tells what moves and cuts it out as a problem of its own that records for all (parts.py):
+
+    possible                     whether that may be asked
+    moving(y, margin, most)      .kept [n], .machines; None if more than a share of `most` of the unknowns moves
+    part(t, y, that)             .problem, .unknowns, .machines, .guards (places in the whole), .rim (1 for machines
+                                 of the part whose change sets more in motion); or None
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
 no guards, no held contacts, no time events; outputs missing records y itself; rhs and slip stand in
@@ -201,6 +207,8 @@ class Status(IntEnum):
     PAUSED = -1
     BUFFER_FULL = -2
     REPLAN = -3
+    NARROW = -4
+    WIDEN = -5
     STEP_FLOOR = 1
     NOT_FINITE = 2
     NOT_SETTLED = 3

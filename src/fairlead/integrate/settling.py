@@ -171,7 +171,7 @@ def log_changes(m):
     nz, ng = m.n_zones, m.n_guards
     zones, before = indices(m.at_zones, nz), indices(m.at_zones_before, nz)
     machine, fired = indices(m.at_guard_machine, ng), indices(m.at_fired, ng)
-    by_machine = indices(m.at_switches_by_machine, nz)
+    by_machine, rim = indices(m.at_switches_by_machine, nz), indices(m.at_rim, nz)
     for k in range(m.n_fired):
         owner = machine[fired[k]]
         if owner < 0:
@@ -188,6 +188,8 @@ def log_changes(m):
             write_event(m, z, before[z], zones[z], guard)
             m.switches += 1
             by_machine[z] += 1
+            if m.narrowed == 1 and rim[z] == 1:
+                m.woken = 1
             watch_chatter(m, z)
 
 

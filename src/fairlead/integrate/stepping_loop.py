@@ -15,10 +15,9 @@ while point.t < stop:
 from __future__ import annotations
 
 from fairlead.integrate.arrival import arrive, settle_here, start
-from fairlead.integrate.codes import ARRIVE, BUFFER_FULL, FINISHED, GO_ON, PAUSED, RECORD, SETTLE, TRY
+from fairlead.integrate.codes import ARRIVE, BUFFER_FULL, GO_ON, PAUSED, RECORD, SETTLE, TRY, WAKE
 from fairlead.integrate.foreign import compiled, copy, indices, memory_at, reals
-from fairlead.integrate.loop import record
-from fairlead.integrate.record import there_is_room
+from fairlead.integrate.loop import ready, record, settle_anew
 from fairlead.integrate.settling import log_changes
 from fairlead.integrate.stepping_trial import attempt_stepping, begin_history, remember_slope
 
@@ -28,10 +27,9 @@ def advance_stepping(address, attempts):
     m = memory_at(address)
     while True:
         if m.phase == TRY:
-            if m.t >= m.stop:
-                return FINISHED
-            if not there_is_room(m):
-                return BUFFER_FULL
+            status = ready(m)
+            if status != GO_ON:
+                return status
             if attempts <= 0:
                 return PAUSED
             attempts -= 1
@@ -40,6 +38,8 @@ def advance_stepping(address, attempts):
             status = record(m)
         elif m.phase == ARRIVE:
             status = arrive_with_zones(m)
+        elif m.phase == WAKE:
+            status = settle_anew(m)
         elif m.phase == SETTLE:
             status = settle_here(m)
             if status == GO_ON and m.phase == TRY:

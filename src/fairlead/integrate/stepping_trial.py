@@ -24,6 +24,7 @@ from fairlead.integrate.codes import (
     SINGULAR_MATRIX,
     STEP_FLOOR,
     UNSETTLED,
+    WIDEN,
 )
 from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
@@ -74,6 +75,9 @@ def attempt_stepping(m):
         status = DONE
     if status != DONE:
         return repeat_shorter(m, h, status)
+    if m.narrowed == 1 and m.passes > 0 and rim_changed(m):
+        give_back_zones(m)
+        return WIDEN
     m.error = error_of_step(m, h)
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject_error(m, h)
@@ -91,6 +95,16 @@ def attempt_stepping(m):
     if m.h_next > 0.95 * h and m.h_next < KEEP_BELOW * h and m.adaptive == 1:
         m.h_next = h
     return GO_ON
+
+
+@compiled
+def rim_changed(m):
+    """True if the step changed a machine that keeps the rest of the problem at rest."""
+    zones, before = indices(m.at_zones, m.n_zones), indices(m.at_zones_at_start, m.n_zones)
+    rim, found = indices(m.at_rim, m.n_zones), False
+    for z in range(m.n_zones):
+        found = found or (rim[z] == 1 and zones[z] != before[z])
+    return found
 
 
 @compiled

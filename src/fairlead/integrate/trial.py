@@ -157,6 +157,7 @@ def not_finite_here(m, otherwise):
 def accept(m, h, crossed):
     """Set the piece of the trial that is accepted: up to the crossing, or to the end."""
     m.steps += 1
+    m.partial_steps += m.narrowed
     if m.adaptive == 1:
         m.h_next = step_after_acceptance(m, h)
         if h < m.h_wanted:

@@ -53,8 +53,9 @@ def evaluate(ctx, t, y):
     look(ctx, t, y)
     n, z, w, zones, tables = ctx[N], f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    rest = f8(ctx[F_REST])
     for i in range(0, n + ctx[N_REACTIONS] + 1):
-        w[i] = 0.0
+        w[i] = rest[i]
     for b in range(0, ctx[N_BLOCKS]):
         call_kernel(kernels[b], FLOWS, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
     if ctx[N_CIRCLES] > 0:
@@ -279,15 +280,17 @@ def outputs(ctx, t, y, out):
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], OUTPUT, block, 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)
+    rest, total = f8(ctx[RECORDED_REST]), ctx[N_RECORDED]
+    for k in range(0, total + 1):
+        out[k] = rest[k]
     for k in range(0, ctx[N_SELECTED]):
-        if selected[k] >= 0:
-            out[k] = everything[selected[k]]
-        if selected[k] < 0:
-            out[k] = z[-1 - selected[k]]
-    total = 0.0
+        place, source = selected[2 * k], selected[2 * k + 1]
+        if source >= 0:
+            out[place] = everything[source]
+        if source < 0:
+            out[place] = z[-1 - source]
     for k in range(0, ctx[N_STORED]):
-        total += everything[stored[k]]
-    out[ctx[N_SELECTED]] = total
+        out[total] += everything[stored[k]]
 
 
 SHARED = (

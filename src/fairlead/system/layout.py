@@ -2,7 +2,7 @@
 
 z, the vector every law reads from:
 
-    [ y (n) | signals (m) | reactions (r) | 0 | t | accelerations (n) | dump ]
+    [ y (n) | signals (m) | reactions (r) | 0 | t | accelerations (n) | dump | what rests ]
 
 w, the vector every law adds to:  [ rows of f (n) | reactions (r) | dump ].
 
@@ -59,7 +59,7 @@ N_MASS = 10
 N_MASS_PROGRAM = 11
 N_HOLDS = 12
 N_TIME = 13  # machines that follow time
-N_SELECTED = 14  # recorded outputs
+N_SELECTED = 14  # recorded outputs that are evaluated
 N_STORED = 15  # instances that state their stored energy
 T_AT = 16  # where in z the time lies
 ACCELERATION_AT = 17  # where in z the accelerations begin
@@ -91,7 +91,7 @@ GUARD_TO = 42  # int64 (., 3)          zone it leads to (-1: none), machine, ste
 GUARD_MACHINES = 43  # int64 (guards,)   first position in `zones` of the instance
 TIME_PLACE = 44  # int64 (time, 3)       position in zones, base in tables, pieces
 OUTPUTS_ALL = 45  # float64 (all,)
-SELECTED = 46  # int64 (selected,)     position in all outputs, or -1 - position in z
+SELECTED = 46  # int64 (selected, 2)   place in what is recorded; position in all outputs, or -1 - position in z
 STORED = 47  # int64 (stored,)       positions in all outputs
 N_SAMPLED = 48  # instances with sample times
 SAMPLED = 49  # int64 (sampled, 2)     block, instance
@@ -122,6 +122,9 @@ N_MOVING = 73  # places of work that the program adds to
 MOVING = 74  # int64 (moving,)       those
 MOVING_BASE = 75  # float64 (moving,)     what the fixed multiply-adds put there
 GUARDS_READ = 76  # 1 if a guard reads an acceleration or a reaction
-CONTEXT = 77
+F_REST = 77  # float64 (n + reactions + 1,)  what parts at rest that are left out add to w
+N_RECORDED = 78  # recorded outputs
+RECORDED_REST = 79  # float64 (recorded + 1,)  those of parts at rest, and their stored energy; zero elsewhere
+CONTEXT = 80
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

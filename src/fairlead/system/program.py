@@ -50,6 +50,7 @@ class Program:
     jacobian_at: int
     starts: Integers
     rows: Integers
+    timed: NDArray[np.bool_]  # equations that depend on time
 
     @property
     def moving(self) -> Integers:
@@ -95,11 +96,13 @@ def plan(
     coefs.append(part.coef)
     starts = np.searchsorted(keys // max(n, 1), np.arange(n + 1))
     every, coefs_of_all = np.concatenate(steps), np.concatenate(coefs)
+    depends = np.zeros(n, dtype=bool)
+    depends[equation[timed]] = True
     still = _still(every, length + len(keys) + n, is_fixed)
     return Program(
         np.ascontiguousarray(every[~still]), coefs_of_all[~still],
         np.ascontiguousarray(every[still]), coefs_of_all[still], length + len(keys) + n, length,
-        starts.astype(np.int64), (keys % max(n, 1)).astype(np.int64),
+        starts.astype(np.int64), (keys % max(n, 1)).astype(np.int64), depends,
     )  # fmt: skip
 
 

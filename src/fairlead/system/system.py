@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
-from fairlead.system.blocks import Block
+from fairlead.system.blocks import Block, Tables
 from fairlead.system.plain_python import CalledController
 from fairlead.system.unknowns import Numbering
 
@@ -44,10 +44,12 @@ class System:
     flat: FlatModel
     numbering: Numbering
     blocks: list[Block]
+    tables: Tables
     callbacks: dict[str, int]
     context: int
     initial: Floats
     pattern: Pattern
+    timed: NDArray[np.bool_]  # rows of f that depend on time
     mass_pattern: Pattern
     zones: Integers
     differential: NDArray[np.bool_]
@@ -71,6 +73,7 @@ class System:
     memory: dict[str, NDArray[Any]] = field(repr=False)
     recorded: list[OutputSignal] = field(default_factory=list)
     controllers: list[CalledController] = field(default_factory=list, repr=False)
+    narrowing: Any = field(default=None, repr=False)  # cuts out what moves, see narrowing.py; None for a part
 
     @property
     def n(self) -> int:
@@ -110,11 +113,17 @@ class System:
         names = {s.name for s in chosen}
         hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
         self.recorded = chosen + hidden
-        self.memory["selected"] = np.array([s.at for s in self.recorded], dtype=np.int64)
-        context = self.memory["context"]
-        context[layout.N_SELECTED] = len(self.recorded)
-        context[layout.SELECTED] = self.memory["selected"].ctypes.data
+        at = np.array([s.at for s in self.recorded], dtype=np.int64)
+        self.select(np.stack([np.arange(len(at)), at], axis=1), np.zeros(len(at) + 1))
         return chosen
+
+    def select(self, rows: Integers, rest: Floats) -> None:
+        """Record `rest` [n_outputs], with the outputs of `rows` (place, source) in it; see `layout.py`."""
+        self.memory["selected"], self.memory["recorded_rest"] = np.ascontiguousarray(rows), rest
+        context = self.memory["context"]
+        context[layout.N_SELECTED], context[layout.N_RECORDED] = len(rows), len(rest) - 1
+        context[layout.SELECTED] = self.memory["selected"].ctypes.data
+        context[layout.RECORDED_REST] = self.memory["recorded_rest"].ctypes.data
 
     def __str__(self) -> str:
         unknowns = self.numbering.unknowns

@@ -42,6 +42,7 @@ class Numbering:
     pairs: list[tuple[int, int]] = field(default_factory=list)
     signals: dict[PortRef, int] = field(default_factory=dict)  # output -> position among signals
     reactions: dict[int, int] = field(default_factory=dict)  # prescribed group -> position among reactions
+    resting: int = 0  # numbers behind `dump` that stand for what rests, see narrowing.py
 
     @property
     def n(self) -> int:
@@ -70,7 +71,7 @@ class Numbering:
 
     @property
     def dump(self) -> int:
-        """Last position of z."""
+        """Where z takes what nobody reads; behind it lies only what rests."""
         return self.acceleration + self.n
 
     @property

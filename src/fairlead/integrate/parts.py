@@ -1,0 +1,164 @@
+"""What the loop works on: the whole problem, or the part of it that moves.
+
+A problem that can say what is at rest (`narrowing`, see protocol.py) is cut down to what moves, with a margin, when
+that is much less; and woken when a contact at the rim of the part lets go. Steps, switches and error control are
+those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so that two
+runs do the same.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from fairlead.integrate.codes import TRY, WAKE
+from fairlead.integrate.counters import COUNTS
+from fairlead.integrate.memory import Memory
+from fairlead.integrate.protocol import EVENT, Problem
+
+LEAST = 200
+"""Unknowns of a problem that is worth looking at."""
+LOOK_COST, LOOK_BASE = 30_000, 5
+"""A cut costs as much as so many steps of a problem of one unknown, and so many of its own."""
+MOST = 0.5
+"""Share of the unknowns that a part may have; more is not worth it."""
+MARGIN = 12
+"""Equations between what moves and the rim of the first part."""
+WORTH = 4
+"""A part that served for as many steps as this many cuts cost was worth it."""
+FEWER = 0.6
+"""A part is cut anew when that leaves this share of it."""
+FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
+NEVER = 1e300
+NEVER_LOOK = np.iinfo(np.int64).max
+
+NUMBERS = (
+    "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
+    "total_events", "stop_asked", "failed", "seeking", "driven", "t", "h", "h_wanted", "h_next", "error", "last_error",
+    "theta", "t_piece", "t_land", "t_next", "t_release", "t_last_switch", "theta_now", "gap", "gap_before", *COUNTS,
+)  # fmt: skip
+"""Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""
+BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown")
+SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier")
+BY_GUARD = ("g", "g_early", "g_end", "continuous")
+BY_MACHINE = (
+    "zones", "last_toggle", "blocked_until", "streak", "chatters", "switches_by_machine", "released", "released_by",
+)  # fmt: skip
+
+
+class Scope:
+    """The problem and the memory the loop works on, and the whole that they stand for."""
+
+    def __init__(self, problem: Problem, prepare: Callable[[Problem], Memory], *, engine: str) -> None:
+        """Begin with the whole; `prepare` makes the memory of a problem."""
+        self.problem, self.whole_problem, self._prepare = problem, problem, prepare
+        self.memory = self.whole = prepare(problem)
+        self.part: Any = None
+        self.narrowing: Any = getattr(problem, "narrowing", None)
+        n = len(problem.initial)
+        self._cost = LOOK_COST // max(n, 1) + LOOK_BASE
+        self._pause, self._margin, self._since = self._cost, MARGIN, 0
+        self._seen: Any = None
+        self._switched = np.zeros(len(problem.zones), dtype=np.int64)
+        able = engine != "ida" and n >= LEAST and self.narrowing is not None and self.narrowing.possible
+        self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
+
+    def look(self) -> None:
+        """See whether less would do; where it would have done since the last look, take less."""
+        steps, number = int(self.memory.number["steps"]), self.whole.number
+        self._spread()
+        switched = self.whole.array["switches_by_machine"].copy()
+        blocked = number["t_release"] < NEVER  # a machine that is kept from switching is not at rest
+        found = None if blocked else self.narrowing.moving(self.whole.array["y"], self._margin, MOST)
+        if self.part is not None:
+            fewer = found is not None and np.count_nonzero(found.kept) < FEWER * len(self.part.unknowns)
+            self.memory.number["narrow_at"] = steps + 2 * (steps - self._since) + self._cost
+            if fewer and self._served(switched, self.part):
+                self._enter(found, steps)
+        elif found is not None and self._served(switched, self._seen):
+            self._enter(found, steps)
+        else:
+            number["narrow_at"] = steps + self._pause
+            self._pause *= 2
+        self._seen, self._switched = found, switched
+
+    def _served(self, switched: np.ndarray, some: Any) -> bool:
+        """True if nothing switched since the last look but what moved then."""
+        if some is None:
+            return False
+        outside = switched != self._switched
+        outside[some.machines] = False
+        return not outside.any()
+
+    def wake(self) -> None:
+        """Go on with the whole, at the point where the rim changed."""
+        settled = bool(self.memory.number["woken"])
+        steps = int(self.memory.number["steps"])
+        self._spread()
+        self.memory, self.problem, self.part, self._seen = self.whole, self.whole_problem, None, None
+        self._make_fresh(self.whole)
+        worth = steps - self._since >= WORTH * self._cost
+        self.whole.number["narrow_at"] = steps + (self._cost if worth else self._pause)
+        self._pause = self._cost if worth else 2 * self._pause
+        self._margin = MARGIN if worth else 2 * self._margin
+        self.whole.number["phase"] = WAKE if settled else TRY
+
+    def finish(self) -> Memory:
+        """The memory of the whole, as it is now."""
+        self._spread()
+        return self.whole
+
+    def events(self, count: int) -> np.ndarray:
+        """The zone changes in the buffer, by machines and guards of the whole."""
+        events = np.empty(count, EVENT)
+        for name in EVENT.names or ():
+            events[name] = self.memory.array[f"event_{name}"][:count]
+        if self.part is not None:
+            for name, of_whole in (("machine", self.part.machines), ("guard", self.part.guards)):
+                given = events[name] >= 0
+                events[name][given] = of_whole[events[name][given]]
+        return events
+
+    def _enter(self, moving: Any, steps: int) -> None:
+        """Work on what moves from now on."""
+        part = self.narrowing.part(float(self.whole.number["t"]), self.whole.array["y"], moving)
+        if part is None:
+            self.memory.number["narrow_at"] = NEVER_LOOK
+            return
+        memory = self._prepare(part.problem)
+        for names, places in self._places(part):
+            for name in names:
+                if name != "zones":
+                    memory.array[name][:] = self.whole.array[name][places]
+        for name in NUMBERS:
+            memory.number[name] = self.whole.number[name]
+        memory.array["rim"][:] = part.rim
+        memory.number["narrowed"], memory.number["narrow_at"] = 1, steps + WORTH * self._cost
+        self._make_fresh(memory)
+        FILL(part.problem.callbacks["mass"])(part.problem.context, memory.array["mass"].ctypes.data)
+        self.memory, self.problem, self.part, self._since = memory, part.problem, part, steps
+
+    def _spread(self) -> None:
+        """Give the whole what the part has become; what rests is as it was."""
+        if self.part is None:
+            return
+        for name in SLOPES:
+            self.whole.array[name][:] = 0.0
+        for names, places in self._places(self.part):
+            for name in names:
+                self.whole.array[name][places] = self.memory.array[name]
+        for name in NUMBERS:
+            self.whole.number[name] = self.memory.number[name]
+
+    @staticmethod
+    def _places(part: Any) -> tuple[tuple[tuple[str, ...], np.ndarray], ...]:
+        return (BY_UNKNOWN + SLOPES, part.unknowns), (BY_GUARD, part.guards), (BY_MACHINE, part.machines)
+
+    @staticmethod
+    def _make_fresh(memory: Memory) -> None:
+        """Nothing that was evaluated for another memory holds in this one."""
+        for name in ("jacobian_fresh", "linearised", "core_valid", "factored_h", "woken", "rows", "events"):
+            memory.number[name] = 0

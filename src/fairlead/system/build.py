@@ -1,0 +1,96 @@
+"""Plans and arrays of a model whose blocks are laid out: the whole of it, or the part of it that moves.
+
+Nothing here knows how the blocks came about; see `compile.py` and `narrowing.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.blocks import Block, Floats, Tables
+from fairlead.system.context import context, working_arrays
+from fairlead.system.driver import callbacks
+from fairlead.system.jacobian import jacobian
+from fairlead.system.mass import mass
+from fairlead.system.outputs import signals, stored
+from fairlead.system.plain_python import called_controllers
+from fairlead.system.shares import rows, shares
+from fairlead.system.sharing import guard_inertias, sharing
+from fairlead.system.switching import guards, holders, kinks, limits, machine_owners, machine_zones
+from fairlead.system.system import Pattern, System
+from fairlead.system.timing import samplers
+from fairlead.system.tolerances import Weights, guard_tolerances
+from fairlead.system.unknowns import Numbering
+
+HOLD_TIME = 1e-3  # s; a held contact loses a slip left over from rounding with this time constant
+
+
+def build(
+    flat: FlatModel,
+    numbering: Numbering,
+    blocks: list[Block],
+    tables: Tables,
+    machines: Sequence[str],
+    begin: Floats,
+    chosen: Weights,
+    *,
+    named: bool = True,
+) -> System:
+    """The System of these blocks; `machines` says whose every position in `zones` is, `begin` [n] the start.
+
+    Without `named` its outputs have no names, and nothing can be chosen to be recorded.
+    """
+    shared, end = shares(blocks)
+    program = jacobian(flat, blocks, shared, numbering, end.mass)
+    mass_pattern, memory = mass(blocks, shared, numbering)
+    slots, switches = guards(blocks)
+    start = flat.assembly.netlist.run.start
+    memory |= switches | rows(blocks, shared, end) | samplers(blocks, start) | {"stored": stored(blocks, shared)}
+    memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
+    memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])}
+    memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
+    controllers = called_controllers(blocks, numbering, memory)
+    memory["context"] = context(blocks, numbering, program, memory, end.mass)
+    unknowns = numbering.unknowns
+    return System(
+        flat=flat,
+        numbering=numbering,
+        blocks=blocks,
+        tables=tables,
+        callbacks=callbacks().address,
+        context=memory["context"].ctypes.data,
+        initial=begin,
+        pattern=Pattern(program.starts, program.rows),
+        timed=program.timed,
+        mass_pattern=mass_pattern,
+        zones=memory["zones"],
+        differential=np.array([u.differential for u in unknowns], dtype=bool),
+        quadrature=np.array([u.kind == "ledger" for u in unknowns], dtype=bool),
+        stiff=np.array([u.kind == "state" for u in unknowns], dtype=bool),
+        absolute=chosen.absolute,
+        relative=chosen.relative,
+        cap=chosen.cap,
+        guard_tolerance=guard_tolerances([unit for _, unit in slots], chosen.cap),
+        guard_machine=memory["guard_machines"],
+        guard_inertia=memory["guard_inertia"],
+        holder=holders(blocks, numbering.n),
+        limit_guard=limits(blocks),
+        kink_guard=kinks(blocks),
+        linear=all(_is_linear(block, numbering) for block in blocks),
+        machine_names=list(machines),
+        guard_names=[name for name, _ in slots],
+        machine_zones=machine_zones(blocks, len(machines)),
+        machine_guards=machine_owners(blocks, len(machines)),
+        signals=signals(flat, blocks, shared, numbering) if named else [],
+        memory=memory,
+        controllers=controllers,
+    )
+
+
+def _is_linear(block: Block, numbering: Numbering) -> bool:
+    """True if flows, and outputs that something reads, are linear in the unknowns as long as the zones are frozen."""
+    read = (block.sig_index != numbering.dump).any(axis=0)
+    return block.kernel.structure.linear and not any(read[k] for k in block.kernel.structure.curved)
