@@ -9,6 +9,7 @@ BETWEEN = "stepping: rows between steps slip a little where a contact is caught 
 MIDPOINT = "stepping: the midpoint rule follows neither a growth nor a decay that is much faster than its step"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
 DWELL = "at break-away nothing pulls yet: it toggles, with the chatter warning, and is held for a dwell each time"
+LOOSE = "at loose accuracy the slip of what binds is known to a tenth of its creep, its force to as much"
 CAUSE = "ida: stops at the first break-away, and the cause it names is not the cause"
 STUCK = "ida: creeps on with steps of nanoseconds"
 
@@ -41,11 +42,8 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),
     ("time shifted, -1e6 s", "stepping", "hold", ROUNDED),
     ("unit rescaled, [fl]*", "stepping", "hold", ROUNDED),
-    ("block on a shaken table, carried", "rodas", "binding", LEDGER),
-    ("block on a shaken table, carried", "rodas3p", "[bl]*", LEDGER),
-    ("load swings for an hour", "rodas*", "binding", LEDGER),
-    ("two blocks on a belt that are shaken, 1e-9", "rodas", "binding", LEDGER),
-    ("two blocks on a belt that are shaken, 1e-[3579]", "rodas3p", "binding", LEDGER),
+    ("block on a shaken table, carried", "rodas3p", "lugre", LEDGER),
+    ("two blocks on a belt that are shaken, 1e-3", "rodas3p", "binding", LOOSE),
     ("node without mass that nothing determines", "ida", "lugre", STUCK),
 )
 """(case, engine, treatment, why); the first three as patterns."""
