@@ -1,0 +1,58 @@
+"""A sensor with a sampler: noise and a step of its numbers, as a converter gives them."""
+
+import math
+
+from fairlead.components.sensors.signal_lag import PerfectSignal
+
+from fairlead.component import Controller, Count, Effect, Input, Output, Parameter
+
+MASK = (1 << 64) - 1
+
+
+class SampledSensor(Controller):
+    """Every `period`:  signal = step(value + noise xi_k),  held until the next sample.
+
+    xi_k is normal with mean 0 and variance 1, and depends on `seed` and the number k of the sample alone: the same
+    seed gives the same noise, bit by bit, whatever engine and steps are taken. Two sensors with one seed have one
+    noise; give each its own. `resolution` rounds to the nearest multiple, halves upward. What is not given is not there.
+    Source of the numbers: two outputs of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, DOI 10.1145/2660193.2660195)
+    through the transform of Box and Muller (1958), DOI 10.1214/aoms/1177706645.
+    """
+
+    passes = "value"
+    value = Input("1", "What is measured.", signed=True)
+    sampling = Effect("The sensor works in samples; off: it is perfect.", off=PerfectSignal)
+    noise = Parameter("1", "Standard deviation of the noise, in SI of what is measured.", default=None, above=0)
+    resolution = Parameter("1", "Step of its numbers, in SI of what is measured.", default=None, above=0)
+    seed = Count("Of the noise.", default=1, least=0)
+    signal = Output("1", "What is told.")
+
+    def begin(self):
+        """No sample is taken yet."""
+        self.taken = 0
+
+    def sample(self, value):
+        """One sample."""
+        told = value
+        if self.noise is not None:
+            told += self.noise * normal(self.seed, self.taken)
+        if self.resolution is not None:
+            told = self.resolution * math.floor(told / self.resolution + 0.5)
+        self.taken += 1
+        return told
+
+
+def normal(seed: int, number: int) -> float:
+    """Sample `number` of the normal noise of a seed; mean 0, variance 1."""
+    start = mixed(seed)
+    one, two = (mixed(start + 2 * number + k) >> 11 for k in (0, 1))  # 53 bits each
+    radius = math.sqrt(-2.0 * math.log((one + 1) * 2.0**-53))
+    return radius * math.cos(2.0 * math.pi * two * 2.0**-53)
+
+
+def mixed(number: int) -> int:
+    """The output of SplitMix64 after `number` + 1 steps from zero: 64 bits."""
+    z = (number + 1) * 0x9E3779B97F4A7C15 & MASK
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 & MASK
+    z = (z ^ z >> 27) * 0x94D049BB133111EB & MASK
+    return z ^ z >> 31
