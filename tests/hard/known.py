@@ -8,7 +8,6 @@ ROUNDED = "stepping: the instant of a switch inside a step is rounded to it, and
 BETWEEN = "stepping: rows between steps slip a little where a contact is caught or its motion is given"
 MIDPOINT = "stepping: the midpoint rule follows neither a growth nor a decay that is much faster than its step"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
-DWELL = "at break-away nothing pulls yet: it toggles, with the chatter warning, and is held for a dwell each time"
 LOOSE = "at loose accuracy the slip of what binds is known to a tenth of its creep, its force to as much"
 CAUSE = "ida: stops at the first break-away, and the cause it names is not the cause"
 STUCK = "ida: creeps on with steps of nanoseconds"
@@ -37,7 +36,6 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("steep falling curve, stribeck over 1e-07 m/s", "stepping", "hold", MIDPOINT),
     ("mirrored blocks stay mirrored, falling curve", "stepping", "hold", MIDPOINT),
     ("time constants over ten decades", "stepping", "hold", MIDPOINT),
-    ("steep falling curve, tustin over 1e-07 m/s", "rodas*", "hold", DWELL),
     ("steep falling curve, tustin over 1e-0[57] m/s", "ida", "[hb]*", CAUSE),
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),
     ("time shifted, -1e6 s", "stepping", "hold", ROUNDED),

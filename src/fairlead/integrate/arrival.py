@@ -15,6 +15,7 @@ from fairlead.integrate.codes import (
 )
 from fairlead.integrate.controller import restart, weigh, weighted_norm
 from fairlead.integrate.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
+from fairlead.integrate.growth import watch_growth
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, block, settle
@@ -156,6 +157,7 @@ def finish_settling(m, starting):
         if starting and m.first_step > 0.0:
             m.h_next = m.first_step
         m.h_next = max(min(m.h_next, 0.1 * (m.stop - m.start)), 4.0 * smallest_step(m))
+        watch_growth(m)
     m.last_error = 0.0
     m.retried = 0
     m.jacobian_fresh = 0

@@ -52,7 +52,7 @@ NUMBERS = (
     "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
-    "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale",
+    "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
     # stepping only: theta asked for and in force, the step asked for, distances of the slopes remembered
     "least_theta", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
     "t_jump",

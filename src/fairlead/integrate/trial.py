@@ -23,6 +23,7 @@ from fairlead.integrate.controller import (
 )
 from fairlead.integrate.crossing import COMPANION, CROSSING, first_crossing
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.growth import short_of_growth
 from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.meters import judge_meters, meter_piece
@@ -85,7 +86,7 @@ def propose(m):
     """The next step size: what control wants, clipped to land on the next time event or the stop."""
     m.t_land = min(m.stop, min(m.t_next, m.t_release))
     rest = m.t_land - m.t
-    h = min(m.h_next, m.max_step)
+    h = short_of_growth(m, min(m.h_next, m.max_step))
     m.h_wanted = h
     m.landing = 0
     if h >= rest * (0.99 if m.adaptive == 1 else 1.0 - 1e-9):
