@@ -14,7 +14,7 @@ class SampledSensor(Controller):
 
     xi_k is normal with mean 0 and variance 1, and depends on `seed` and the number k of the sample alone: the same
     seed gives the same noise, bit by bit, whatever engine and steps are taken. Two sensors with one seed have one
-    noise; give each its own. `resolution` rounds to the nearest multiple, halves upward. What is not given is not there.
+    noise; give each its own. `resolution` rounds to the nearest multiple, halves upward. Neither is there if not given.
     Source of the numbers: two outputs of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, DOI 10.1145/2660193.2660195)
     through the transform of Box and Muller (1958), DOI 10.1214/aoms/1177706645.
     """

@@ -198,6 +198,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
         "unknowns": system.n, "machines": len(system.zones),
+        "record_every": netlist.record.every,
         "remarks": [str(remark) for remark in remarks(system.flat)],
         "routes": route_records(system.flat),
     }  # fmt: skip

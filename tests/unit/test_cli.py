@@ -298,3 +298,15 @@ def test_a_run_whose_energy_does_not_add_up_is_not_called_well(capsys, closure, 
 
     _say_what_went_wrong({"status": "finished", "energy": {"closure": closure}})
     assert ("do not trust this run" in capsys.readouterr().err) == warned
+
+
+def test_warnings_of_check_are_no_faults_in_json(command: Command) -> None:
+    model = StandIn()
+    model.remarks = [Fault(BELT, "spring is never stretched.")]
+    told = json.loads(command("check", "belt", "--json", model=model).stdout)
+    assert (told["ok"], told["faults"]) == (True, [])
+    assert told["warnings"] == [
+        {"file": "models/belt.yaml", "line": 9, "column": 6, "what": "spring is never stretched.", "way_out": ""}
+    ]
+    refused = json.loads(command("check", "belt", "--json", model=StandIn(raises=MISTAKES)).stdout)
+    assert refused["warnings"] == []

@@ -160,3 +160,54 @@ def test_a_run_is_finished_once(tmp_path: Path) -> None:
     run.finish("finished", {})
     with pytest.raises(FairleadError, match="finished already"):
         run.finish("finished", {})
+
+
+def rerun(path: Path, status: str) -> None:
+    """A forced second run that ends in a way, or is killed in its first second."""
+    run = RunDirectory.create(path, SIGNALS, {"name": "second"}, force=True)
+    if status == "killed":
+        pretend_killed(path)
+    else:
+        run.finish(status, {})
+
+
+@pytest.mark.parametrize("status", ["killed", "failed", "interrupted", "budget"])
+def test_results_are_kept_until_the_run_that_replaces_them_has_finished(tmp_path: Path, status: str) -> None:
+    finished(tmp_path / "run")
+    for _ in range(2):  # a second attempt does not cost them either
+        rerun(tmp_path / "run", status)
+        kept = Result.open(tmp_path / "run" / "earlier")
+        assert (kept.status, kept.run["name"], kept["block.v"].tolist()) == ("finished", "first", [1.0])
+    rerun(tmp_path / "run", "finished")
+    assert not (tmp_path / "run" / "earlier").exists()
+    assert Result.open(tmp_path / "run").run["name"] == "second"
+
+
+def test_what_a_user_put_beside_kept_results_stays(tmp_path: Path) -> None:
+    finished(tmp_path / "run")
+    rerun(tmp_path / "run", "interrupted")
+    (tmp_path / "run" / "earlier" / "notes.txt").write_text("mine")
+    rerun(tmp_path / "run", "finished")
+    assert [file.name for file in (tmp_path / "run" / "earlier").iterdir()] == ["notes.txt"]
+
+
+@pytest.mark.parametrize("force", [False, True])
+def test_a_run_killed_before_its_first_rows_is_told_in_a_sentence(tmp_path: Path, force: bool) -> None:
+    if force:
+        finished(tmp_path / "run")
+    RunDirectory.create(tmp_path / "run", SIGNALS, {}, force=force)
+    with pytest.raises(UsageError, match="has not written a row yet"):
+        Result.open(tmp_path / "run")
+    pretend_killed(tmp_path / "run")
+    with pytest.raises(UsageError) as caught:
+        Result.open(tmp_path / "run")
+    said = str(caught.value)
+    assert "was killed before its first rows were written" in said
+    assert f"to replace are in {tmp_path / 'run' / 'earlier'}." in said if force else said.endswith("Run it again.")
+
+
+def test_a_damaged_series_is_told_in_a_sentence(tmp_path: Path) -> None:
+    finished(tmp_path / "run")
+    (tmp_path / "run" / "series.nc").write_bytes(b"\x89HDF\r\n\x1a\n and no more")
+    with pytest.raises(UsageError, match=r"\(finished\) cannot be read: series\.nc is damaged\."):
+        Result.open(tmp_path / "run")

@@ -1,9 +1,7 @@
 """The command `fairlead`: one file per verb, each a thin caller of the Python API.
 
-Exit codes: 0 ok, 1 model error, 2 usage, 3 numerical failure, 4 budget exceeded, 5 a limit of the
-netlist broken, 70 a mistake of fairlead itself, 130 interrupted. Results go to standard output,
-progress, warnings and errors to standard error. A verb imports what it needs when it runs, so that
-`--help` stays quick.
+Exit codes are in `exit_codes.py`. Results go to standard output, progress, warnings and errors to
+standard error. A verb imports what it needs when it runs, so that `--help` stays quick.
 """
 
 import typer

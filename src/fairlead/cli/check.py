@@ -21,7 +21,8 @@ def check(
 
     remarks = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).check()
     if as_json:
-        typer.echo(json.dumps({"ok": True, "faults": [fault_record(remark) for remark in remarks]}, indent=2))
+        warnings = [fault_record(remark) for remark in remarks]
+        typer.echo(json.dumps({"ok": True, "faults": [], "warnings": warnings}, indent=2))
         return
     for remark in remarks:
         typer.echo(f"warning: {remark}", err=True)

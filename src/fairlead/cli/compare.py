@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fairlead.cli.exit_codes import MODEL_ERROR
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 
 if TYPE_CHECKING:
     from fairlead.analysis.compare import Comparison, Row
 
-MODEL_ERROR = 1
 """How the process ends when no treatment could be started."""
 
 

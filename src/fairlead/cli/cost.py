@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairlead.cli.exit_codes import INTERRUPTED
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.study import Budget, Fresh, Outputs, number, say, write_record
-from fairlead.cli.verb import INTERRUPTED
 
 if TYPE_CHECKING:
     from fairlead.analysis.choice import Choice

@@ -4,6 +4,7 @@ import json
 
 import typer
 
+from fairlead.cli.exit_codes import MODEL_ERROR, OK
 from fairlead.cli.options import AsJson, Quiet, Verbose
 
 
@@ -21,4 +22,4 @@ def doctor(as_json: AsJson = False, quiet: Quiet = False, verbose: Verbose = Fal
         typer.echo(json.dumps({"ok": well, "findings": [finding.record() for finding in findings]}, indent=2))
     elif not quiet:
         typer.echo("All is well." if well else "Mend what is marked with x; the rest is well.")
-    raise typer.Exit(0 if well else 1)
+    raise typer.Exit(OK if well else MODEL_ERROR)

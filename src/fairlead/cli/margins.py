@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairlead.cli.exit_codes import LIMIT_BROKEN
 from fairlead.cli.options import AsJson, Quiet, Verbose
 from fairlead.cli.tables import finite, number, plain_table, times, wide_console
 
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from fairlead.analysis.margins import LineMargins, StationMargins, Worst
     from fairlead.results import Result
 
-LIMIT_BROKEN = 5
 NAMES = {
     "peak": "peak tension", "lowest": "lowest tension", "core": "lowest core tension", "hose": "lowest hose tension",
     "side_wall": "side-wall load", "scuffed": "scuffed on a device", "inner_scuffed": "scuffed in the hose",

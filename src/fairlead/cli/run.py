@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 
 if TYPE_CHECKING:
     from fairlead import Model, Result
 
-EXIT_CODES = {"finished": 0, "interrupted": 130, "budget": 4}
+EXIT_CODES = {"finished": OK, "interrupted": INTERRUPTED, "budget": BUDGET}
 """How the status in run.json ends the process; any other status is a numerical failure."""
-NUMERICAL_FAILURE = 3
-LIMIT_BROKEN = 5
+LARGE = 100e6
+"""Bytes of results from which on a run says how to have fewer."""
 OPEN = 0.1
 """An energy ledger that misses more than this share of what passed is not that of a run to be trusted."""
 
@@ -58,6 +59,7 @@ def run(
         if not quiet:
             _print_summary(result, written, profile=profile)
         _say_what_went_wrong(result.run)
+        _say_what_is_kept(result, quiet)
     raise typer.Exit(exit_code(result.run))
 
 
@@ -108,6 +110,22 @@ def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bo
         typer.echo(f"wrote {file}")
     if profile:
         typer.echo(result.run.get("profile", "no profile was kept"))
+
+
+def _say_what_is_kept(result: "Result", quiet: bool) -> None:
+    """Results that are large, and earlier ones that this run was to replace."""
+    from fairlead.results.claim import EVENT_FILE, SERIES_FILE, earlier
+
+    size = sum(file.stat().st_size for name in (SERIES_FILE, EVENT_FILE) for file in result.path.glob(name))
+    if size > LARGE and not quiet:
+        every = result.run.get("record_every")
+        rows = f"{len(result.t)} rows of {len(result.signals)} signals"
+        cure = "record fewer signals (record.signals)"
+        cure += " or less often (record.every)" if every is None else f" or less often (record.every is {every:g} s)"
+        typer.echo(f"note: the results take {size / 1e6:.0f} MB ({rows}); {cure}.", err=True)
+    kept = earlier(result.path)
+    if kept is not None:
+        typer.echo(f"note: the run did not finish, so the results it was to replace are kept in {kept}.", err=True)
 
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:

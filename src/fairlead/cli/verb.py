@@ -13,10 +13,8 @@ from typing import Any
 import typer
 import typer.core
 
+from fairlead.cli.exit_codes import INTERRUPTED, UNFORESEEN
 from fairlead.errors import FairleadError, Fault, ModelError
-
-INTERRUPTED = 130
-UNFORESEEN = 70  # EX_SOFTWARE of sysexits.h: not one of ours, so that a script never takes it for a verdict
 
 
 class Verb(typer.core.TyperCommand):
@@ -62,9 +60,8 @@ def fault_record(fault: Fault) -> dict[str, object]:
 
 def _as_json(error: FairleadError) -> str:
     faults = [fault_record(fault) for fault in error.faults] if isinstance(error, ModelError) else []
-    return json.dumps(
-        {"ok": False, "exit_code": error.exit_code, "error": str(error), "faults": faults}, indent=2
-    )
+    told = {"ok": False, "exit_code": error.exit_code, "error": str(error), "faults": faults, "warnings": []}
+    return json.dumps(told, indent=2)
 
 
 def _belongs_to_typer(error: Exception) -> bool:

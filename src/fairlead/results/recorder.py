@@ -70,7 +70,8 @@ class RunDirectory:
 
         A killed or failed run is replaced. A run with results to keep (finished, interrupted, out
         of budget), a run that is still going on and a folder of something else are not: UsageError,
-        unless `force`. Only files that a run writes are ever removed.
+        unless `force`. Only files that a run writes are ever removed, and results that are replaced
+        only when the new run has finished; until then they are in the folder `earlier`.
         """
         path, signals = Path(path), tuple(signals)
         _refuse_twins(signals)
@@ -134,6 +135,8 @@ class RunDirectory:
                 run_file.write(self.path, {**self._record, **summary, **end})
                 self._events.close()
                 self._series.close()
+            if status == claim.FINISHED:
+                claim.drop_earlier(self.path)
 
     def __enter__(self) -> RunDirectory:
         return self

@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
+from fairlead.results.claim import earlier
 from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.signal import Signal, matching
@@ -62,11 +63,12 @@ class Result:
         run = run_file.read(path)
         if run is None:
             raise UsageError(f"{path} holds no run of fairlead: there is no readable run.json in it.")
+        status = run_file.status(run)
         try:
             series = SeriesReader(path / SERIES_FILE)
         except (OSError, KeyError) as error:
-            raise UsageError(f"The signals of the run in {path} cannot be read: {error}.") from error
-        return cls(path, {**run, "status": run_file.status(run)}, series)
+            raise UsageError(_unreadable(path, status)) from error
+        return cls(path, {**run, "status": status}, series)
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -199,6 +201,22 @@ class Result:
             ("zone changes", str(len(self.events))),
         ]
         return as_html(str(self.run.get("name", "run")), facts, self.signals)
+
+
+def _unreadable(path: Path, status: str) -> str:
+    """Why a run has no series, in words."""
+    kept = earlier(path)
+    way_out = f"The results that it was to replace are in {kept}." if kept else "Run it again."
+    if (path / SERIES_FILE).exists():
+        return f"The signals of the run in {path} ({status}) cannot be read: {SERIES_FILE} is damaged.\n    {way_out}"
+    if status == run_file.RUNNING:
+        return f"The run in {path} has not written a row yet.\n    Wait a second; rows come every half second."
+    if status != run_file.KILLED:
+        return f"The run in {path} ({status}) has no {SERIES_FILE} any more.\n    {way_out}"
+    return (
+        f"The run in {path} was {status} before its first rows were written, within its first second; there is nothing "
+        f"to read.\n    {way_out}"
+    )
 
 
 def _before(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> Any:

@@ -1,0 +1,50 @@
+"""From the shell: large results are told with a way out, and a run that is killed costs nothing that was there."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from fairlead.cli import app
+from fairlead.results import Result
+
+
+def test_results_of_more_than_the_limit_are_told_with_their_size_and_a_way_out(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr("fairlead.cli.run.LARGE", 1e5)
+    words = ["run", "belt", "--set", "run.stop=2 s", "--out", str(tmp_path / "run"), "--force"]
+    told = CliRunner().invoke(app, [*words, "--set", "record.every=1 ms"])
+    assert told.exit_code == 0
+    result = Result.open(tmp_path / "run")
+    size = (tmp_path / "run" / "series.nc").stat().st_size
+    assert f"{len(result.t)} rows of {len(result.signals)} signals" in told.stderr
+    assert "note: the results take" in told.stderr
+    assert 1e5 < size < 2e6
+    assert "record fewer signals (record.signals) or less often (record.every is 0.001 s)" in told.stderr
+    few = CliRunner().invoke(app, [*words, "--set", "record.every=0.2 s"])
+    assert "note: the results take" not in few.stderr
+    assert json.loads((tmp_path / "run" / "run.json").read_text())["record_every"] == 0.2
+
+
+@pytest.mark.skipif(os.name == "nt", reason="SIGKILL is of POSIX")
+def test_a_rerun_that_is_killed_at_once_leaves_the_results_it_was_to_replace(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "fairlead", "run", "belt", "-q", "--out", str(tmp_path / "run")]
+    subprocess.run([*command, "--set", "run.stop=1 s"], check=True, timeout=300)
+    with subprocess.Popen([*command, "--force", "--set", "run.stop=1e5 s"]) as process:
+        deadline = time.monotonic() + 300
+        while not (tmp_path / "run" / "earlier" / "run.json").exists():
+            assert time.monotonic() < deadline
+            assert process.poll() is None
+            time.sleep(0.005)
+        process.send_signal(signal.SIGKILL)
+    assert Result.open(tmp_path / "run" / "earlier").t[-1] == 1.0
+    answer = CliRunner().invoke(app, ["margins", str(tmp_path / "run")])
+    assert answer.exit_code == 2 or "killed" in answer.output  # killed before its first rows, or after some
+    assert "HDF5" not in answer.output
+    assert "Unable" not in answer.output
+    assert (answer.exit_code == 0) or "was to replace are in" in " ".join(answer.output.split())
