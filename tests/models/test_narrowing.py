@@ -55,7 +55,7 @@ def test_what_was_left_out_wakes_when_the_motion_reaches_it(simulate, engine, mo
     monkeypatch.setattr(parts, "LEAST", 10**9)
     whole = simulate(rod(150, pull, 3.4), **{"run.engine": engine})
     assert whole.run["counters"]["partial_steps"] == 0
-    assert part.run["counters"]["partial_steps"] > 100
+    assert part.run["counters"]["partial_steps"] > 50
     moved = [k for k in range(150) if np.ptp(np.asarray(whole[f"rod.block[{k}].x"])) > 0]
     assert min(moved) < 120  # more than the margin behind the ten
     scale = {"rodas": 1e-7, "stepping": 1e-5}[engine]  # m, of 2 cm

@@ -46,6 +46,8 @@ def weighted_norm(m, at_v):
     v, weight, quadrature = reals(at_v, m.n), reals(m.at_weight, m.n), indices(m.at_quadrature, m.n)
     largest = 0.0
     for k in range(m.n):
+        if v[k] == 0.0:
+            continue
         size = abs(v[k]) / weight[k]
         if not isfinite(v[k]):
             m.worst = k

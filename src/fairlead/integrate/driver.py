@@ -183,6 +183,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
         memory.number["n_guards"] = 0
     calls["call_forces"] = calls["call_forces"] or calls["call_rhs"]
     calls["call_drift"] = calls["call_drift"] or calls["call_slip"]
+    calls["call_slopes"] = calls["call_slopes"] or calls["call_jacobian"]
     write_numbers(memory, {**calls, "context": problem.context})
     memory.number["max_passes"] = passes_allowed(run, nz)
     memory.number["narrow_at"] = NEVER_LOOK

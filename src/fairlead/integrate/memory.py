@@ -20,7 +20,7 @@ INTEGERS = (
     "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
     # C functions of the problem, and their context
     "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
-    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift",
+    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes",
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is

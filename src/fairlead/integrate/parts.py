@@ -19,7 +19,7 @@ from fairlead.integrate.counters import COUNTS
 from fairlead.integrate.memory import Memory
 from fairlead.integrate.protocol import EVENT, Problem
 
-LEAST = 200
+LEAST = 400
 """Unknowns of a problem that is worth looking at."""
 LOOK_COST, LOOK_BASE = 30_000, 5
 """A cut costs as much as so many steps of a problem of one unknown, and so many of its own."""

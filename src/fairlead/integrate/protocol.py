@@ -19,6 +19,7 @@ for all problems; `context` is passed through untouched.
     at_time   int64  (ctx, t, y)                  t is the start or a time event; 1 if anything changed
     outputs   void   (ctx, t, y, out)             out[n_outputs], in the zones in force
     forces    void   (ctx, t, y, f)               as rhs, with anything in the rows of quadratures
+    slopes    void   (ctx, t, y, values, ft)      as jacobian, with anything in the rows of quadratures
     drift     void   (ctx, t, y, r)               as slip, where slip answers only for a slip that an
                                                   impulse takes away
 
@@ -39,8 +40,8 @@ And `narrowing`, which tells what moves and cuts it out as a problem of its own 
                                  of the part whose change sets more in motion); or None
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
-no guards, no held contacts, no time events; outputs missing records y itself; rhs and slip stand in
-for forces and drift.
+no guards, no held contacts, no time events; outputs missing records y itself; rhs, jacobian and slip
+stand in for forces, slopes and drift.
 """
 
 from __future__ import annotations
@@ -61,6 +62,7 @@ Booleans = NDArray[np.bool_]
 
 CALLBACKS = (
     "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
+    "slopes",
 )  # fmt: skip
 """The names a problem may use in `callbacks`; the first three must be there."""
 

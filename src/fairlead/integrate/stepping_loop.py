@@ -65,5 +65,5 @@ def arrive_with_zones(m):
     copy(reals(m.at_g, m.n_guards), reals(m.at_g_early, m.n_guards))
     status = arrive(m)
     if m.phase == TRY:
-        remember_slope(m, switched)
+        remember_slope(m)
     return status

@@ -204,6 +204,7 @@ def error_of_step(m, h):
     bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
     holds = indices(m.at_holds, n)
     near, far = m.gap + 0.5 * h, m.gap_before
+    per_step, per_near, per_far, third = 1.0 / h, 1.0 / near, 1.0 / far, h * h * h / 6.0 / (near + far)
     weigh(m, m.at_y_end)
     for k in range(n):
         error[k] = 0.0
@@ -213,14 +214,14 @@ def error_of_step(m, h):
             m.worst = k
             return inf - inf
         if differential[k] == 1:
-            slope[k] = (y_end[k] - y[k]) / h
-            curve, curve_before = (slope[k] - before[k]) / near, (before[k] - earlier[k]) / far
+            slope[k] = (y_end[k] - y[k]) * per_step
+            curve, curve_before = (slope[k] - before[k]) * per_near, (before[k] - earlier[k]) * per_far
             if curve * curve_before > 0.0 and abs(curve) <= ROUGH * abs(curve_before):
                 bend[k] = -0.5 * h * h * curve
             if controlled[k] == 1:
-                error[k] = h * h * h / 6.0 * (curve - curve_before) / (near + far)
+                error[k] = third * (curve - curve_before)
         else:
-            slope[k] = (y_end[k] - y[k]) / near
+            slope[k] = (y_end[k] - y[k]) * per_near
     size = max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
     if m.passes > 0 or moves(m):
         return size
@@ -242,15 +243,13 @@ def moves(m):
 
 
 @compiled
-def remember_slope(m, switched):
+def remember_slope(m):
     """After an accepted step: its slope becomes the one before."""
     copy(reals(m.at_slope_before, m.n), reals(m.at_slope_earlier, m.n))
     copy(reals(m.at_mean_slope, m.n), reals(m.at_slope_before, m.n))
     m.gap_before = m.gap + 0.5 * m.h
     m.gap = 0.5 * m.h
     count_rest(m)
-    if switched:
-        copy(reals(m.at_g, m.n_guards), reals(m.at_g_early, m.n_guards))
 
 
 @compiled

@@ -126,7 +126,7 @@ def linearise_step(m, h):
     if m.linearised == 0:
         mass_at(m.call_mass, (m.context, m.at_mass))
         theta_point(m)
-        jacobian_at(m.call_jacobian, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
+        jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
         m.jacobians += 1
         find_holds(m)
         m.linearised = 1

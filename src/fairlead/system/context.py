@@ -61,9 +61,11 @@ def context(
     """The vector itself, in the order of `layout.py`."""
     sizes = {name: len(memory[array]) for name, array in COUNTED.items()} | {
         "N": numbering.n, "N_SIGNALS": len(numbering.signals), "N_JACOBIAN": len(program.rows),
-        "N_WORK": program.length, "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
+        "N_WORK": program.length, "N_PROGRAM_FORCES": program.forces[0],
+        "N_MOVING_FORCES": program.forces[1], "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
         "CIRCLE_AT": circle_at,
+        "REACTIONS_READ": int(bool(len(memory["circle_pairs"])) or any(_reads_reactions(b, numbering) for b in blocks)),
         "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),
     }  # fmt: skip
     vector = np.zeros(layout.CONTEXT, dtype=np.int64)
@@ -72,6 +74,10 @@ def context(
     for name in ADDRESSES:
         vector[getattr(layout, name)] = memory[name.lower()].ctypes.data
     return vector
+
+
+def _reads_reactions(block: Block, numbering: Numbering) -> bool:
+    return bool(((block.in_index >= numbering.first_reaction) & (block.in_index < numbering.zero)).any())
 
 
 def _inverse_mass(flat: FlatModel, numbering: Numbering) -> Floats:

@@ -7,6 +7,7 @@ code; compiled once, not once per model. Names in capitals are positions, see `l
     jacobian   the same, then partial derivatives of all kernels, then one list of multiply-adds that
                eliminates the signals: work[a] += coefficient * partials[b] * work[c]; what never changes
                of either is done once
+    slopes     as jacobian, without the rows of the ledger, which stand last in that list
     shares     of held contacts that close a circle: see sharing.py
 """
 
@@ -23,6 +24,7 @@ SIGNATURES = {
     "rhs": (("I8", "float", "F8", "F8"), "None"),
     "forces": (("I8", "float", "F8", "F8"), "None"),
     "jacobian": (("I8", "float", "F8", "F8", "F8"), "None"),
+    "slopes": (("I8", "float", "F8", "F8", "F8"), "None"),
     "mass": (("I8", "F8"), "None"),
     "guards": (("I8", "float", "F8", "F8"), "None"),
     "switch": (("I8", "float", "F8", "I8", "int"), "int"),
@@ -119,9 +121,12 @@ def forces(ctx, t, y, f):
         f[i] = w[i]
 
 
-def jacobian(ctx, t, y, values, ft):
-    """df/dy along the pattern, and df/dt."""
-    evaluate(ctx, t, y)
+def assemble(ctx, t, y, ledger, values, ft):
+    """df/dy along the pattern, and df/dt; in the rows of the ledger anything, unless asked for."""
+    if ctx[REACTIONS_READ] == 0:
+        look(ctx, t, y)
+    if ctx[REACTIONS_READ] > 0:
+        evaluate(ctx, t, y)
     z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
     kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
     if ctx[FIXED_DONE] == 0:
@@ -134,18 +139,32 @@ def jacobian(ctx, t, y, values, ft):
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], PARTIALS_FLOWS, block, 0, counts[b], z, zones, tables, partials)
-        call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
+        if ledger > 0:
+            call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
     work, program, coefficient = f8(ctx[WORK]), i8(ctx[PROGRAM]), f8(ctx[PROGRAM_COEF])
     moving, base = i8(ctx[MOVING]), f8(ctx[MOVING_BASE])
-    for k in range(0, ctx[N_MOVING]):
+    places, steps = ctx[N_MOVING], ctx[N_PROGRAM]
+    if ledger == 0:
+        places, steps = ctx[N_MOVING_FORCES], ctx[N_PROGRAM_FORCES]
+    for k in range(0, places):
         work[moving[k]] = base[k]
-    for k in range(0, ctx[N_PROGRAM]):
+    for k in range(0, steps):
         work[program[3 * k]] += coefficient[k] * partials[program[3 * k + 1]] * work[program[3 * k + 2]]
     first, entries = ctx[JACOBIAN_AT], ctx[N_JACOBIAN]
     for i in range(0, entries):
         values[i] = work[first + i]
     for i in range(0, ctx[N]):
         ft[i] = work[first + entries + i]
+
+
+def jacobian(ctx, t, y, values, ft):
+    """df/dy along the pattern, and df/dt."""
+    assemble(ctx, t, y, 1, values, ft)
+
+
+def slopes(ctx, t, y, values, ft):
+    """As jacobian, with anything in the rows of the ledger."""
+    assemble(ctx, t, y, 0, values, ft)
 
 
 def fix(ctx, t, y):
@@ -295,6 +314,7 @@ def outputs(ctx, t, y, out):
 
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
+    assemble,
 )  # fmt: skip
 
 

@@ -28,7 +28,8 @@ def jacobian(
         _entries(block, share, numbering, entries, m)
     _fixed_entries(flat, numbering, entries, m)
     partials = more + len(numbering.circles) + len(numbering.share)
-    return plan(entries, numbering.n, m, _levels(blocks, numbering, m), _fixed(blocks, shares, partials))
+    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials)
+    return plan(entries, numbering.n, m, level, fixed, list(numbering.ledger.values()))
 
 
 def _fixed(blocks: Sequence[Block], shares: Sequence[Share], count: int) -> NDArray[np.bool_]:

@@ -125,6 +125,9 @@ GUARDS_READ = 76  # 1 if a guard reads an acceleration or a reaction
 F_REST = 77  # float64 (n + reactions + 1,)  what parts at rest that are left out add to w
 N_RECORDED = 78  # recorded outputs
 RECORDED_REST = 79  # float64 (recorded + 1,)  those of parts at rest, and their stored energy; zero elsewhere
-CONTEXT = 80
+REACTIONS_READ = 80  # 1 if a law reads a reaction, or contacts may close a circle
+N_PROGRAM_FORCES = 81  # multiply-adds before those of the ledger
+N_MOVING_FORCES = 82  # places before those of the ledger
+CONTEXT = 83
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

@@ -12,6 +12,7 @@ the right is complete. All of it is planned once, with numpy; running it is one 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -51,23 +52,19 @@ class Program:
     starts: Integers
     rows: Integers
     timed: NDArray[np.bool_]  # equations that depend on time
-
-    @property
-    def moving(self) -> Integers:
-        """Places of work that `steps` add to, ascending."""
-        return np.unique(self.steps[:, 0])
+    moving: Integers  # places of work that `steps` add to
+    forces: tuple[int, int]  # how many of `steps` and of `moving` come before those of the meters
 
 
-def plan(
-    entries: Entries, n: int, n_signals: int, level_of: Integers, is_fixed: NDArray[np.bool_] | None = None
-) -> Program:
+def plan(entries: Entries, n: int, n_signals: int, level_of: Integers,
+         is_fixed: NDArray[np.bool_] | None = None, meters: Sequence[int] = ()) -> Program:  # fmt: skip
     """Plan the elimination.
 
     Rows: 0 .. n_signals-1 are signals and reactions (as they lie in z behind the unknowns), then the n
     equations. `level_of` gives the level of each row. Column n stands for the time. Inputs are given
     by their place in z: below n an unknown, then the signals, and n + n_signals + 1 the time; the rest
     (zero, accelerations) has no derivative. `is_fixed` tells of every partial derivative whether it is
-    one number for good.
+    one number for good. Equations in `meters`, on which nothing depends, come last, so that they can be left out.
     """
     row, z, partial = (_joined(column) for column in (entries.row, entries.z, entries.partial))
     coef = np.concatenate([*entries.coef, np.zeros(0)])
@@ -99,10 +96,17 @@ def plan(
     depends = np.zeros(n, dtype=bool)
     depends[equation[timed]] = True
     still = _still(every, length + len(keys) + n, is_fixed)
+    metered = np.zeros(length + len(keys) + n, dtype=bool)
+    metered[length : length + len(keys)] = np.isin(keys % max(n, 1), meters)
+    order = np.flatnonzero(~still)
+    order = order[np.argsort(metered[every[order, 0]], kind="stable")]
+    moving = np.unique(every[order, 0])
+    moving = moving[np.argsort(metered[moving], kind="stable")]
+    forces = (int(np.count_nonzero(~metered[every[order, 0]])), int(np.count_nonzero(~metered[moving])))
     return Program(
-        np.ascontiguousarray(every[~still]), coefs_of_all[~still],
+        np.ascontiguousarray(every[order]), coefs_of_all[order],
         np.ascontiguousarray(every[still]), coefs_of_all[still], length + len(keys) + n, length,
-        starts.astype(np.int64), (keys % max(n, 1)).astype(np.int64), depends,
+        starts.astype(np.int64), (keys % max(n, 1)).astype(np.int64), depends, moving, forces,
     )  # fmt: skip
 
 
