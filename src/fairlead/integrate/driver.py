@@ -60,6 +60,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
             entered, working = time.perf_counter(), time.process_time()
             status = Status(advance(scope.memory.address, attempts))
             spent = time.perf_counter() - entered
+            inside, worked = inside + spent, worked + time.process_time() - working
             if status == Status.WIDEN and scope.memory.number["woken"]:
                 scope.memory.number["rows"] -= 1  # the row after the switch; the whole settles there once more
             if status != Status.REPLAN:
@@ -70,13 +71,12 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
                     status = Status.SINGULAR
                     flush(scope, run, take)
                 replanned_at = int(scope.memory.number["factorisations"])
-            elif status == Status.NARROW:
-                scope.look()
-            elif status == Status.WIDEN:
-                scope.wake()
+            elif status in (Status.NARROW, Status.WIDEN):
+                entered, working = time.perf_counter(), time.process_time()
+                scope.look() if status == Status.NARROW else scope.wake()
+                inside, worked = inside + time.perf_counter() - entered, worked + time.process_time() - working
             elif status == Status.PAUSED:
                 attempts = next_attempts(attempts, spent)
-            inside, worked = inside + time.perf_counter() - entered, worked + time.process_time() - working
             over = run.max_wall is not None and time.perf_counter() - begun > run.max_wall
             if over and status in SERVED:
                 status = Status.MAX_WALL

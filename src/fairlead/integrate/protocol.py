@@ -267,7 +267,7 @@ class Outcome:
     wall: float
     """Seconds spent, all included."""
     loop_wall: float
-    """Seconds spent inside the compiled loop."""
+    """Seconds spent inside the compiled loop, and on cutting out what moves."""
     loop_cpu: float
     """The same in seconds of processor time, which other programs on the machine do not disturb."""
     blocks: tuple[Block, ...] = field(default=(), repr=False)
