@@ -31,7 +31,6 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("block on a shaken table, *", "stepping", "hold", BETWEEN),
     ("mass ratio of 1e8 rubs to one speed, light one thrown", "stepping", "hold", BETWEEN),
     ("two blocks on a belt that are shaken, 1e-[357]", "stepping", "hold", BETWEEN),
-    ("two unequal pads catch one block at once", "stepping", "hold", BETWEEN),
     ("steep falling curve, tustin *", "stepping", "hold", MIDPOINT),
     ("steep falling curve, stribeck over 1e-07 m/s", "stepping", "hold", MIDPOINT),
     ("mirrored blocks stay mirrored, falling curve", "stepping", "hold", MIDPOINT),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.interpolant import interpolate
+from fairlead.integrate.rows_between import take_slip_away
 
 ORDINARY, BEFORE, AFTER = 0, 1, 2
 
@@ -60,6 +61,8 @@ def record_piece(m):
             write_row(m, min(t, m.t_piece), m.at_y_piece, ORDINARY)  # never later than an event there
         else:
             interpolate(m, theta, m.at_y_probe)
+            if m.n_hold_mass > 0:
+                take_slip_away(m, t, m.at_y_probe)
             write_row(m, t, m.at_y_probe, ORDINARY)
         m.grid_next += 1
     return True

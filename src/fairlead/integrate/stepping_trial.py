@@ -27,12 +27,12 @@ from fairlead.integrate.codes import (
     WIDEN,
 )
 from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
-from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
-from fairlead.integrate.meters import inertia_of
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.rows_between import prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
@@ -87,7 +87,7 @@ def attempt_stepping(m):
         m.theta_now = m.least_theta
     accept(m, h, False)
     if m.on_grid == 1:
-        record_without_slip(m)
+        prepare_rows(m)
     if m.seeking > 0:
         m.crossed = 1
         m.n_fired = 0
@@ -119,36 +119,6 @@ def reject_error(m, h):
     m.h_next = step_after_rejection(m, h)
     m.retried += 1
     return GO_ON if m.h_next >= smallest_step(m) else STEP_FLOOR
-
-
-@compiled
-def record_without_slip(m):
-    """Rows inside a step show its end zones: what holds at the end is shown without slip, or it would seem to creep.
-
-    A body that was caught goes with what caught it from the start of the step; of two bodies that is the lighter.
-    """
-    y, bend = reals(m.at_y, m.n), reals(m.at_D, m.n)
-    entry, row = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_row, m.n_hold_mass)
-    column, partner = indices(m.at_hold_mass_column, m.n_hold_mass), indices(m.at_hold_mass_partner, m.n_hold_mass)
-    values, holds, caught = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n), indices(m.at_caught, m.n)
-    rested, slip = indices(m.at_rested, m.n), reals(m.at_residual, m.n)
-    any_caught = False
-    for e in range(m.n_hold_mass):
-        any_caught = any_caught or (holds[row[e]] == 1 and caught[row[e]] == 1)
-    if any_caught:
-        field_at(m.call_drift, (m.context, m.t, m.at_y, m.at_residual))
-    for e in range(m.n_hold_mass):
-        j, k, other = column[e], row[e], partner[e]
-        if holds[k] == 0 or values[entry[e]] == 0.0:
-            continue
-        if other >= 0 and (inertia_of(m, j), j) > (inertia_of(m, column[other]), column[other]):
-            continue
-        if caught[k] == 1:
-            y[j] += slip[k] / values[entry[e]]
-        if other >= 0:
-            bend[j] = -values[entry[other]] / values[entry[e]] * bend[column[other]]
-        elif caught[k] == 1 or m.driven == 0 or rested[k] == 0:
-            bend[j] = 0.0
 
 
 @compiled

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.instantiate import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.unknowns import Numbering, Unknown
 
@@ -25,6 +25,9 @@ NOMINAL = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "rad": 1e-2, "rad/s": 1.0, "N*m": 1
 # Weight of a speed at a binding contact, in creeps: the force of what is bound follows the slip, and is known to
 # that share of stiction. At accuracies finer than the ordinary it is less, by the root of the accuracy.
 CREEP_SHARE, ORDINARY = 0.1, 1e-3
+# Weight of a speed at a contact that slides, at most, in speeds over which its curve changes: a step that does not see
+# the curve rise towards rest lands on the wrong side of it, and the contact does not come to stick.
+CURVE_SHARE = 0.3
 # What a guard may exceed zero by at an accepted point: rounding of quantities of its unit, no more.
 GUARD_ROUNDING = {"m/s": 1e-10, "rad/s": 1e-9, "m": 1e-10, "rad": 1e-9, "N": 1e-7, "N*m": 1e-7, "Pa": 1e-2,
                   "V": 1e-9, "A": 1e-9, "m^3/s": 1e-14, "m^3": 1e-15}  # fmt: skip
@@ -47,14 +50,25 @@ def weights(flat: FlatModel, numbering: Numbering, accuracy: float) -> Weights:
     cap = np.full(len(unknowns), np.inf)
     share = CREEP_SHARE * min(1.0, accuracy / ORDINARY) ** 0.5
     for instance in flat.instances:
-        creep = instance.values.given.get("creep")
-        if not isinstance(creep, float):
+        most = _most(instance, accuracy, share)
+        if most == np.inf:
             continue
         for port in ("a", "b"):
             rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
             if rate is not None:
-                cap[rate] = min(cap[rate], share * creep)
+                cap[rate] = min(cap[rate], most)
     return Weights(absolute, relative, cap)
+
+
+def _most(instance: Instance, accuracy: float, share: float) -> float:
+    """The largest weight of the speeds at a contact, m/s; infinite where nothing but the accuracy says."""
+    creep = instance.values.given.get("creep")
+    if isinstance(creep, float):
+        return share * creep
+    if not hasattr(instance.type, "narrowest"):
+        return np.inf
+    width = CURVE_SHARE * (instance.values.curve.scale() or np.inf)
+    return width if width < accuracy * NOMINAL["m/s"] else np.inf
 
 
 def nominal(unknown: Unknown) -> float:
