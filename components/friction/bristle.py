@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 from fairlead.components.friction.contact import drag, opposing
+from fairlead.components.friction.curve import stays_in_place
 from fairlead.components.friction.one_formula import OneFormula
 
 from fairlead.component import Choice, Count, Law, Output, Parameter, State, derived, derived_wave, zone
@@ -116,7 +117,8 @@ class Bristle(OneFormula):
         return Law(a=0, b=0, moved=slip, slip=slip, deflection=mean_stretch(p, moved))
 
     def check(p):
-        """There must be bonds, and a level that they can have."""
+        """There must be bonds, and a level that they can have; the curve stays where it is."""
+        yield from stays_in_place(p)
         if p.curve.breakaway() <= 0:
             yield "curve", "the coefficient at rest is zero", "Leave the contact out, or give it some friction."
         elif p.level < LEAST_LEVEL:

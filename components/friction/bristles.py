@@ -1,7 +1,7 @@
 """What the laws with a bristle have in common: one average deflection z, and the numbers that go with it."""
 
 from fairlead.components.friction.contact import Contact, drag
-from fairlead.components.friction.curve import mu
+from fairlead.components.friction.curve import mu, stays_in_place
 
 from fairlead.component import Law, Output, Parameter, State, derived, guard, tanh, zone
 
@@ -35,7 +35,8 @@ class Bristles(Contact, abstract=True):
         return Law(a=0, b=0, z=-z / STRAIGHTEN, slip=b.v - a.v, deflection=z)
 
     def check(p):
-        """Bristles without friction have no stiffness."""
+        """Bristles without friction have no stiffness; the curve stays where it is."""
+        yield from stays_in_place(p)
         if p.curve.breakaway() <= 0:
             yield "curve", "the coefficient at rest is zero", "Leave the contact out, or give it some friction."
 

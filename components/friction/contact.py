@@ -1,6 +1,6 @@
 """The sliding contact: one component for every treatment of friction."""
 
-from fairlead.components.friction.curve import Curve, load_factor, mu, temperature_factor
+from fairlead.components.friction.curve import Curve, load_factor, mu, pace_of, temperature_factor
 
 from fairlead.component import (
     Component,
@@ -36,7 +36,7 @@ class Contact(Family, Component, abstract=True):
                         default=None, least=0)  # fmt: skip
     lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
     load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
-    temperature_dependence = Effect("The curve's softening; off: friction does not depend on temperature.")
+    temperature_dependence = Effect("The curve's softening and shift; off: friction does not depend on temperature.")
     extent = Parameter(
         "1", "What shares the normal force: the curve's load_reference is that of 1 (a spot, or a metre of line).",
         default=1.0, above=0,
@@ -54,6 +54,11 @@ class Contact(Family, Component, abstract=True):
         load = load_factor(p.curve, normal / p.extent, p.lift / p.extent) if p.load_dependence == "on" else 1
         warmth = temperature_factor(p.curve, temperature) if p.temperature_dependence == "on" else 1
         return normal * load * warmth
+
+    @shared
+    def pace(p, temperature):
+        """What the slip speed is multiplied with before the curve is read."""
+        return pace_of(p.curve, temperature) if p.temperature_dependence == "on" else 1
 
     @zone("off")
     def off(p, a, b):
@@ -75,10 +80,10 @@ def direction(zone):
     return -1 if zone.endswith("backward") else 1
 
 
-def sliding_friction(p, zone, slip, grip):
+def sliding_friction(p, zone, slip, grip, pace):
     """Friction [N] of a zone in which the contact slides: the curve, against the slip."""
     d = direction(zone)
-    return d * grip * mu(p.curve, d * slip, d) + drag(p, slip)
+    return d * grip * mu(p.curve, d * slip * pace, d) + drag(p, slip)
 
 
 def drag(p, slip):
@@ -95,7 +100,7 @@ class Sliding(Contact, abstract=True):
     """A contact with a zone for each direction of sliding."""
 
     @zone("forward", "backward")
-    def sliding(p, a, b, grip, zone):
+    def sliding(p, a, b, grip, pace, zone):
         """The curve gives the force, against the slip."""
         slip = b.v - a.v
-        return opposing(slip, sliding_friction(p, zone, slip, grip), creep_rate=0)
+        return opposing(slip, sliding_friction(p, zone, slip, grip, pace), creep_rate=0)

@@ -3,7 +3,7 @@
 import math
 
 from fairlead.components.friction.contact import Contact
-from fairlead.components.friction.curve import load_factor
+from fairlead.components.friction.curve import load_factor, stays_in_place
 
 from fairlead.component import Block, Parameter
 
@@ -31,7 +31,8 @@ class Creeping(Contact, abstract=True):
     leak = Block(LEAK, "Instead of creep: the load that may be lost while the contact sticks.", default=None)
 
     def check(p):
-        """A leak wants a normal force, and no creep beside it."""
+        """The curve stays where it is; a leak wants a normal force, and no creep beside it."""
+        yield from stays_in_place(p)
         if p.leak is None:
             return
         if p.leak.normal_force is None and p.normal_force is None:

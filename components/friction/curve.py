@@ -12,12 +12,14 @@ class Curve(Family, abstract=True):
 
     Every curve may depend on load and temperature as well (Hertz, softening of polymers):
 
-        mu(v) (N/N_ref)^(n - 1) exp(-alpha (Theta - Theta_ref)),    n = load_exponent, alpha = softening
+        mu(a_T v) (N/N_ref)^(n - 1) exp(-alpha (Theta - Theta_ref)),    n = load_exponent, alpha = softening
+        a_T = exp(-beta (Theta - Theta_ref)),                           beta = velocity_shift
 
-    so that friction is mu N_ref (N/N_ref)^n; and it may have points of its own for backward slip, where a surface has
-    a nap. What is not given is absent.
+    so that friction is mu N_ref (N/N_ref)^n, and warmed rubber slides at v as cold rubber does at a_T v; and it may
+    have points of its own for backward slip, where a surface has a nap. What is not given is absent.
     """
 
+    asked_with = {"velocity_shift": None}  # not every method knows it, so the contract suite does not give it at random
     key = "curve"
     default_word = "coulomb"
     bare = ("coulomb", "coulomb")
@@ -25,6 +27,7 @@ class Curve(Family, abstract=True):
     load_exponent = Parameter("1", "n: friction grows as the normal force to the n.", default=None, above=0, most=2)
     load_reference = Parameter("N", "N_ref, the normal force the coefficients hold for.", default=None, above=0)
     softening = Parameter("1/K", "alpha: relative loss of friction per kelvin.", default=None)
+    velocity_shift = Parameter("1/K", "beta: relative shift of the curve to higher speeds per kelvin.", default=None)
     reference_temperature = Parameter(
         "K", "Theta_ref, the temperature the coefficients hold for.", default=293.15, above=0
     )
@@ -78,6 +81,22 @@ def load_factor(curve, normal, least):
 def temperature_factor(curve, temperature):
     """exp(-alpha (Theta - Theta_ref))."""
     return 1 if curve.softening is None else exp(-curve.softening * (temperature - curve.reference_temperature))
+
+
+def pace_of(curve, temperature):
+    """a_T, the speed at Theta_ref over the speed at which friction is the same."""
+    if curve.velocity_shift is None:
+        return 1
+    return exp(-curve.velocity_shift * (temperature - curve.reference_temperature))
+
+
+def stays_in_place(p):
+    """For `check` of what cannot shift its curve with the temperature."""
+    if p.curve.velocity_shift is not None:
+        yield (
+            "curve", "velocity_shift is given, and this contact has its curve at one temperature",
+            "Use method: hold, karnopp, tanh, arctan or root, or a softening instead.",
+        )  # fmt: skip
 
 
 def points_make_sense(name, table):

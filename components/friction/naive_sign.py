@@ -31,9 +31,9 @@ class NaiveSign(OneFormula):
     budget = {"max_steps": 100_000}
 
     @zone("on")
-    def on(p, a, b, grip):
+    def on(p, a, b, grip, pace):
         """The sign of the slip, as written in every textbook."""
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.width**2)
         sign = tanh(slip / p.width) ** 3
-        return opposing(slip, grip * mu(p.curve, speed, sign) * sign + drag(p, slip), creep_rate=0)
+        return opposing(slip, grip * mu(p.curve, speed * pace, sign) * sign + drag(p, slip), creep_rate=0)

@@ -24,12 +24,12 @@ class Regularised(OneFormula, abstract=True):
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
 
     @zone("on")
-    def on(p, a, b, grip):
+    def on(p, a, b, grip, pace):
         """One formula for all speeds; slip counts as creep while friction is below 99.9 % of its level."""
         slip = b.v - a.v
         speed = sqrt(slip**2 + p.creep**2)
         share = p.shape(slip / p.creep)
-        friction = grip * mu(p.curve, speed, share) * share + drag(p, slip)
+        friction = grip * mu(p.curve, speed * pace, share) * share + drag(p, slip)
         beyond = (slip / (p.creep * p.reach())) ** 2 - 1
         creeping = slip * (1 - tanh(SHARPNESS * beyond)) / 2
         return opposing(slip, friction, creep_rate=creeping)

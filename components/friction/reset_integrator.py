@@ -35,11 +35,11 @@ class ResetIntegrator(Bristles):
                    stored=stiffness * z**2 / 2, dissipated=stiffness * p.relaxation * slip**2)  # fmt: skip
 
     @zone("forward", "backward")
-    def slides(p, a, b, z, grip, zone):
+    def slides(p, a, b, z, grip, pace, zone):
         """The curve gives the force; the spring stays as it is."""
         slip = b.v - a.v
         stored = grip * p.ratio * z**2 / 2
-        return opposing(slip, sliding_friction(p, zone, slip, grip), z=0, deflection=z, stored=stored)
+        return opposing(slip, sliding_friction(p, zone, slip, grip, pace), z=0, deflection=z, stored=stored)
 
     @guard("off", to="spring", unit="N")
     def lands(p, normal):

@@ -1,6 +1,6 @@
 """Friction of a line that slips along its axis and turns about it at once."""
 
-from fairlead.components.friction.curve import Curve
+from fairlead.components.friction.curve import Curve, stays_in_place
 
 from fairlead.component import (
     Component,
@@ -43,6 +43,10 @@ class PlanarContact(Component):
     friction = Output("N", "Friction along the line.")
     torque = Output("N*m", "Friction torque about the line.")
     zones = Zones("on", "off")
+
+    def check(p):
+        """The curve stays where it is."""
+        yield from stays_in_place(p)
 
     @zone("on")
     def on(p, a, b, turning, normal):

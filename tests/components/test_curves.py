@@ -227,3 +227,50 @@ def test_temperature_dependence_off_leaves_no_state_and_no_term(scene, simulate)
 def test_a_factor_that_is_not_given_is_no_term_of_the_law():
     said = fairlead.describe_type("Contact")
     assert "load_factor" not in said.partition("Curve\n")[0]
+
+
+# Temperature and speed
+
+SHIFTED = "{curve: stribeck, stiction: 0.5, coulomb: 0.3, velocity: 0.1 m/s, velocity_shift: 0.03 1/K}"
+WARMED = f"""
+    components:
+      ground: {{type: Ground}}
+      pad: {{type: Contact, method: METHOD, normal_force: 10 N, curve: {SHIFTED}}}
+      block: {{type: Mass, mass: 2 kg, velocity: 0.15 m/s}}
+      push: {{type: ForceSource, force: 4 N}}
+      day: {{type: TemperatureSource, profile: {{ramp: {{from: 293.15 K, to: 373.15 K, over: 1 s}}}}}}
+    connections:
+      - [day.temperature, pad.temperature]
+      - [ground.flange, pad.a]
+      - [pad.b, block.flange, push.flange]
+    run: {{stop: 1 s, accuracy: 1e-6}}
+    record: {{every: 5 ms}}
+"""
+
+
+@pytest.mark.parametrize("method", ["hold", "karnopp", "tanh", "arctan", "root"])
+def test_a_warm_contact_slides_as_a_cold_one_does_more_slowly(simulate, method):
+    """T(v, Theta) = N mu(a_T v) with a_T = exp(-beta (Theta - Theta_ref)), at every instant of a slide."""
+    result = simulate(WARMED.replace("METHOD", method))
+    slip = result["pad.slip"]
+    assert slip.min() > 0.05
+    closed = 10.0 * (0.3 + 0.2 * np.exp(-((slip * np.exp(-0.03 * 80.0 * result.t) / 0.1) ** 2)))
+    np.testing.assert_allclose(result["pad.friction"], closed, rtol=2e-3 if method == "arctan" else 1e-5)
+    cold = 10.0 * (0.3 + 0.2 * np.exp(-((slip / 0.1) ** 2)))
+    assert np.abs(closed / cold - 1).max() > 0.1
+
+
+def test_a_shift_that_vanishes_leaves_the_curve_and_off_leaves_no_term(simulate):
+    text = WARMED.replace("METHOD", "hold")
+    plain = simulate(text.replace(", velocity_shift: 0.03 1/K", ""))
+    weak = simulate(text.replace("0.03 1/K", "1e-9 1/K"))
+    off = simulate(text + "    effects: {temperature_dependence: off}\n")
+    np.testing.assert_allclose(weak["block.x"], plain["block.x"], rtol=1e-7)
+    np.testing.assert_allclose(off["block.x"], plain["block.x"], rtol=1e-12)
+    assert simulate(text)["block.x"][-1] < 0.9 * plain["block.x"][-1]
+
+
+@pytest.mark.parametrize("method", ["binding", "saturation", *BRISTLES, "bristle"])
+def test_a_method_that_cannot_shift_its_curve_says_so(scene, method):
+    with pytest.raises(ModelError, match="velocity_shift is given, and this contact has its curve at one temperature"):
+        scene(WARMED.replace("METHOD", method)).check()

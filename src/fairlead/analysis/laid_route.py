@@ -59,6 +59,8 @@ class Device:
 def coefficient(curve: Any, slip: float) -> float:
     """Coefficient of a curve at a slip speed and at the temperature of the surroundings; 0: that from rest."""
     backward = slip < 0 and curve.backward is not None
+    if curve.velocity_shift is not None:
+        slip *= math.exp(-curve.velocity_shift * (AMBIENT - curve.reference_temperature))
     if slip == 0:
         plain = float(curve.breakaway())
     else:
