@@ -8,8 +8,9 @@ import pathlib
 import signal
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 
 BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
 SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
+MOST_JUMPS_TOLD = 5
 CONTINUOUS = 1e-9  # relative difference across an event that is rounding of the settlement
 
 
@@ -53,6 +55,8 @@ class Watch:
     on_grid: bool
     writing: bool = False  # the first block has come
     stop_asked: bool = False  # Ctrl-C has been pressed since
+    kept_jumps: int = 0  # events that have two rows on a grid
+    jumps: Counter[str] = field(default_factory=Counter)  # of every signal
 
     def __call__(self, block: Block) -> None:
         """Take one block. Raises KeyboardInterrupt when it is written, if that was asked for meanwhile."""
@@ -64,7 +68,12 @@ class Watch:
 
     def _take(self, block: Block) -> None:
         columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
-        rows = worth_keeping(block.values[:, : self.chosen], block.side) if self.on_grid else slice(None)
+        rows: Any = slice(None)
+        if self.on_grid:
+            rows, jumped = worth_keeping(block.values[:, : self.chosen], block.side)
+            self.kept_jumps += int(jumped.any(axis=1).sum())
+            for k in np.flatnonzero(counts := jumped.sum(axis=0)):
+                self.jumps[self.system.recorded[k].name] += int(counts[k])
         self.directory.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
         self.directory.events(_named(self.system, row) for row in block.events)
         self.creep.watch(block.t, block.values[:, [columns[name] for name in self.creep.names]])
@@ -100,17 +109,20 @@ def interrupted_between_blocks(watch: Watch) -> Iterator[None]:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def worth_keeping(values: NDArray[np.float64], side: NDArray[np.int8]) -> NDArray[np.bool_]:
-    """Rows (k,) to write when a grid was asked for: all but the two sides of events at which no recorded value jumps.
+def worth_keeping(
+    values: NDArray[np.float64], side: NDArray[np.int8]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Rows (k,) to write when a grid was asked for, and which value jumps at which event.
 
-    A kink needs no row of its own, and a long line switches thousands of times.
+    The two sides of events at which no recorded value jumps are left out: a kink needs no row of its own, and a long
+    line switches thousands of times.
     """
     keep = np.ones(len(side), dtype=bool)
     left = np.flatnonzero((side[:-1] == BEFORE) & (side[1:] == AFTER))
     jump = np.abs(values[left + 1] - values[left]) > CONTINUOUS * (1 + np.abs(values[left]))
     smooth = left[~jump.any(axis=1)]
     keep[smooth] = keep[smooth + 1] = False
-    return keep
+    return keep, jump
 
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
@@ -217,6 +229,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
         "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(),
+        "jumps": {"kept": watch.kept_jumps, "most": dict(watch.jumps.most_common(MOST_JUMPS_TOLD))},
     }  # fmt: skip
 
 

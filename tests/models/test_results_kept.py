@@ -25,10 +25,28 @@ def test_results_of_more_than_the_limit_are_told_with_their_size_and_a_way_out(t
     assert f"{len(result.t)} rows of {len(result.signals)} signals" in told.stderr
     assert "note: the results take" in told.stderr
     assert 1e5 < size < 2e6
-    assert "record fewer signals (record.signals) or less often (record.every is 0.001 s)" in told.stderr
+    assert "Record fewer signals (record.signals) or less often (record.every is 0.001 s)." in told.stderr
     few = CliRunner().invoke(app, [*words, "--set", "record.every=0.2 s"])
     assert "note: the results take" not in few.stderr
     assert json.loads((tmp_path / "run" / "run.json").read_text())["record_every"] == 0.2
+
+
+def test_where_jumps_make_the_rows_the_signals_that_jump_are_named(tmp_path: Path, monkeypatch) -> None:
+    """A sensor sampled every 10 ms with a grid of 0.5 s: nearly all rows are the two sides of its samples."""
+    monkeypatch.setattr("fairlead.cli.run.LARGE", 1.0)
+    netlist = tmp_path / "sampled.yaml"
+    netlist.write_text(
+        "schema: 1\nname: sampled\ncomponents:\n"
+        "  wave: {type: SignalSource, value: {sine: {amplitude: 1, frequency: 1 Hz}}}\n"
+        "  sensor: {type: SampledSensor, period: 10 ms}\n"
+        "connections: [[wave.signal, sensor.value]]\nrun: {stop: 2 s}\nrecord: {every: 0.5 s}\n"
+    )
+    told = CliRunner().invoke(app, ["run", str(netlist), "--out", str(tmp_path / "run")])
+    assert told.exit_code == 0
+    jumps = json.loads((tmp_path / "run" / "run.json").read_text())["jumps"]
+    assert 150 < jumps["kept"] <= 201
+    assert jumps["most"] == {"sensor.signal": jumps["kept"]}
+    assert f"Most rows are those of {jumps['kept']} jumps; leave out what jumps most (sensor.signal)" in told.stderr
 
 
 @pytest.mark.skipif(os.name == "nt", reason="SIGKILL is of POSIX")

@@ -23,10 +23,10 @@ class {kind}(Contact):
     zones = Zones("on", "off")  # what happens in zone "off", and what leads there, every contact knows
 
     @zone("on")
-    def on(p, a, b, grip):
-        """Friction against the slip v; `grip` is the normal force, with what the curve says of load and warmth."""
+    def on(p, a, b, grip, pace):
+        """Friction against the slip v; `grip` is the normal force and `pace` is 1, but for load and warmth."""
         v = b.v - a.v
-        friction = grip * p.curve.coefficient(sqrt(v**2 + p.creep**2)) * tanh(v / p.creep)
+        friction = grip * p.curve.coefficient(pace * sqrt(v**2 + p.creep**2)) * tanh(v / p.creep)
         return Law(a=-friction, b=+friction, slip=v, friction=friction, dissipated=friction * v,
                    creep_rate=v * (1 - tanh(v / p.creep) ** 8))  # slow slip is creep
 

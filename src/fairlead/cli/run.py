@@ -118,14 +118,22 @@ def _say_what_is_kept(result: "Result", quiet: bool) -> None:
 
     size = sum(file.stat().st_size for name in (SERIES_FILE, EVENT_FILE) for file in result.path.glob(name))
     if size > LARGE and not quiet:
-        every = result.run.get("record_every")
         rows = f"{len(result.t)} rows of {len(result.signals)} signals"
-        cure = "record fewer signals (record.signals)"
-        cure += " or less often (record.every)" if every is None else f" or less often (record.every is {every:g} s)"
-        typer.echo(f"note: the results take {size / 1e6:.0f} MB ({rows}); {cure}.", err=True)
+        typer.echo(f"note: the results take {size / 1e6:.0f} MB ({rows}). {_fewer(result)}", err=True)
     kept = earlier(result.path)
     if kept is not None:
         typer.echo(f"note: the run did not finish, so the results it was to replace are kept in {kept}.", err=True)
+
+
+def _fewer(result: "Result") -> str:
+    """How to have fewer rows or columns. A jump of a recorded value has two rows beside those of the grid."""
+    every, jumps = result.run.get("record_every"), result.run.get("jumps", {})
+    if every is None:
+        return "Give record.every a time, or record fewer signals (record.signals)."
+    if 4 * jumps.get("kept", 0) > len(result.t):
+        most = ", ".join(jumps["most"])
+        return f"Most rows are those of {jumps['kept']} jumps; leave out what jumps most ({most}) in record.signals."
+    return f"Record fewer signals (record.signals) or less often (record.every is {every:g} s)."
 
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
