@@ -173,7 +173,7 @@ STRUCTURAL = {
     "a node between two contacts that hold": (
         scene(BLOCK, WALL, *PADS, "[wall.flange, one.a]", "[one.b, two.a]", "[two.b, block.flange]", friction="{method: hold}"),
         "scene.yaml:10:6: node {one.b, two.a} has no mass and no law determines its force while one and two hold.\n"
-        "    Add a Mass there, or join the two contacts into one.",
+        "    Add a Mass there, join the two contacts into one, or write friction: {method: binding}.",
     ),
     "a node between a contact that holds and a spring": (
         scene(BLOCK, WALL, PADS[0], "two: {type: Spring, stiffness: 1 N/m}", "[wall.flange, one.a]", "[one.b, two.a]", "[two.b, block.flange]", friction="{method: hold}"),

@@ -57,7 +57,7 @@ def test_what_a_block_at_rest_leans_on_is_all_that_holds_it(scene):
     """The upper block rests on both contacts, the lower one on its own alone."""
     system = scene(STACK).system
     _, found = resting(system, "under", "between")
-    for name, contacts in (("high.v", {"under", "between"}), ("low.v", {"under"})):
+    for name, contacts in (("high.v", {"under", "between"}), ("high.x", {"under", "between"}), ("low.x", {"under"})):
         which = np.array([unknown == name for unknown in system.unknown_names])
         leans = leaning_on(found, which, len(system.zones))
         assert {system.machine_names[k] for k in np.flatnonzero(leans)} == contacts

@@ -152,8 +152,9 @@ def _way_out(node: Node, joined: bool) -> str:
     if not node.domain.mechanical:
         return "Connect something there whose law ties it to the rest."
     body = "a Mass" if node.domain.name == "translational" else "an Inertia"
-    other = "join the two contacts into one" if joined else "a damper to something that moves freely"
-    return f"Add {body} there, or {other}."
+    if joined:
+        return f"Add {body} there, join the two contacts into one, or write friction: {{method: binding}}."
+    return f"Add {body} there, or a damper to something that moves freely."
 
 
 def _named(nodes: list[Node]) -> str:

@@ -59,7 +59,7 @@ class Rest:
     still: Booleans
     found_by: Integers
     held_by: Integers  # by row: the machine, -1 for none or for one that always holds
-    row: Integers  # the entries that were looked at
+    row: Integers  # the entries that say so
     column: Integers
 
 
@@ -128,6 +128,7 @@ def at_rest(parts: Anatomy, system: System, y: Floats) -> Rest:
         follow = parts.positions[still[parts.speeds] & ~still[parts.positions]]
         still[follow], found_by[follow] = True, follow
         if not len(found) and not len(follow):
+            row, column = np.concatenate([row, parts.positions]), np.concatenate([column, parts.speeds])
             return Rest(still, found_by, held_by, row, column)
 
 
