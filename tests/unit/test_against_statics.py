@@ -65,6 +65,15 @@ def test_the_largest_difference_is_told_with_place_and_time(scene, tmp_path):
     assert row.startswith("3 % at most (")
 
 
+def test_an_end_that_is_moved_has_no_tension_to_compare_with(scene, tmp_path):
+    """What pulls there is what the motion needs, which statics cannot know."""
+    moved = "load: {type: MotionSource, velocity: {ramp: {to: 0.5 m/s, over: 1 s}}}"
+    model = scene(BENDS.replace("load: {type: ForceSource, force: 60 N}", moved))
+    found = against_statics(model.flat, written(model, tmp_path / "run", 1.0))
+    assert found["difference"] is None
+    assert "outboard end is moved" in found["reason"]
+
+
 def test_what_must_be_recorded_is_said(scene, tmp_path):
     model = scene(BENDS)
     record = {"routes": route_records(model.flat)}

@@ -47,6 +47,8 @@ def _cannot(one: Statics, line: RecordedLine | None) -> str:
     """Why a line cannot be compared; nothing if it can."""
     if one.schedule is None:
         return "no reference tells the speed of the line"
+    if one.route.outboard.drives:
+        return "the outboard end is moved, so that statics does not know what pulls there"
     if any(each.remarks for each in one.moving) or one.remarks:
         return (one.remarks + tuple(text for each in one.moving for text in each.remarks))[0]
     if line is None or line.nodes is None:
