@@ -38,7 +38,7 @@ INTEGERS = (
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
-    "n_quadratures",
+    "n_quadratures", "rows_slip",
     "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",

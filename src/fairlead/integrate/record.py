@@ -61,7 +61,7 @@ def record_piece(m):
             write_row(m, min(t, m.t_piece), m.at_y_piece, ORDINARY)  # never later than an event there
         else:
             interpolate(m, theta, m.at_y_probe)
-            if m.n_hold_mass > 0:
+            if m.rows_slip == 1:
                 take_slip_away(m, t, m.at_y_probe)
             write_row(m, t, m.at_y_probe, ORDINARY)
         m.grid_next += 1

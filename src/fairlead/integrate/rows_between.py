@@ -20,9 +20,11 @@ def prepare_rows(m):
     column, partner = indices(m.at_hold_mass_column, m.n_hold_mass), indices(m.at_hold_mass_partner, m.n_hold_mass)
     values, holds, caught = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n), indices(m.at_caught, m.n)
     rested, slip = indices(m.at_rested, m.n), reals(m.at_residual, m.n)
-    any_caught = False
+    any_caught, pairs = False, False
     for e in range(m.n_hold_mass):
         any_caught = any_caught or (holds[row[e]] == 1 and caught[row[e]] == 1)
+        pairs = pairs or (holds[row[e]] == 1 and partner[e] >= 0)
+    m.rows_slip = 1 if pairs or m.driven == 1 else 0
     if any_caught:
         field_at(m.call_drift, (m.context, m.t, m.at_y, m.at_residual))
     for e in range(m.n_hold_mass):
