@@ -194,3 +194,51 @@ def test_forces_so_large_that_their_rounding_is_above_the_tolerance_have_a_start
     """
     outcome = integrate(scene(text).system, Run(stop=1.0))
     assert outcome.ok, outcome.sentence
+
+
+TAUT = """
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 1 kg}
+      pad: {type: Contact, normal_force: 10 N, curve: 0.8}
+      rope: {type: Tether, stiffness: 1e5 N/m, length: LENGTH mm}
+      hand: {type: MotionSource, velocity: 0.1 m/s}
+    connections: [[floor.flange, pad.a], [pad.b, block.flange, rope.a], [rope.b, hand.flange]]
+    run: {stop: 2 s, accuracy: 1e-6}
+    record: {every: 10 ms, signals: [block.x]}
+    """
+
+
+@ENGINES
+@pytest.mark.parametrize("length", [1.9, 2.0, 2.1])
+def test_a_rope_that_comes_taut_in_the_middle_of_a_long_step(simulate: Scene, engine: str, length: float) -> None:
+    """Its force is zero in the middle and 200 N at the end: that energy came from nowhere, at any accuracy."""
+    result = simulate(TAUT.replace("LENGTH", str(length)), **{"run.engine": engine})
+    taut, free = (next(e.t for e in result.events if e.component == name and e.t > 0) for name in ("rope", "pad"))
+    bound = {"rodas": 1e-6, "stepping": 1e-3}[engine]  # stepping rounds a switch to its step
+    assert taut == pytest.approx(10 * length * 1e-3, abs=bound)
+    assert free == pytest.approx(10 * length * 1e-3 + 8.0 / 1e5 / 0.1, abs=bound)  # 8 N hold the block
+    assert result.run["energy"]["closure"] < 1e-3
+
+
+def test_the_ledger_of_a_step_that_ends_at_a_jump(simulate: Scene) -> None:
+    """Stiction above sliding friction ends steps of stepping where contacts let go; their energy is counted too."""
+    rows = [(1, 30, 1000), (1, 30, 5000), (0.2, 8, 5000), (1, 30, 5000), (0.2, 8, 1000), (1, 8, 100)]  # kg, N, N/m
+    blocks = "".join(
+        f"\n      b{i}: {{type: Mass, mass: {mass} kg}}"
+        f"\n      c{i}: {{type: Contact, normal_force: {pressed} N, curve: {{stiction: 0.6, coulomb: 0.3}}}}"
+        f"\n      s{i}: {{type: Spring, stiffness: {stiffness} N/m}}"
+        for i, (mass, pressed, stiffness) in enumerate(rows)
+    )  # fmt: skip
+    joins = "".join(f"\n      - [b{i}.flange, c{i}.b, s{i}.a]" for i in range(6))
+    text = f"""
+    components:
+      floor: {{type: Ground}}
+      hand: {{type: MotionSource, position: {{sine: {{amplitude: 100 mm, frequency: 1 Hz}}}}}}{blocks}
+    connections:
+      - [floor.flange, {", ".join(f"c{i}.a" for i in range(6))}]
+      - [hand.flange, {", ".join(f"s{i}.b" for i in range(6))}]{joins}
+    run: {{stop: 1 s, accuracy: 1e-4, engine: stepping}}
+    record: {{every: 10 ms, signals: [b0.x]}}
+    """
+    assert simulate(text).run["energy"]["closure"] < 1e-3

@@ -10,6 +10,9 @@ the last three points:
     start     a force that grows with rate r and comes to its limit d before the end, or after the start, of the
               step that does not know: the speed is wrong by r d^2/(2 m)
 
+And of a law that comes into force inside the step by a position, as a rope that comes taut: the middle knows half of
+its force, or none of it where it comes into force there. What is left over at the end tells.
+
 A wrong speed is a wrong position later: by as much as 1/omega of what holds it back, k = m omega^2. Where
 nothing does, it is measured by the weight of the speed itself.
 """
@@ -18,7 +21,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from fairlead.integrate.foreign import compiled, indices, reals
+from fairlead.integrate.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.meters import inertia_of
 
 BEYOND = 0.25
 """Share of the second difference that a force may go beyond what was seen of it; twice what a parabola does."""
@@ -56,6 +60,33 @@ def unseen_slip(m, h):
         if error > largest:
             largest = error
             m.worst = k
+    return largest
+
+
+@compiled
+def unseen_force(m, h):
+    """Largest error, in weights, of positions from what laws that came into force in the step add at its end.
+
+    A force that grows to F in the step moves a body by up to F h^2/(12 m) more or less than its middle says.
+    """
+    zones, before = indices(m.at_zones, m.n_zones), indices(m.at_zones_at_start, m.n_zones)
+    rows, changed = indices(m.at_hold_row, m.n_zones), False
+    for z in range(m.n_zones):
+        changed = changed or (zones[z] != before[z] and rows[z] < 0)
+    if not changed:
+        return 0.0
+    field_at(m.call_forces, (m.context, m.t + h, m.at_y_end, m.at_x))
+    m.rhs += 1
+    f, slope, weight = reals(m.at_x, m.n), reals(m.at_mean_slope, m.n), reals(m.at_weight, m.n)
+    position, largest = indices(m.at_position_of, m.n), 0.0
+    for k in range(m.n):
+        x = position[k]
+        if x >= 0:
+            mass = inertia_of(m, k)
+            error = h * h / 12.0 * abs(f[k] / mass - slope[k]) / weight[x]
+            if error > largest:
+                largest = error
+                m.worst = k
     return largest
 
 

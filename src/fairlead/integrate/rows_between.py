@@ -24,7 +24,7 @@ def prepare_rows(m):
     for e in range(m.n_hold_mass):
         any_caught = any_caught or (holds[row[e]] == 1 and caught[row[e]] == 1)
         pairs = pairs or (holds[row[e]] == 1 and partner[e] >= 0)
-    m.rows_slip = 1 if pairs or m.driven == 1 else 0
+    m.rows_slip = 1 if pairs or any_caught or m.driven == 1 else 0
     if any_caught:
         field_at(m.call_drift, (m.context, m.t, m.at_y, m.at_residual))
     for e in range(m.n_hold_mass):

@@ -30,11 +30,11 @@ from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, 
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
-from fairlead.integrate.overload import begin_rest, count_rest, unseen_slip
+from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rows_between import prepare_rows
 from fairlead.integrate.settling import begin_settling
-from fairlead.integrate.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
+from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
 
 STILL, HOLD_SHARE = 1e-2, 0.025
@@ -73,6 +73,7 @@ def attempt_stepping(m):
             return GO_ON
         m.seeking = LANDINGS
         status = DONE
+        add_quadratures(m, h)  # a trial that ends at a jump was given up before
     if status != DONE:
         return repeat_shorter(m, h, status)
     if m.narrowed == 1 and m.passes > 0 and rim_changed(m):
@@ -193,6 +194,8 @@ def error_of_step(m, h):
         else:
             slope[k] = (y_end[k] - y[k]) * per_near
     size = max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
+    if m.passes > 0:
+        size = max(size, unseen_force(m, h))
     if m.passes > 0 or moves(m):
         return size
     for k in range(n):
