@@ -192,5 +192,5 @@ def test_ports_of_two_domains_cannot_be_joined(scene, library):
         connections: [[disc.shaft, capacitor.terminal]]
         run: {stop: 1 s}
     """
-    with pytest.raises(ModelError, match=r"disc\.shaft is a rotational port, capacitor\.terminal an electrical one"):
+    with pytest.raises(ModelError, match=r"capacitor\.terminal is an electrical port, disc\.shaft a rotational one"):
         scene(text, libraries=(library(ELECTRICAL),)).check()

@@ -65,8 +65,10 @@ def _mended(
 ) -> dict[str, Any]:
     """What was given, with other values at the places that are wrong. `firm`: words decide what ports there are."""
     inside: dict[str, list[tuple[Any, ...]]] = {}
-    for name, *rest in wrong:
-        inside.setdefault(str(name), []).append(tuple(rest))
+    for place in wrong:
+        if not place:  # the values contradict each other
+            raise _Hopeless
+        inside.setdefault(str(place[0]), []).append(tuple(place[1:]))
     made = dict(given)
     for name, places in inside.items():
         one = declared.get(name)
@@ -76,7 +78,10 @@ def _mended(
             if firm and meant is not None and not isinstance(meant, NUMBERS):
                 raise _Hopeless
         elif isinstance(one, Block) and isinstance(made.get(name), Mapping):
-            made[name] = _mended(one.parameters, made[name], places, firm)
+            if () in places and not firm:
+                made.pop(name)
+            else:
+                made[name] = _mended(one.parameters, made[name], places, firm)
         elif isinstance(one, Stations) and isinstance(made.get(name), list):
             made[name] = _stations(one, made[name], places)
         elif firm and not isinstance(one, NUMBERS):

@@ -101,9 +101,9 @@ def _mixed(graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> F
     one, two, where = _kind(declared[a]), _kind(declared[b]), edges[a, b]["where"]
     if "signal" in (one, two):
         a, b, one = (b, a, two) if one == "signal" else (a, b, one)
-        return Fault(where, f"{a} is a {one} port, {b} a signal; they cannot be joined.",
+        return Fault(where, f"{a} is {article(one)} port, {b} a signal; they cannot be joined.",
                      "A signal joins one output to inputs; a sensor turns a motion into a signal.")  # fmt: skip
-    return Fault(where, f"{a} is a {one} port, {b} {article(two)} one; they cannot be joined.",
+    return Fault(where, f"{a} is {article(one)} port, {b} {article(two)} one; they cannot be joined.",
                  f"Join {a} with another {one} port, or put a component with both kinds between them.")  # fmt: skip
 
 
