@@ -4,7 +4,8 @@
     print(comparison.rows[0].error)
 
 Error is the root mean square difference from the reference over the common time, relative to the range of the
-signal in the reference; the worst signal counts. Runs that end early or do not start are rows with a reason.
+signal in the reference, or to a thousandth of the widest range of its unit where that is more; the worst signal
+counts. Runs that end early or do not start are rows with a reason.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 FINER = 1e-2  # accuracy of the reference, relative to that of the scene
 GRID = 4001  # common times at which signals are compared
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
+LEAST = 1e-3  # of the widest range of a unit: what hardly moves is measured by that
 EXACT = "hold"  # the treatment that the others are measured against
 
 
@@ -112,14 +114,18 @@ def _error(result: Result, reference: Result, pattern: str) -> tuple[float | Non
     t = np.linspace(max(result.t[0], reference.t[0]), min(result.t[-1], reference.t[-1]), GRID)
     worst, name = None, ""
     common = set(reference.match(pattern)) & set(result.match(pattern))
-    for signal in reference.signals:
-        if signal.name not in common or signal.unit not in ("m", "rad") or signal.name.endswith(".deflection"):
-            continue
-        right = np.interp(t, reference.t, reference[signal.name])
-        span = float(np.ptp(right))
+    compared = [
+        signal for signal in reference.signals
+        if signal.name in common and signal.unit in ("m", "rad") and not signal.name.endswith(".deflection")
+    ]  # fmt: skip
+    right = {signal.name: np.interp(t, reference.t, reference[signal.name]) for signal in compared}
+    widest = {unit: max((float(np.ptp(right[s.name])) for s in compared if s.unit == unit), default=0.0)
+              for unit in ("m", "rad")}  # fmt: skip
+    for signal in compared:
+        span = max(float(np.ptp(right[signal.name])), LEAST * widest[signal.unit])
         if span == 0:
             continue
-        difference = np.interp(t, result.t, result[signal.name]) - right
+        difference = np.interp(t, result.t, result[signal.name]) - right[signal.name]
         share = float(np.sqrt(np.mean(difference**2))) / span
         if worst is None or share > worst:
             worst, name = share, signal.name
