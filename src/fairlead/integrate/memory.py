@@ -92,7 +92,7 @@ INDICES = {
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
     "differential": "n", "quadrature": "n", "watched": "n",
     # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
-    "controlled": "n", "position_of": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
+    "controlled": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
     "held_position": "n_zones", "held_speed": "n_zones",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",
     "may_jump": "n_guards", "suspects": "n_guards",

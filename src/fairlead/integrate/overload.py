@@ -22,7 +22,6 @@ from __future__ import annotations
 from math import sqrt
 
 from fairlead.integrate.foreign import compiled, field_at, indices, reals
-from fairlead.integrate.meters import inertia_of
 
 BEYOND = 0.25
 """Share of the second difference that a force may go beyond what was seen of it; twice what a parabola does."""
@@ -65,28 +64,36 @@ def unseen_slip(m, h):
 
 @compiled
 def unseen_force(m, h):
-    """Largest error, in weights, of positions from what laws that came into force in the step add at its end.
+    """Largest error, in weights, of what holds at the end of a step in which a law came into force by a position.
 
-    A force that grows to F in the step moves a body by up to F h^2/(12 m) more or less than its middle says.
+    The mean force that holds knows half of what such a law has come to at the end, or nothing. A body whose contact
+    cannot hold what is left over there has moved meanwhile: by up to F h^2/(12 m), F beyond either limit.
     """
     zones, before = indices(m.at_zones, m.n_zones), indices(m.at_zones_at_start, m.n_zones)
-    rows, changed = indices(m.at_hold_row, m.n_zones), False
+    rows, holds, changed = indices(m.at_hold_row, m.n_zones), indices(m.at_holds, m.n), False
     for z in range(m.n_zones):
         changed = changed or (zones[z] != before[z] and rows[z] < 0)
     if not changed:
         return 0.0
     field_at(m.call_forces, (m.context, m.t + h, m.at_y_end, m.at_x))
     m.rhs += 1
-    f, slope, weight = reals(m.at_x, m.n), reals(m.at_mean_slope, m.n), reals(m.at_weight, m.n)
-    position, largest = indices(m.at_position_of, m.n), 0.0
-    for k in range(m.n):
-        x = position[k]
-        if x >= 0:
-            mass = inertia_of(m, k)
-            error = h * h / 12.0 * abs(f[k] / mass - slope[k]) / weight[x]
+    f, g_end, first = reals(m.at_x, m.n), reals(m.at_g_end, m.n_guards), indices(m.at_first_guard, m.n_zones)
+    machine, is_limit = indices(m.at_guard_machine, m.n_guards), indices(m.at_limit_guard, m.n_guards)
+    speed, largest = indices(m.at_held_speed, m.n_zones), 0.0
+    for z in range(m.n_zones):
+        if rows[z] < 0 or holds[rows[z]] == 0 or speed[z] < 0:
+            continue
+        over, i = abs(f[speed[z]]), first[z]
+        furthest = 0.0
+        while i < m.n_guards and machine[i] == z:
+            if is_limit[i] == 1:
+                furthest = max(furthest, -g_end[i])
+            i += 1
+        if over > furthest:
+            error = error_of_peak(m, h, z, over - furthest) / 12.0
             if error > largest:
                 largest = error
-                m.worst = k
+                m.worst = rows[z]
     return largest
 
 
