@@ -26,7 +26,7 @@ INTEGERS = (
     # where the run is
     "phase", "crossed", "companion", "judged", "landing", "jacobian_fresh", "retried", "mended", "meters_off",
     "worst", "n_fired", "passes",
-    "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked", "changed",
+    "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked",
     # the settlement: which violators change, since which pass, the fewest there were, passes since, whether
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",

@@ -1,0 +1,33 @@
+"""What goes along when the loop turns from a problem to a part of it, and what is made anew for either."""
+
+from fairlead.integrate.counters import COUNTS
+from fairlead.integrate.memory import INTEGERS, NUMBERS
+from fairlead.integrate.parts import NUMBERS as CARRIED
+
+OF_THE_PROBLEM = {
+    *(name for name in INTEGERS if name.startswith(("n_", "call_"))), "n", "stages", "context", "dense", "linear",
+    "has_limits", "weighs_guards", "max_passes", "gamma", "error_exponent",
+}  # fmt: skip
+OF_THE_RUN = {
+    "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "on_chatter", "start", "stop",
+    "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "least_theta", "fixed_step",
+}  # fmt: skip
+OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
+"""Set by parts.py itself, or emptied before."""
+OF_A_SETTLEMENT = {
+    "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "nearness", "culprit",
+    "worst",
+}  # fmt: skip
+OF_A_STEP = {
+    "jacobian_fresh", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters", "core_kind",
+    "core_valid", "core_scale", "factored_h", "factored_theta",
+}  # fmt: skip
+"""Evaluations and factors: what is not carried is evaluated again."""
+
+
+def test_every_number_of_a_run_is_carried_or_made_anew():
+    """A number added to the struct has to be put in one of these sets: carried when it says where a run is."""
+    anew = OF_THE_PROBLEM | OF_THE_RUN | OF_THE_PLACE | OF_A_SETTLEMENT | OF_A_STEP
+    assert anew.isdisjoint(CARRIED)
+    assert set(COUNTS) <= set(CARRIED)
+    assert anew | set(CARRIED) == {*INTEGERS, *NUMBERS}
