@@ -9,6 +9,7 @@ MODEL ?= single_bend
 TESTS ?= tests
 BENCH ?= everything.py
 HARD ?=
+WORKERS ?= auto
 
 .PHONY: help demo test hard lint types bench docs clean
 .DEFAULT_GOAL := help
@@ -22,8 +23,9 @@ demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to 
 	$(RUN) -m fairlead run $(MODEL) --report --force --out results/$(MODEL)
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
-test: $(VENV)/test.done  ## install with what the tests need, run all tests
-	$(RUN) -m pytest $(TESTS)
+# Neighbours share runs, so each worker takes a stretch of the tests and steals from the end of another's.
+test: $(VENV)/test.done  ## install with what the tests need, run all tests (WORKERS=0 in one process)
+	$(RUN) -m pytest -n $(WORKERS) --dist worksteal $(TESTS)
 
 hard: $(VENV)/test.done  ## play all hard cases on all engines, write docs/stability.md (more with HARD="--only tether --table")
 	$(RUN) -m tests.hard $(HARD)

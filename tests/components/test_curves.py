@@ -224,8 +224,10 @@ def test_temperature_dependence_off_leaves_no_state_and_no_term(scene, simulate)
     np.testing.assert_allclose(limit["pad.friction"], 50.0, rtol=1e-9)
 
 
-def test_a_factor_that_is_not_given_is_no_term_of_the_law():
-    said = fairlead.describe_type("Contact")
+@pytest.mark.parametrize("kind", ["Hold", "Binding"])
+def test_a_factor_that_is_not_given_is_no_term_of_the_law(kind):
+    said = fairlead.describe_type(kind)
+    assert "coefficient(slip)" in said
     assert "load_factor" not in said.partition("Curve\n")[0]
 
 

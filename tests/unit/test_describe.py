@@ -1,5 +1,6 @@
 """`fairlead describe TYPE`: all that a class declares, and equations as an engineer writes them."""
 
+import functools
 import re
 
 import pytest
@@ -26,6 +27,12 @@ from fairlead.system.describe import describe
 from fairlead.system.formula import formula
 
 TYPES = known_types()
+
+
+@functools.cache
+def page_of(name: str) -> str:
+    """What is said of a type of the library; of Contact it takes ten seconds to write down."""
+    return describe(name, TYPES)
 
 
 class Stop(Component):
@@ -100,7 +107,7 @@ def test_kinds_of_a_part_are_listed_with_their_parameters_and_formula(stop: str)
 
 
 def test_a_held_motion_is_said_to_be_kept_by_its_force() -> None:
-    assert "    slip is kept at 0 by force" in describe("Contact", TYPES).splitlines()
+    assert "    slip is kept at 0 by force" in page_of("Contact").splitlines()
 
 
 def test_laws_leave_parts_open() -> None:
@@ -133,7 +140,7 @@ def test_ties_are_told_with_the_forces_they_pass_on() -> None:
 
 @pytest.mark.parametrize("name", sorted(TYPES))
 def test_every_type_has_a_page_with_its_parameters_and_traced_equations(name: str) -> None:
-    page = describe(name, TYPES)
+    page = page_of(name)
     kinds = getattr(TYPES[name], "members", {"": TYPES[name]}).values()
     assert all(parameter in page for kind in kinds for parameter in kind.declaration.parameters)
     assert "cannot be traced" not in page
@@ -141,7 +148,7 @@ def test_every_type_has_a_page_with_its_parameters_and_traced_equations(name: st
 
 
 def test_every_guard_of_a_kind_is_in_the_table_of_contact() -> None:
-    assert all(guard in describe("Contact", TYPES) for guard in Hold.declaration.guards)
+    assert all(guard in page_of("Contact") for guard in Hold.declaration.guards)
 
 
 def test_all_types_can_be_listed() -> None:

@@ -98,7 +98,8 @@ run: {stop: 0.1 s}
 '''
 open('scene.yaml', 'w').write(scene)
 fairlead.load('scene.yaml', libraries=['linear.py']).check()
-assert 'stiction + slope*v' in fairlead.describe_type('Contact', ['linear.py'])
+assert 'stiction + slope*v' in fairlead.describe_type('Hold', ['linear.py'])
+assert 'stiction + slope*v' in fairlead.describe_type('Bend', ['linear.py'])
 """
     subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=300)
 
