@@ -1,6 +1,7 @@
 """A drum whose radius follows what is wound on it, and the bond of a stored line with a drum."""
 
 from fairlead.component import (
+    Carries,
     Component,
     Input,
     Law,
@@ -44,15 +45,13 @@ class Bond(Component, abstract=True):
     free      nothing
 
     A node is let go of, and taken hold of, without a jump. At full strength 1 kN slips 1 um/s, so that the strain
-    of what is stored stays as it was wound on.
+    of what is stored stays as it was wound on. In long runs what is deep on the drum counts as part of the drum.
     """
 
     node = Translational("the node")
     place = Parameter("m", "Where the drum begins; it stores what is inboard.", default=0.0)
     edge = Parameter("m", "Length over which the drum takes hold.", default=0.1, above=0.02, most=2.0)
     lock = Parameter("N*s/m", "Bond at full strength.", default=1e9, above=0)
-    leak = Output("m/s", "What the bond lets slip.")
-    force = Output("N", "What the drum holds.")
     zones = Zones("stored", "edge", "free")
 
     @guard("stored", to="edge", unit="m")
@@ -88,13 +87,14 @@ class StoredNode(Bond):
     """The bond of a node with the rim of a drum."""
 
     rim = Translational("the surface of the drum")
+    carried = Carries("node", by="rim", zone="stored")
 
     @zone("stored", "edge")
     def on_drum(p, rim, node, zone):
         """Moves with the rim."""
         slip = node.v - rim.v
         force = strength(p, node, zone) * slip
-        return Law(rim=-force, node=+force, leak=slip, force=force, dissipated=force * slip)
+        return Law(rim=-force, node=+force, dissipated=force * slip)
 
     @zone("free")
     def free(p, rim, node):
@@ -107,13 +107,14 @@ class WoundNode(Bond):
 
     drum = Rotational("the drum")
     radius = Input("m", "Radius of the line that comes off.", default=1.0)
+    carried = Carries("node", by="drum", zone="stored")
 
     @zone("stored", "edge")
     def on_drum(p, drum, node, radius, zone):
         """The force acts on the drum at the radius."""
         slip = node.v - radius * drum.speed
         force = strength(p, node, zone) * slip
-        return Law(drum=-radius * force, node=+force, leak=slip, force=force, dissipated=force * slip)
+        return Law(drum=-radius * force, node=+force, dissipated=force * slip)
 
     @zone("free")
     def free(p, drum, node):

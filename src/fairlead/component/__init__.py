@@ -4,6 +4,7 @@ from fairlead.component.base import Component, Composite, Declared, Expansion, F
 from fairlead.component.controller import Controller
 from fairlead.component.declare import (
     Block,
+    Carries,
     Choice,
     Count,
     Discrete,
@@ -50,9 +51,9 @@ from fairlead.component.functions import (
 )  # fmt: skip
 
 __all__ = [
-    "Block", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect", "Electrical",
-    "Expansion", "Family", "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path", "Rotational",
-    "State", "Stations", "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan", "clip", "cos",
-    "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "least", "log", "pi", "sampled", "shared",
-    "sin", "sqrt", "tanh", "zone",
+    "Block", "Carries", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect",
+    "Electrical", "Expansion", "Family", "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path",
+    "Rotational", "State", "Stations", "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan",
+    "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "least", "log", "pi",
+    "sampled", "shared", "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

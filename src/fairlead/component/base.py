@@ -23,6 +23,7 @@ from typing import Any, ClassVar, cast
 
 from fairlead.component.declare import (
     Block,
+    Carries,
     Choice,
     Count,
     Derived,
@@ -76,6 +77,7 @@ class Declaration:
     zones: tuple[str, ...] = ("always",)
     laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
     guards: dict[str, Guard] = field(default_factory=dict)
+    carries: Carries | None = None
     python: bool = False  # its discrete variables are set by plain Python, see controller.py
 
     @property
@@ -182,6 +184,7 @@ def _collect(cls: type) -> Declaration:
         effects=effects, ports=of(Port), parameters=parameters, inputs=of(Input), outputs=of(Output), states=of(State),
         unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived),
         shared=of(Shared), zones=tuple(zones or ("always",)), laws=laws, guards=guards,
+        carries=next(iter(of(Carries).values()), None),
     )  # fmt: skip
 
 
@@ -203,6 +206,10 @@ def _check(cls: type[Declared]) -> None:
         return
     for name in has.zones:
         _demand(cls, name in has.laws, f"zone {name!r} has no law")
+    if has.carries is not None:
+        ports = {has.carries.node, has.carries.by}
+        _demand(cls, ports <= set(has.ports), f"carries names {sorted(ports)}, and the ports are {sorted(has.ports)}")
+        _demand(cls, has.carries.zone in has.zones, f"carries names the zone {has.carries.zone!r}, which there is not")
     for expression in has.shared.values():
         _check_arguments(cls, expression.function, has.given)
     for name, law in has.laws.items():

@@ -265,6 +265,18 @@ class Zones(tuple[str, ...]):
 
 
 @dataclass(frozen=True)
+class Carries:
+    """In `zone` the port `by` carries the port `node` along: their speeds keep a ratio, whatever acts on the node.
+
+    What is carried may then be counted as part of what carries it (`docs/integrator.md`, "Only what moves").
+    """
+
+    node: str
+    by: str
+    zone: str
+
+
+@dataclass(frozen=True)
 class ZoneLaw:
     """A law in force in some zones."""
 

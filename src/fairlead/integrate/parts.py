@@ -29,8 +29,10 @@ MARGIN = 12
 """Equations between what moves and the rim of the first part."""
 WORTH = 4
 """A part that served for as many steps as this many cuts cost was worth it."""
-FEWER = 0.6
-"""A part is cut anew when that leaves this share of it."""
+FEWER, SURELY_FEWER = 0.6, 0.85
+"""A part is cut anew when that leaves this share of it; and where what is left out can only come back by the rim."""
+AGAIN = 2
+"""Steps of the whole after the rim of such a part has changed, if it had been worth it."""
 FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
 NEVER = 1e300
 NEVER_LOOK = np.iinfo(np.int64).max
@@ -73,13 +75,16 @@ class Scope:
         self._spread()
         switched = self.whole.array["switches_by_machine"].copy()
         blocked = number["t_release"] < NEVER  # a machine that is kept from switching is not at rest
-        found = None if blocked else self.narrowing.moving(self.whole.array["y"], self._margin, MOST)
+        t, y = float(self.whole.number["t"]), self.whole.array["y"]
+        found = None if blocked else self.narrowing.moving(t, y, self._margin, MOST, self.part)
+        sure = found is not None and found.sure
         if self.part is not None:
-            fewer = found is not None and np.count_nonzero(found.kept) < FEWER * len(self.part.unknowns)
+            share = SURELY_FEWER if sure else FEWER
+            fewer = found is not None and np.count_nonzero(found.kept) < share * len(self.part.unknowns)
             self.memory.number["narrow_at"] = steps + 2 * (steps - self._since) + self._cost
-            if fewer and self._served(switched, self.part):
+            if fewer and (sure or self._served(switched, self.part)):
                 self._enter(found, steps)
-        elif found is not None and self._served(switched, self._seen):
+        elif sure or (found is not None and self._served(switched, self._seen)):
             self._enter(found, steps)
         else:
             number["narrow_at"] = steps + self._pause
@@ -97,12 +102,13 @@ class Scope:
     def wake(self) -> None:
         """Go on with the whole, at the point where the rim changed."""
         settled = bool(self.memory.number["woken"])
-        steps = int(self.memory.number["steps"])
+        steps, sure = int(self.memory.number["steps"]), self.part.sure
         self._spread()
         self.memory, self.problem, self.part, self._seen = self.whole, self.whole_problem, None, None
         self._make_fresh(self.whole)
         worth = steps - self._since >= WORTH * self._cost
-        self.whole.number["narrow_at"] = steps + (self._cost if worth else self._pause)
+        wait = (AGAIN if sure else self._cost) if worth else self._pause
+        self.whole.number["narrow_at"] = steps + wait
         self._pause = self._cost if worth else 2 * self._pause
         self._margin = MARGIN if worth else 2 * self._margin
         self.whole.number["phase"] = WAKE if settled else TRY
@@ -153,6 +159,9 @@ class Scope:
                 self.whole.array[name][places] = self.memory.array[name]
         for name in NUMBERS:
             self.whole.number[name] = self.memory.number[name]
+        self.part.give_back(float(self.whole.number["t"]), self.whole.array["y"])
+        for name in SLOPES:
+            self.part.carry(self.whole.array[name])
 
     @staticmethod
     def _places(part: Any) -> tuple[tuple[tuple[str, ...], np.ndarray], ...]:

@@ -60,6 +60,8 @@ class Block:
     flow_index: Integers
     flow_coef: Floats
     ledger_index: Integers
+    acts: bool = True
+    """False in a part of a model where these instances only say when it ends: nothing but their guards is asked."""
 
     @property
     def count(self) -> int:
@@ -142,7 +144,13 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
 
 def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
     """Position or potential (x), rate (v), acceleration (a), prescribed acceleration (A), reaction (R)."""
-    index, ratio, offset = flat.place(port)
+    return place_of_motion(flat, numbering, *flat.place(port), variable)
+
+
+def place_of_motion(
+    flat: FlatModel, numbering: Numbering, index: int, ratio: float, offset: float, variable: str
+) -> tuple[int, float, float]:
+    """Where in z the motion stands of what moves with ratio * group + offset: place, coefficient, offset."""
     group = flat.groups[index]
     rate = numbering.rate.get(index)
     if group.free and (variable in "AR" or (variable != "x" and rate is None)):

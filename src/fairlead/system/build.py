@@ -12,7 +12,7 @@ import numpy as np
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.blocks import Block, Floats, Tables
 from fairlead.system.context import context, working_arrays
-from fairlead.system.driver import callbacks
+from fairlead.system.driver import SPREAD, callbacks
 from fairlead.system.jacobian import jacobian
 from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
@@ -60,7 +60,7 @@ def build(
         numbering=numbering,
         blocks=blocks,
         tables=tables,
-        callbacks=callbacks().address,
+        callbacks={name: at for name, at in callbacks().address.items() if name != SPREAD},
         context=memory["context"].ctypes.data,
         initial=begin,
         pattern=Pattern(program.starts, program.rows),

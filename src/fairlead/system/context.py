@@ -21,7 +21,7 @@ ADDRESSES = (
     "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
     "SAMPLE_COUNT", "SAMPLE_START", "SAMPLE_KERNELS", "OUTPUTS_ALL", "CIRCLE_PAIRS", "CIRCLE_COEF", "CIRCLE_ZONES",
     "CIRCLE_SEEN", "CIRCLE_STILL", "CIRCLE_BODIES", "CIRCLE_PINS", "CIRCLE_NODES", "CIRCLE_RATIO", "GUARD_INERTIA",
-    "TAU", "FIXED", "FIXED_COEF", "MOVING", "MOVING_BASE", "F_REST", "RECORDED_REST",
+    "TAU", "FIXED", "FIXED_COEF", "MOVING", "MOVING_BASE", "F_REST", "GUARD_COUNTS",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -40,10 +40,11 @@ def working_arrays(
     reactions = reaction_masses(flat, numbering)
     return {
         "z": np.zeros(numbering.dump + 1 + numbering.resting), "w": np.zeros(numbering.w_dump + 1),
-        "f_rest": np.zeros(numbering.w_dump + 1), "recorded_rest": np.zeros(1),
+        "f_rest": np.zeros(numbering.w_dump + 1),
         "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
         "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
-        "counts": np.array([b.count for b in blocks], dtype=np.int64), "schedule": _schedule(blocks, numbering),
+        "counts": np.array([b.count if b.acts else 0 for b in blocks], dtype=np.int64),
+        "guard_counts": np.array([b.count for b in blocks], dtype=np.int64), "schedule": _schedule(blocks, numbering),
         "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2),
         "inverse_mass": _inverse_mass(flat, numbering),
         "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
@@ -51,7 +52,7 @@ def working_arrays(
         "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),
         "program": program.steps, "program_coef": program.coef, "fixed": program.fixed,
         "fixed_coef": program.fixed_coef, "moving": program.moving, "moving_base": np.zeros(len(program.moving)),
-        "holds": holds(blocks)[0], "time_place": time_places(blocks), "selected": np.zeros((0, 2), dtype=np.int64),
+        "holds": holds(blocks)[0], "time_place": time_places(blocks), "selected": np.zeros(0, dtype=np.int64),
     }  # fmt: skip
 
 

@@ -2,7 +2,8 @@
 
     unknowns that rest      numbers behind `dump` in z
     laws of those alone     left out; what they add to forces on prescribed nodes and to the ledger is `f_rest`
-    what they record        `recorded_rest`
+    outputs                 those of the whole, whose unknowns `spread` finds
+    what is carried         its places and rows are those of what carries it, whose inertia has its own in it
 """
 
 from __future__ import annotations
@@ -14,33 +15,27 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system import layout
 from fairlead.system.blocks import Block
 from fairlead.system.build import build
-from fairlead.system.rest import Booleans, Floats, Integers
+from fairlead.system.driver import callbacks
+from fairlead.system.moving import Following, Moving
+from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
 from fairlead.system.system import System
 from fairlead.system.tolerances import Weights
 from fairlead.system.unknowns import Numbering
 
-AGREE = 1e-6
-"""Share of its own terms by which an equation of the part may differ from that of the whole."""
-CALL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)
+AGREE, EPSILON = 1e-6, 1e-14
+"""An equation of the part may differ from that of the whole by such a share of itself, and of its terms."""
+POINTER = ctypes.c_void_p
+CALLS = {k: ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, *(k + 1) * [POINTER]) for k in (1, 2)}
+"""Callbacks at (t, y), by how many vectors they fill."""
 
 
-class Moving(NamedTuple):
-    """What moves and a margin around it."""
-
-    kept: Booleans
-    """By unknown."""
-    laws: list[Booleans]
-    """By block: its instances that have to do with what is kept."""
-    machines: Integers
-    """Theirs."""
-    rim: Booleans
-    """By machine of the whole: its change may set in motion what is not kept."""
-
-
-class Part(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Part:
     """What moves, and where it lies in the whole."""
 
     problem: System
@@ -49,51 +44,115 @@ class Part(NamedTuple):
     guards: Integers
     rim: Integers
     """By machine of the part: 1 if its change ends what is true of the part."""
+    whole: System
+    carried: Following
+
+    @property
+    def sure(self) -> bool:
+        """True if what is left out cannot move by itself, however little the run has shown."""
+        return bool(len(self.carried.unknowns))
+
+    def give_back(self, t: float, y: Floats) -> None:
+        """Give the whole, whose unknowns are y [n], what is carried at t, and what its controllers know."""
+        call(self.problem, "spread", t, y[self.unknowns], y)
+        hand_over(self.problem, self.whole)
+
+    def carry(self, of_unknowns: Floats) -> None:
+        """Give what is carried the share of its carrier in numbers by unknown of the whole, such as slopes."""
+        u, what = self.carried.unknowns, self.carried
+        own = what.place[u] < self.whole.n
+        of_unknowns[u[own]] = what.ratio[u[own]] * of_unknowns[what.place[u[own]]]
+
+
+def hand_over(one: System, other: System) -> None:
+    """Give another System of the same sampled instances what they know: counts of samples, objects in Python."""
+    other.memory["sample_count"][:] = one.memory["sample_count"]
+    for mine, its in zip(one.controllers, other.controllers, strict=True):
+        its.take_over(mine)
 
 
 def cut(system: System, t: float, y: Floats, moving: Moving) -> Part | None:
     """The System of what moves at (t, y [n]); None if its equations differ from those of the whole there."""
-    whole, n = system.numbering, system.n
-    kept, laws, machines, rim = moving.kept, moving.laws, moving.machines, moving.rim
+    whole, n, carried = system.numbering, system.n, moving.carried
+    kept, machines, rim = moving.kept, moving.machines, moving.rim
     unknowns = np.flatnonzero(kept)
-    numbering = _numbering(system, kept, laws)
-    z_of, rests = _places(system, numbering, unknowns, laws)
+    numbering = _numbering(system, moving)
+    z_of, rests = _places(system, numbering, unknowns, moving)
     w_of = np.full(whole.w_dump + 1, numbering.w_dump)
     w_of[unknowns] = np.arange(len(unknowns))
     w_of[n : whole.w_dump] = numbering.n + np.arange(whole.w_dump - n)
     machine_of = np.full(len(system.zones) + 1, -1, dtype=np.int64)
     machine_of[machines] = np.arange(len(machines))
-    blocks = [
-        _part_of(block, chosen, z_of, w_of, machine_of)
-        for block, chosen in zip(system.blocks, laws, strict=True)
-        if chosen.any()
-    ]
+    pieces = _pieces(system, moving)
+    blocks = [_part_of(block, piece, numbering.dump, carried, z_of, w_of, machine_of) for _, block, piece in pieces]
     weights = Weights(system.absolute[unknowns], system.relative[unknowns], system.cap[unknowns])
     numbering.resting = len(rests)
-    names = [system.machine_names[m] for m in machines]
-    made = build(system.flat, numbering, blocks, system.tables, names, y[unknowns].copy(), weights, named=False)
+    names, flat = [system.machine_names[m] for m in machines], _heavier(system.flat, carried)
+    made = build(flat, numbering, blocks, system.tables, names, y[unknowns].copy(), weights, named=False)
     made.zones[:] = system.zones[machines]
     made.recorded = system.recorded
-    guards = _guards(system, laws)
+    _tell_of_the_whole(made, system, y, unknowns, machines, z_of, carried)
+    hand_over(system, made)
+    guards = _guards(system, pieces)
     made.guard_tolerance = system.guard_tolerance[guards]
-    if not _say_what_rests(system, made, t, y, unknowns, laws, rests):
+    if not _say_what_rests(system, made, t, y, unknowns, moving, rests):
         return None
-    return Part(made, unknowns, machines, guards, rim[machines].astype(np.int64))
+    return Part(made, unknowns, machines, guards, rim[machines].astype(np.int64), system, carried)
 
 
-def _numbering(system: System, kept: Booleans, laws: Sequence[Booleans]) -> Numbering:
+def _tell_of_the_whole(
+    part: System, system: System, y: Floats, unknowns: Integers, machines: Integers, z_of: Integers, carried: Following
+) -> None:
+    """What `spread` must know (the names are explained in layout.py)."""
+    count = len(carried.unknowns) // 2
+    x, v = carried.unknowns[:count], carried.unknowns[count:]
+    a = system.numbering.acceleration + v
+    part.memory |= {
+        "whole_y": y.copy(), "kept": unknowns, "kept_machines": machines,
+        "carried": np.stack([x, v, *(z_of[carried.place[u]] for u in (x, v, a))], axis=1).astype(np.int64),
+        "carried_coef": np.stack([carried.ratio[x], carried.offset[x], carried.ratio[v],
+                                  carried.ratio[a] * carried.mass, 1 / carried.bond], axis=1),
+    }  # fmt: skip
+    context = part.memory["context"]
+    for name in ("WHOLE_Y", "KEPT", "KEPT_MACHINES", "CARRIED", "CARRIED_COEF"):
+        part.memory[name.lower()] = np.ascontiguousarray(part.memory[name.lower()])
+        context[getattr(layout, name)] = part.memory[name.lower()].ctypes.data
+    context[layout.N_KEPT_MACHINES], context[layout.N_CARRIED] = len(machines), count
+    context[layout.WHOLE] = system.context
+    context[layout.WHOLE_ZONES], context[layout.WHOLE_W] = (
+        system.memory[name].ctypes.data for name in ("zones", "w")
+    )  # fmt: skip
+
+
+def _heavier(flat: FlatModel, carried: Following) -> FlatModel:
+    """The model with the inertia of what is carried at what carries it."""
+    groups = tuple(
+        dataclasses.replace(group, mass=group.mass + carried.masses.get(index, 0.0))
+        for index, group in enumerate(flat.groups)
+    )
+    return dataclasses.replace(flat, groups=groups) if carried.masses else flat
+
+
+def _numbering(system: System, moving: Moving) -> Numbering:
     """The numbering of what is kept, in the order of the whole."""
-    whole = system.numbering
+    whole, kept, laws = system.numbering, moving.kept, moving.laws
     new = np.cumsum(kept) - 1
     chosen = {i.path for block, some in zip(system.blocks, laws, strict=True)
               for i, one in zip(block.instances, some.tolist(), strict=True) if one}  # fmt: skip
     signals = [output for output in whole.signals if output.instance in chosen]
+    unknowns = dict(enumerate(whole.unknowns))
+    for group, mass in moving.carried.masses.items():
+        if group in whole.rate:
+            at = whole.rate[group]
+            unknowns[at] = dataclasses.replace(unknowns[at], mass=unknowns[at].mass + mass)
     return Numbering(
-        unknowns=[whole.unknowns[i] for i in np.flatnonzero(kept)],
+        unknowns=[unknowns[i] for i in np.flatnonzero(kept).tolist()],
         position={g: int(new[i]) for g, i in whole.position.items() if kept[i]},
         rate={g: int(new[i]) for g, i in whole.rate.items() if kept[i]},
         balance={g: int(new[i]) for g, i in whole.balance.items() if kept[i]},
         own={key: int(new[i]) for key, i in whole.own.items() if kept[i]},
+        circles=[pair for pair in whole.circles if kept[whole.own[pair.path, pair.unknown]]],
+        share={g: int(new[i]) for g, i in whole.share.items() if kept[i]},
         ledger={line: int(new[i]) for line, i in whole.ledger.items()},
         pairs=[(int(new[x]), int(new[v])) for x, v in whole.pairs if kept[x] and kept[v]],
         signals={output: k for k, output in enumerate(signals)},
@@ -102,7 +161,7 @@ def _numbering(system: System, kept: Booleans, laws: Sequence[Booleans]) -> Numb
 
 
 def _places(
-    system: System, numbering: Numbering, unknowns: Integers, laws: Sequence[Booleans]
+    system: System, numbering: Numbering, unknowns: Integers, moving: Moving
 ) -> tuple[Integers, Integers]:
     """Where every place of the whole z lies in that of the part; and the places whose numbers stand behind it."""
     whole, n = system.numbering, system.n
@@ -115,87 +174,103 @@ def _places(
     place[whole.zero], place[whole.time], place[whole.dump] = numbering.zero, numbering.time, numbering.dump
     place[whole.acceleration : whole.acceleration + n] = numbering.zero
     place[whole.acceleration + unknowns] = numbering.acceleration + np.arange(numbering.n)
-    read = [b.in_index[chosen].ravel() for b, chosen in zip(system.blocks, laws, strict=True)]
-    sources = np.unique(np.concatenate([*read, np.zeros(0, np.int64)]).astype(np.int64))
+    read = [b.in_index[p.which].ravel() for _, b, p in _pieces(system, moving)]
+    sources = np.unique(moving.carried.place[np.concatenate([*read, np.zeros(0, np.int64)]).astype(np.int64)])
     rests = sources[place[sources] < 0]
     place[rests] = numbering.dump + 1 + np.arange(len(rests))
     place[place < 0] = numbering.dump
     return place, rests
 
 
-def _part_of(block: Block, chosen: Booleans, z_of: Integers, w_of: Integers, machine_of: Integers) -> Block:
-    """The chosen instances of a block, with places in the vectors of the part."""
-    which = np.flatnonzero(chosen)
+class Piece(NamedTuple):
+    """Instances of one block of the whole; whether they act, or only have guards."""
+
+    which: Integers
+    acts: bool
+
+
+def _pieces(system: System, moving: Moving) -> list[tuple[int, Block, Piece]]:
+    """The blocks of the part: number of the block of the whole, that block, and which of its instances."""
+    return [
+        (k, block, Piece(np.flatnonzero(chosen), acts))
+        for k, block in enumerate(system.blocks)
+        for chosen, acts in ((moving.laws[k], True), (moving.watched[k], False))
+        if chosen.any()
+    ]
+
+
+def _part_of(
+    block: Block, piece: Piece, dump: int, carried: Following, z_of: Integers, w_of: Integers, machine_of: Integers
+) -> Block:
+    """These instances of a block, with places in the vectors of the part."""
+    which = piece.which
+    read, coef, goes = block.in_index[which], block.in_coef[which], block.flow_index[which]
+    gives = z_of[block.sig_index[which]]
     return dataclasses.replace(
         block,
         instances=[block.instances[i] for i in which], ranks=[block.ranks[i] for i in which],
-        parameters=block.parameters[which], in_index=z_of[block.in_index[which]],
-        in_coef=block.in_coef[which], in_offset=block.in_offset[which],
+        parameters=block.parameters if len(which) == block.count else block.parameters[which],  # samples go to both
+        in_index=z_of[carried.place[read]], in_coef=coef * carried.ratio[read],
+        in_offset=block.in_offset[which] + coef * carried.offset[read],
         machines=machine_of[block.machines[which]], table_base=block.table_base[which],
-        sig_index=z_of[block.sig_index[which]], flow_index=w_of[block.flow_index[which]],
-        flow_coef=block.flow_coef[which], ledger_index=w_of[block.ledger_index],
+        sig_index=gives if piece.acts else np.full_like(gives, dump), flow_index=w_of[carried.row[goes]],
+        flow_coef=block.flow_coef[which] * carried.share[goes], ledger_index=w_of[block.ledger_index], acts=piece.acts,
     )  # fmt: skip
 
 
-def _guards(system: System, laws: Sequence[Booleans]) -> Integers:
+def _guards(system: System, pieces: Sequence[tuple[int, Block, Piece]]) -> Integers:
     """Which guards of the whole are those of these instances, in order."""
     found, _ = shares(system.blocks)
-    of_block = [
-        (share.guards + block.kernel.structure.slots * np.flatnonzero(chosen)[:, None]
+    of_piece = [
+        (found[k].guards + block.kernel.structure.slots * piece.which[:, None]
          + np.arange(block.kernel.structure.slots)).ravel()
-        for block, share, chosen in zip(system.blocks, found, laws, strict=True)
+        for k, block, piece in pieces
     ]  # fmt: skip
-    return np.concatenate([*of_block, np.zeros(0, np.int64)]).astype(np.int64)
+    return np.concatenate([*of_piece, np.zeros(0, np.int64)]).astype(np.int64)
 
 
 def _say_what_rests(
-    system: System, part: System, t: float, y: Floats, unknowns: Integers, laws: Sequence[Booleans], rests: Integers
+    system: System, part: System, t: float, y: Floats, unknowns: Integers, moving: Moving, rests: Integers
 ) -> bool:
     """Write the numbers of the rest into the part; False if the equations of the part are not those of the whole."""
-    f, of_part, out = np.zeros(system.n), np.zeros(part.n), np.zeros(system.n_outputs)
-    call(system, "outputs", t, y, out)
-    call(system, "rhs", t, y, f)
+    of_part, carried, n = np.zeros(part.n), moving.carried, system.n
+    y = aligned(system, carried, t, y)  # the bonds of what is carried have nothing to dissipate
+    call(system, "outputs", t, y, np.zeros(system.n_outputs))  # whatever a law may read
+    call(system, "rhs", t, y, np.zeros(n))
+    rows = carried.added_up(system.memory["w"])
+    rounding = EPSILON * carried.added_up(_terms(system, t, y))
     z, w = part.memory["z"], part.memory["w"]
     z[part.numbering.dump + 1 :] = system.memory["z"][rests]
     call(part, "rhs", t, y[unknowns].copy(), of_part)
     meters = part.quadrature
-    missing = f[unknowns] - of_part
-    size = np.abs(f[unknowns]) + np.abs(of_part) + np.abs(part.absolute)
-    if (np.abs(missing) > AGREE * size)[~meters].any():
+    missing = rows[unknowns] - of_part
+    size = np.abs(rows[unknowns]) + np.abs(of_part) + np.abs(part.absolute)
+    if (np.abs(missing) > AGREE * size + rounding[unknowns])[~meters].any():
         return False
     rest = part.memory["f_rest"]
     rest[: part.n][meters] = missing[meters]
-    rest[part.n : -1] = system.memory["w"][system.n : -1] - w[part.n : -1]
-    _say_what_is_recorded(system, part, out, laws)
+    rest[part.n : -1] = rows[n:-1] - w[part.n : -1]
     return True
 
 
-def _say_what_is_recorded(system: System, part: System, out: Floats, laws: Sequence[Booleans]) -> None:
-    """Outputs of what is left out stay as they are; those of the part are evaluated."""
-    source = np.full(len(system.memory["outputs_all"]), -1, dtype=np.int64)
-    of_whole, of_part = shares(system.blocks)[0], iter(shares(part.blocks)[0])
-    for block, share, chosen in zip(system.blocks, of_whole, laws, strict=True):
-        if chosen.any():
-            width, which = len(block.kernel.structure.all_outputs), np.flatnonzero(chosen)
-            first = next(of_part).outputs
-            source[(share.outputs + width * which[:, None] + np.arange(width)).ravel()] = first + np.arange(
-                width * len(which)
-            )
-    at = np.array([s.at for s in system.recorded], dtype=np.int64)
-    new = np.full(len(at), -1, dtype=np.int64)
-    new[at >= 0] = source[at[at >= 0]]
-    keeps = (at < 0) | (new >= 0)
-    meters = zip(system.numbering.ledger.values(), part.numbering.ledger.values(), strict=True)
-    ledger = {-1 - of_whole: -1 - of_part for of_whole, of_part in meters}
-    new[at < 0] = [ledger[place] for place in at[at < 0].tolist()]
-    rows = np.stack([np.flatnonzero(keeps), new[keeps]], axis=1)
-    rest = out.copy()
-    stored = system.memory["stored"]
-    rest[-1] = system.memory["outputs_all"][stored[source[stored] < 0]].sum()
-    part.select(rows, rest)
+def aligned(system: System, what: Following, t: float, y: Floats) -> Floats:
+    """Put all that is carried where its carrier is at t, and as fast; the unknowns [n] then."""
+    call(system, "rhs", t, y, np.zeros(system.n))
+    made, u = y.copy(), what.unknowns
+    made[u] = what.ratio[u] * system.memory["z"][what.place[u]] + what.offset[u]
+    return made
 
 
-def call(system: System, name: str, t: float, y: Floats, out: Floats) -> None:
-    """Call one of the callbacks that fill a vector at (t, y)."""
+def _terms(system: System, t: float, y: Floats) -> Floats:
+    """By row of w: the sum of its terms without their signs, as far as it is linear in the unknowns."""
+    values, made = np.zeros(len(system.pattern.rows)), np.zeros(system.numbering.w_dump + 1)
+    call(system, "jacobian", t, y, values, np.zeros(system.n))
+    column = np.repeat(np.arange(system.n), np.diff(system.pattern.starts))
+    np.add.at(made, system.pattern.rows, np.abs(values * y[column]))
+    return made
+
+
+def call(system: System, name: str, t: float, y: Floats, *out: Floats) -> None:
+    """Call one of the callbacks that fill vectors at (t, y)."""
     y = np.ascontiguousarray(y)
-    CALL(system.callbacks[name])(system.context, t, y.ctypes.data, out.ctypes.data)
+    CALLS[len(out)](callbacks().address[name])(system.context, t, y.ctypes.data, *(one.ctypes.data for one in out))

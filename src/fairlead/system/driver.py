@@ -9,6 +9,7 @@ code; compiled once, not once per model. Names in capitals are positions, see `l
                of either is done once
     slopes     as jacobian, without the rows of the ledger, which stand last in that list
     shares     of held contacts that close a circle: see sharing.py
+    spread     of a part, what the whole is that it stands for: see cutting.py
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ from pathlib import Path
 from fairlead.native import Build, Native, digest, load_or_compile
 from fairlead.system.unions import add_shares, guard_shares, look_around, regroup, unite
 
+SPREAD = "spread"
+"""The one that no engine calls."""
 SIGNATURES = {
     "rhs": (("I8", "float", "F8", "F8"), "None"),
     "forces": (("I8", "float", "F8", "F8"), "None"),
@@ -33,6 +36,7 @@ SIGNATURES = {
     "next_time": (("I8", "float"), "float"),
     "at_time": (("I8", "float", "F8"), "int"),
     "outputs": (("I8", "float", "F8", "F8"), "None"),
+    SPREAD: (("I8", "float", "F8", "F8"), "None"),
 }
 
 
@@ -207,7 +211,7 @@ def guards(ctx, t, y, g):
         look(ctx, t, y)
     if ctx[GUARDS_READ] > 0:
         accelerate(ctx, t, y)
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[GUARD_COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], GUARD, block, 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g)
@@ -291,7 +295,32 @@ def at_time(ctx, t, y):
     return changed
 
 
-def outputs(ctx, t, y, out):
+def expand(ctx, t, y, of_whole):
+    """The unknowns of the whole at (t, y) of a part of it: what it keeps, and what is carried along.
+
+    What is carried follows its carrier, but for the slip with which its bond moves it so.
+    """
+    whole, zones, of_all = i8(ctx[WHOLE]), i8(ctx[ZONES]), i8(ctx[WHOLE_ZONES])
+    kept, machines = i8(ctx[KEPT]), i8(ctx[KEPT_MACHINES])
+    for i in range(0, ctx[N]):
+        of_whole[kept[i]] = y[i]
+    for k in range(0, ctx[N_KEPT_MACHINES]):
+        of_all[machines[k]] = zones[k]
+    if ctx[N_CARRIED] > 0:
+        accelerate(ctx, t, y)
+    z, carried, coef = f8(ctx[Z]), i8(ctx[CARRIED]), f8(ctx[CARRIED_COEF])
+    for k in range(0, ctx[N_CARRIED]):
+        of_whole[carried[5 * k]] = coef[5 * k] * z[carried[5 * k + 2]] + coef[5 * k + 1]
+        of_whole[carried[5 * k + 1]] = coef[5 * k + 2] * z[carried[5 * k + 3]]
+    if ctx[N_CARRIED] > 0:
+        evaluate(whole, t, of_whole)
+    w = f8(ctx[WHOLE_W])
+    for k in range(0, ctx[N_CARRIED]):
+        v = carried[5 * k + 1]
+        of_whole[v] += (w[v] - coef[5 * k + 3] * z[carried[5 * k + 4]]) * coef[5 * k + 4]
+
+
+def show(ctx, t, y, out):
     """The recorded outputs, then the stored energy of all."""
     accelerate(ctx, t, y)
     z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
@@ -299,22 +328,35 @@ def outputs(ctx, t, y, out):
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], OUTPUT, block, 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)
-    rest, total = f8(ctx[RECORDED_REST]), ctx[N_RECORDED]
-    for k in range(0, total + 1):
-        out[k] = rest[k]
-    for k in range(0, ctx[N_SELECTED]):
-        place, source = selected[2 * k], selected[2 * k + 1]
+    total = ctx[N_SELECTED]
+    for k in range(0, total):
+        source = selected[k]
         if source >= 0:
-            out[place] = everything[source]
+            out[k] = everything[source]
         if source < 0:
-            out[place] = z[-1 - source]
+            out[k] = z[-1 - source]
+    out[total] = 0.0
     for k in range(0, ctx[N_STORED]):
         out[total] += everything[stored[k]]
 
 
+def spread(ctx, t, y, of_whole):
+    """As expand."""
+    expand(ctx, t, y, of_whole)
+
+
+def outputs(ctx, t, y, out):
+    """What is recorded, of the whole."""
+    if ctx[WHOLE] == 0:
+        show(ctx, t, y, out)
+    if ctx[WHOLE] != 0:
+        expand(ctx, t, y, f8(ctx[WHOLE_Y]))
+        show(i8(ctx[WHOLE]), t, f8(ctx[WHOLE_Y]), out)
+
+
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
-    assemble,
+    assemble, expand, show,
 )  # fmt: skip
 
 

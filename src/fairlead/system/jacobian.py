@@ -25,7 +25,8 @@ def jacobian(
     m = len(numbering.signals) + len(numbering.reactions)
     entries = circle_entries(numbering, m, more)
     for block, share in zip(blocks, shares, strict=True):
-        _entries(block, share, numbering, entries, m)
+        if block.acts:
+            _entries(block, share, numbering, entries, m)
     _fixed_entries(flat, numbering, entries, m)
     partials = more + len(numbering.circles) + len(numbering.share)
     level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials)

@@ -30,7 +30,7 @@ F8, I8 = DOUBLE.as_pointer(), INT.as_pointer()
 TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": I8, "None": ir.VoidType()}
 SHARED = {
     "ctx": "I8", "t": "float", "y": "F8", "mode": "int", "r": "F8", "g": "F8", "ledger": "int",
-    "values": "F8", "ft": "F8",
+    "values": "F8", "ft": "F8", "of_whole": "F8", "out": "F8",
 }  # fmt: skip
 """Arguments of shared functions."""
 KERNEL = ("int", "I8", "int", "int", "F8", "I8", "F8", "F8")

@@ -10,12 +10,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fairlead.system.cutting import Moving, Part, cut
+from fairlead.system.carried import Carriage
+from fairlead.system.cutting import Part, cut
+from fairlead.system.moving import Moving, nothing_carried
 from fairlead.system.rest import Anatomy, Booleans, Floats, Integers, Rest, anatomy, at_rest, leaning_on
 from fairlead.system.system import System
 
 HUB = 64
 """An unknown in more equations than this passes no motion on: what hangs on it moves anyway, or hangs on a rest."""
+MORE = 1.1
+"""Nodes that are carried, over those at the last look, from which on another look is worth it."""
 HOLDING = 0.2
 """Contacts that hold, over the unknowns that have to rest, below which it is not worth a look."""
 
@@ -29,15 +33,36 @@ class Narrowing:
         self._anatomy: Anatomy | None = None
         self._loud: tuple[Integers, Integers] | None = None
         self._givers: list[Booleans] = []
+        self._carriage = Carriage(system)
+        self._carried = 0
 
     @property
     def possible(self) -> bool:
+        """True if something may be left out."""
+        return bool(self._carriage.bonds) or self._may_rest
+
+    @property
+    def _may_rest(self) -> bool:
         """True if something holds, and nothing but time and the unknowns sets what moves."""
         memory = self.system.memory
         return bool(len(memory["holds"]) and not len(memory["sampled"]) and not len(memory["circle_pairs"]))
 
-    def moving(self, y: Floats, margin: int, most: float) -> Moving | None:
-        """What moves at y [n], with a margin of as many equations; None if that is more than a share of `most`."""
+    def moving(self, t: float, y: Floats, margin: int, most: float, now: Part | None = None) -> Moving | None:
+        """What is left at (t, y [n]) without what rests or is carried; None if that is not worth while.
+
+        What rests is left out but for a margin of as many equations, if what stays is at most a share of `most`.
+        `now` is the part that is in force: less of what is carried is then not worth a look.
+        """
+        count = self._carriage.count
+        if now is not None and now.sure and count < MORE * self._carried:
+            return None
+        found = self._carriage.moving(t, y)
+        if found is not None:
+            self._carried = count
+            return found
+        return self._not_at_rest(y, margin, most) if self._may_rest else None
+
+    def _not_at_rest(self, y: Floats, margin: int, most: float) -> Moving | None:
         system = self.system
         holds = system.memory["holds"]
         if np.count_nonzero(system.zones[holds[:, 0]] == holds[:, 1]) < HOLDING * (1.0 - most) * system.n:
@@ -58,7 +83,9 @@ class Narrowing:
             return None
         of_blocks = [block.machines[chosen].ravel() for block, chosen in zip(system.blocks, laws, strict=True)]
         machines = np.sort(np.concatenate([*of_blocks, np.zeros(0, np.int64)]).astype(np.int64))
-        return Moving(kept, laws, machines, leaning_on(rest, left_out, len(system.zones)))
+        nothing = [np.zeros(block.count, dtype=bool) for block in system.blocks]
+        rim = leaning_on(rest, left_out, len(system.zones))
+        return Moving(kept, laws, nothing, machines, rim, nothing_carried(system))
 
     def part(self, t: float, y: Floats, moving: Moving) -> Part | None:
         """The System of what moves, with the numbers of the rest at (t, y); None if its equations differ there."""

@@ -50,6 +50,10 @@ class CalledController:
         what = f"{type(self.failure).__name__}: {self.failure}"
         return f"t = {self.failed_at:.6g} s: {self.instance.path}: {what}{place}"
 
+    def take_over(self, other: CalledController) -> None:
+        """Go on where another one of the same instance was."""
+        self._object, self.failure, self.failed_at = other._object, other.failure, other.failed_at
+
     def _sampled(self, *_: Any) -> None:
         """Take one sample. A failure is kept, and what cannot be known becomes NaN, which ends the run."""
         if self.failure is not None:

@@ -113,17 +113,11 @@ class System:
         names = {s.name for s in chosen}
         hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
         self.recorded = chosen + hidden
-        at = np.array([s.at for s in self.recorded], dtype=np.int64)
-        self.select(np.stack([np.arange(len(at)), at], axis=1), np.zeros(len(at) + 1))
-        return chosen
-
-    def select(self, rows: Integers, rest: Floats) -> None:
-        """Record `rest` [n_outputs], with the outputs of `rows` (place, source) in it; see `layout.py`."""
-        self.memory["selected"], self.memory["recorded_rest"] = np.ascontiguousarray(rows), rest
+        self.memory["selected"] = np.array([s.at for s in self.recorded], dtype=np.int64)
         context = self.memory["context"]
-        context[layout.N_SELECTED], context[layout.N_RECORDED] = len(rows), len(rest) - 1
+        context[layout.N_SELECTED] = len(self.recorded)
         context[layout.SELECTED] = self.memory["selected"].ctypes.data
-        context[layout.RECORDED_REST] = self.memory["recorded_rest"].ctypes.data
+        return chosen
 
     def __str__(self) -> str:
         unknowns = self.numbering.unknowns
