@@ -243,9 +243,13 @@ class _Look:
         return must | (watches & self.has_unknowns), np.flatnonzero(watches)
 
     def _motions(self) -> tuple[Integers, Integers]:
-        """Positions and rates that stay unknowns."""
-        numbering = self.system.numbering
+        """Where in z positions and rates stand that stay unknowns, or are prescribed."""
+        numbering, signals = self.system.numbering, self.system.numbering.signals
         pairs = [(x, v) for x, v in numbering.pairs if self.kept[x] and self.kept[v]]
+        for group in self.system.flat.groups:
+            if group.prescribed is not None and group.prescribed.outputs is not None:
+                x, v, _ = (signals[PortRef(group.prescribed.by.instance, name)] for name in group.prescribed.outputs)
+                pairs.append((self.system.n + x, self.system.n + v))
         made = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         return made[:, 0], made[:, 1]
 

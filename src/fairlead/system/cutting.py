@@ -15,11 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
 from fairlead.system.blocks import Block
 from fairlead.system.build import build
-from fairlead.system.driver import callbacks
+from fairlead.system.driver import SPREAD, callbacks
 from fairlead.system.moving import Following, Moving
 from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
@@ -54,7 +55,7 @@ class Part:
 
     def give_back(self, t: float, y: Floats) -> None:
         """Give the whole, whose unknowns are y [n], what is carried at t, and what its controllers know."""
-        call(self.problem, "spread", t, y[self.unknowns], y)
+        call(self.problem, SPREAD, t, y[self.unknowns], y)
         hand_over(self.problem, self.whole)
 
     def carry(self, of_unknowns: Floats) -> None:
@@ -71,6 +72,7 @@ def hand_over(one: System, other: System) -> None:
         its.take_over(mine)
 
 
+@collected_later
 def cut(system: System, t: float, y: Floats, moving: Moving) -> Part | None:
     """The System of what moves at (t, y [n]); None if its equations differ from those of the whole there."""
     whole, n, carried = system.numbering, system.n, moving.carried
@@ -234,14 +236,14 @@ def _say_what_rests(
 ) -> bool:
     """Write the numbers of the rest into the part; False if the equations of the part are not those of the whole."""
     of_part, carried, n = np.zeros(part.n), moving.carried, system.n
-    y = aligned(system, carried, t, y)  # the bonds of what is carried have nothing to dissipate
-    call(system, "outputs", t, y, np.zeros(system.n_outputs))  # whatever a law may read
-    call(system, "rhs", t, y, np.zeros(n))
-    rows = carried.added_up(system.memory["w"])
-    rounding = EPSILON * carried.added_up(_terms(system, t, y))
-    z, w = part.memory["z"], part.memory["w"]
+    call(system, "outputs", t, aligned(system, carried, t, y), np.zeros(system.n_outputs))  # whatever a law may read
+    z, w, whole_y = part.memory["z"], part.memory["w"], y.copy()
     z[part.numbering.dump + 1 :] = system.memory["z"][rests]
-    call(part, "rhs", t, y[unknowns].copy(), of_part)
+    call(part, SPREAD, t, y[unknowns], whole_y)
+    call(system, "rhs", t, whole_y, np.zeros(n))
+    rows = carried.added_up(system.memory["w"])
+    rounding = EPSILON * carried.added_up(_terms(system, t, whole_y))
+    call(part, "rhs", t, y[unknowns], of_part)
     meters = part.quadrature
     missing = rows[unknowns] - of_part
     size = np.abs(rows[unknowns]) + np.abs(of_part) + np.abs(part.absolute)
