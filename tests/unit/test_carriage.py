@@ -1,0 +1,101 @@
+"""A line on a drum as part of the drum: what is left of the equations, and that they are those of the whole."""
+
+import numpy as np
+import pytest
+
+from fairlead.integrate import Run, integrate, parts
+from fairlead.system.cutting import aligned, call
+from fairlead.system.influence import answers, influence
+from tests.models.test_carried import CLASSES, CONTROLLED, SCENE
+
+PAIR = """
+    components:
+      a: {type: Mass, mass: 1 kg}
+      spring: {type: Spring, stiffness: 100 N/m}
+      b: {type: Mass, mass: 1 kg}
+    connections: [[a.flange, spring.a], [spring.b, b.flange]]
+    run: {stop: 1 s}
+"""
+
+
+@pytest.mark.parametrize(("ratio", "answering"), [(None, True), (0.5, True), (1.0, False)])
+def test_a_spring_whose_ends_move_alike_answers_to_nothing(scene, ratio, answering):
+    """Its ends are `ratio` times as far from where they were; None: each by itself."""
+    system = scene(PAIR).system
+    found = influence(system)
+    call(system, "jacobian", 0.0, np.zeros(system.n), np.zeros(len(system.pattern.rows)), np.zeros(system.n))
+    a, b = (system.unknown_names.index(name) for name in ("a.x", "b.x"))
+    place, factor = np.arange(len(system.memory["z"])), np.ones(len(system.memory["z"]))
+    if ratio is not None:
+        place[b], factor[b] = a, ratio
+    which = answers(found, [system.memory["partials"]], place, factor)
+    assert bool(np.isin(which.z, (a, b)).any()) == answering
+
+
+@pytest.fixture
+def wound(scene, library, monkeypatch):
+    """wound(length) -> a route with all of a line but 6 m on the drum, 0.1 s after the start.
+
+    The System, its time and its unknowns; and the part without what is deep on the drum.
+    """
+    monkeypatch.setattr(parts, "LEAST", 10**9)
+
+    def make(length=40.0):
+        text = SCENE.format(**CONTROLLED).replace("length: 40 m", f"length: {length} m")
+        system = scene(text.replace("start: -34 m", f"start: {6 - length} m"), (library(CLASSES),)).system
+        outcome = integrate(system, Run(stop=0.1))
+        moving = system.narrowing.moving(outcome.t, outcome.y, 12, 0.5)
+        return system, outcome.t, outcome.y, system.narrowing.part(outcome.t, outcome.y, moving)
+
+    return make
+
+
+def test_the_drum_has_the_inertia_of_what_lies_on_it(wound):
+    part = wound()[-1]
+    drum = [u.mass for u in part.problem.numbering.unknowns if u.mass > 15.0]
+    carried = 2.0 * 0.25 * len(part.carried.groups)  # kg
+    fastened = 2.0 * 0.25 / 2  # its end is part of the drum in any case
+    assert drum == [pytest.approx(20.0 / 0.5**2 + carried + fastened)]  # seen at the rim
+
+
+def test_less_is_left_out_than_lies_on_the_drum_by_the_margin(wound):
+    """Of 136 nodes inboard of the drum's edge 24 may come off before the next look; the end is fastened."""
+    part = wound()[-1]
+    assert 136 - 24 - 2 <= len(part.carried.groups) <= 136 - 24
+
+
+def test_what_is_left_does_not_depend_on_how_much_is_wound_on(wound):
+    few, many = (wound(length)[-1].problem.n for length in (40.0, 160.0))
+    assert few == many
+
+
+def test_the_equations_of_the_part_are_those_of_the_whole_wherever_it_goes(wound):
+    """With all that is kept displaced at random, and carried what is carried: rows of the whole, added up."""
+    system, t, now, part = wound()
+    chance = np.random.default_rng(7)
+    for _ in range(3):
+        y = now.copy()
+        y[part.unknowns] += 1e-4 * chance.uniform(-1, 1, len(part.unknowns))
+        whole = aligned(system, part.carried, t, y)
+        call(system, "rhs", t, whole, np.zeros(system.n))
+        rows = part.carried.added_up(system.memory["w"])
+        f = np.zeros(part.problem.n)
+        call(part.problem, "rhs", t, y[part.unknowns], f)
+        kept = ~part.problem.quadrature
+        np.testing.assert_allclose(f[kept], rows[part.unknowns][kept], rtol=1e-6, atol=1e-5)
+
+
+def test_what_is_carried_gets_the_slip_with_which_its_bond_accelerates_it(wound):
+    """Given back to the whole, a node deep on the drum has the acceleration of its place on the rim."""
+    system, t, y, part = wound()
+    part.give_back(t, y)
+    f = np.zeros(system.n)
+    call(system, "rhs", t, y, f)
+    numbering = system.numbering
+    rate = {g: f[numbering.rate[g]] / system.flat.groups[g].mass for g in part.carried.groups}
+    torque = np.zeros(part.problem.n)
+    call(part.problem, "rhs", t, y[part.unknowns], torque)
+    drum = next(i for i, u in enumerate(part.problem.numbering.unknowns) if u.mass > 15.0)
+    wanted = torque[drum] / part.problem.numbering.unknowns[drum].mass
+    assert abs(wanted) > 1e-3
+    np.testing.assert_allclose(list(rate.values()), wanted, rtol=1e-5)
