@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import pathlib
-import signal
-import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -28,6 +25,7 @@ from fairlead.errors import ModelError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
 from fairlead.integrate.sundials_solver import require_package
+from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
 from fairlead.results import Result, RunDirectory, Signal
@@ -53,18 +51,15 @@ class Watch:
     limits: Limits
     progress: Callable[[float, float, Any], None] | None
     on_grid: bool
-    writing: bool = False  # the first block has come
-    stop_asked: bool = False  # Ctrl-C has been pressed since
+    interruption: Interruption
     kept_jumps: int = 0  # events that have two rows on a grid
     jumps: Counter[str] = field(default_factory=Counter)  # of every signal
 
     def __call__(self, block: Block) -> None:
         """Take one block. Raises KeyboardInterrupt when it is written, if that was asked for meanwhile."""
-        self.writing = True
+        self.interruption.between_blocks = True
         self._take(block)
-        if self.stop_asked:
-            self.stop_asked = False
-            raise KeyboardInterrupt
+        self.interruption.due()
 
     def _take(self, block: Block) -> None:
         columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
@@ -82,31 +77,6 @@ class Watch:
             self.ledger.watch(block.values[:, [columns["energy.dissipated"], columns["energy.supplied"], -1]])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
-
-
-@contextlib.contextmanager
-def interrupted_between_blocks(watch: Watch) -> Iterator[None]:
-    """Let Ctrl-C wait until the block at hand is written, which takes a twentieth of a second at most.
-
-    In the middle of a block it would lose the rows that the engine has handed over and the disk has not
-    seen. Before the first block, when the engine may be compiling, and when it is pressed again, it works at
-    once.
-    """
-
-    def ask(number: int, frame: Any) -> None:
-        if not watch.writing or watch.stop_asked:
-            raise KeyboardInterrupt
-        watch.stop_asked = True
-
-    ours = threading.current_thread() is threading.main_thread()
-    if not ours or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        yield  # only the main thread may set handlers, and one that somebody else has set stays
-        return
-    signal.signal(signal.SIGINT, ask)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def worth_keeping(
@@ -137,12 +107,18 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system), "limits": limits.plain()}
-    with RunDirectory.create(path, _signals(chosen), header, force=force) as directory:
+    with (
+        Interruption() as interruption,
+        RunDirectory.create(path, _signals(chosen), header, force=force) as directory,
+    ):
         on_grid = netlist.record.every is not None
-        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid)
-        with interrupted_between_blocks(watch):
-            outcome = integrate(system, _engine_settings(netlist, settings, system), watch)
+        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid,
+                      interruption)  # fmt: skip
+        outcome = integrate(system, _engine_settings(netlist, settings, system), watch)
+        interruption.between_blocks = False
         outcome = _explained(outcome, system)
+        if outcome.status == Status.INTERRUPTED and interruption.terminated:
+            outcome = dataclasses.replace(outcome, sentence=outcome.sentence.replace("interrupted", "ended by SIGTERM"))
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
             summary["profile"] = _profile(system, outcome, compiled, time.perf_counter() - begun)

@@ -137,6 +137,40 @@ def test_ctrl_c_keeps_what_was_computed_and_exits_with_130(start, netlist, tmp_p
     assert -0.02 <= result.t[-1] - result.run["end_time"] < 0.4
 
 
+@pytest.mark.skipif(os.name != "posix", reason="Windows ends a process without asking it")
+def test_sigterm_ends_the_process_when_run_json_says_so_and_all_is_kept(start, netlist, tmp_path) -> None:
+    process = start(netlist)
+    wait_until_recorded(process, tmp_path / "run", rows=500)
+    process.send_signal(signal.SIGTERM)
+    code, _, err = finish(process)
+    assert code == -signal.SIGTERM  # as any process that SIGTERM has ended
+    assert "Traceback" not in err
+    result = Result.open(tmp_path / "run")
+    check_whole(result, 500)
+    assert result.run["status"] == "interrupted"  # as it is written, not what a reader makes of a process that is gone
+    assert "ended by SIGTERM; " in result.run["sentence"]
+    assert np.diff(result.t).max() < 0.02 + 1e-9
+    assert result.run["energy"]["closure"] < 1e-3
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows ends a process without asking it")
+def test_sigterm_before_the_first_block_leaves_a_run_that_is_said_to_have_been_ended(tmp_path, netlist) -> None:
+    script = """
+import os, signal, sys, fairlead, fairlead.run
+integrate = fairlead.run.integrate
+def terminated(*given):
+    os.kill(os.getpid(), signal.SIGTERM)
+    return integrate(*given)
+fairlead.run.integrate = terminated
+fairlead.load(sys.argv[1]).run(out=sys.argv[2])
+"""
+    command = [sys.executable, "-c", script, str(netlist), str(tmp_path / "run")]
+    assert subprocess.run(command, capture_output=True, timeout=300).returncode == -signal.SIGTERM
+    result = Result.open(tmp_path / "run")
+    assert result.run["status"] == "interrupted"
+    assert len(result.t) == 0
+
+
 @pytest.mark.parametrize(("budget", "word"), [("run.max_steps=300", "300 steps"), ("run.max_events=40", "40 events")])
 def test_a_budget_ends_the_run_and_keeps_it(start, netlist, tmp_path, budget: str, word: str) -> None:
     code, _, err = finish(start(netlist, "--set", budget))

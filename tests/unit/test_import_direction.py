@@ -27,6 +27,7 @@ ALLOWED = {
     "results": {"errors", "quantities"},
     "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results"},
     "choice": set(),
+    "interruption": set(),
     "report": {"errors", "quantities", "results", "analysis"},
 }
 LAST = {"", "run", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before

@@ -41,6 +41,9 @@ Count = Annotated[int, BeforeValidator(_whole), Field(gt=0)]
 Duration = Annotated[Seconds, Field(gt=0)]
 
 
+SHORTEST = 1e-12  # s, and as a share of the times themselves: below it matrices of the engines are rounded away
+
+
 class RunSettings(Strict):
     """How a run goes; every time is a quantity (`20 s`, `10 ms`) or a bare number of seconds."""
 
@@ -77,6 +80,10 @@ class RunSettings(Strict):
     def _ends_after_it_starts(self) -> RunSettings:
         if self.stop <= self.start:
             raise QuantityError(f"stop = {self.stop:g} s is not after start = {self.start:g} s")
+        least = SHORTEST * max(1.0, abs(self.start), abs(self.stop))
+        if self.stop - self.start < least:
+            what = f"stop = {self.stop:.15g} s is {self.stop - self.start:.2g} s after start = {self.start:.15g} s"
+            raise QuantityError(what, f"A run lasts {least:.2g} s at least here. Is the unit meant?")
         return self
 
 

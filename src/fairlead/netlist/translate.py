@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from fairlead.errors import Fault, did_you_mean, listing, shown
+from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.yaml12 import resolve
@@ -70,11 +70,21 @@ def _fault(error: ErrorDetails, model: type[BaseModel], tree: Value) -> Fault:
         return _choice(value, subject, given, context["expected"])
     if kind == "value_error" and isinstance(reason := context.get("error"), QuantityError):
         joint = "." if isinstance(value.content, dict) else " = "  # a block as a whole names its own entries
-        return Fault(value.where, f"{subject}{joint}{reason.what}", reason.allowed)
+        return Fault(_place_of_entry(value, reason.what), f"{subject}{joint}{reason.what}", reason.allowed)
     if kind in WANTED:
         words, advice = WANTED[kind]
         return Fault(value.where, f"{subject} = {given} is not {words}", advice or _hover(model, path))
     return _connection_or_name(error, value, subject, given)
+
+
+def _place_of_entry(block: Value, said: str) -> Location:
+    """Where the entry of a block stands that a mistake in how its entries go together begins with.
+
+    If another one it names was given elsewhere, as by `--set`, it is that one which does not go with the rest.
+    """
+    named = [block.entries[word].where for word in re.findall(r"\w+", said) if word in block.entries]
+    elsewhere = [place for place in named if place.file != block.where.file]
+    return (elsewhere or named or [block.where])[0]
 
 
 def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: str) -> Fault:
