@@ -25,7 +25,7 @@ demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to 
 
 # Neighbours share runs, so each worker takes a stretch of the tests and steals from the end of another's.
 test: $(VENV)/test.done  ## install with what the tests need, run all tests (WORKERS=0 in one process)
-	$(RUN) -m pytest -n $(WORKERS) --dist worksteal $(TESTS)
+	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal $(TESTS)
 
 hard: $(VENV)/test.done  ## play all hard cases on all engines, write docs/stability.md (more with HARD="--only tether --table")
 	$(RUN) -m tests.hard $(HARD)
