@@ -67,6 +67,7 @@ class Scope:
         self._seen: Any = None
         self._switched = np.zeros(len(problem.zones), dtype=np.int64)
         able = engine != "ida" and n >= LEAST and self.narrowing is not None and self.narrowing.possible
+        able = able and bool(problem.callbacks.get("outputs"))  # else the unknowns are recorded, which are fewer in a part
         self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
 
     def look(self) -> None:

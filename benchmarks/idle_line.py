@@ -1,0 +1,99 @@
+"""What line costs that touches nothing: seconds of processor time per simulated second over the length of the line.
+
+    python benchmarks/idle_line.py [--figure FILE]          three minutes; prints the table of docs/routes.md
+
+The route is that of `long_deployment`, paid out at 1 m/s; what is outside the devices lies on the drum or in the sea.
+The time is that of the loop from 4 s to 10 s, with what it takes to leave out what is carried and to take it back.
+"""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from machine import machine
+
+import fairlead
+from fairlead.integrate import Run, integrate, parts
+
+ROUTE = 14.0  # m from the drum to where the sea begins, and a little more
+LENGTHS = (25, 50, 100, 200, 400)  # m
+BEGIN, END = 4.0, 10.0  # s
+KINDS = {
+    "on the drum": (lambda length: (-length, ROUTE), False),
+    "on the drum, nothing left out": (lambda length: (-length, ROUTE), True),
+    "in the sea": (lambda length: (-25.0, ROUTE + length), False),
+}
+
+
+class Measured(NamedTuple):
+    """One row."""
+
+    kind: str
+    idle: float  # m
+    unknowns: int
+    per_second: float  # s of processor time
+    steps: float  # per simulated second
+
+
+def measured() -> Iterator[Measured]:
+    """All rows, after a run that is not counted."""
+    loop_time("on the drum", LENGTHS[0], 1.0)
+    for kind in KINDS:
+        for length in LENGTHS:
+            (before, first, _), (after, last, n) = (loop_time(kind, length, stop) for stop in (BEGIN, END))
+            span = END - BEGIN
+            yield Measured(kind, length, n, (after - before) / span, (last - first) / span)
+
+
+def loop_time(kind: str, length: float, stop: float) -> tuple[float, int, int]:
+    """Processor time of the loop to `stop`, steps, and how many unknowns the whole has."""
+    (inboard, outboard), whole = KINDS[kind][0](length), KINDS[kind][1]
+    given = {"line.length": f"{outboard - inboard} m", "line.start": f"{inboard} m", "line.modules": "1"}
+    system = fairlead.load("long_deployment", set=given).system
+    system.record(["belts.force"])
+    least = parts.LEAST
+    parts.LEAST = 10**9 if whole else least
+    try:
+        outcome = integrate(system, Run(stop=stop, every=0.5, engine="stepping"))
+    finally:
+        parts.LEAST = least
+    assert outcome.ok, outcome.sentence
+    return outcome.loop_cpu, outcome.counters.steps, system.n
+
+
+def draw(rows: list[Measured], path: pathlib.Path) -> None:
+    """Time over length, one curve a kind."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.4, 4.0), layout="constrained")
+    axes = figure.subplots()
+    for kind, marker in zip(KINDS, "o^s", strict=True):
+        mine = [row for row in rows if row.kind == kind]
+        axes.plot([row.idle for row in mine], [1e3 * row.per_second for row in mine], marker=marker, label=kind)
+    axes.set(xlabel="line that touches nothing [m]", ylabel="processor time per simulated second [ms]", ylim=(0, None))
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False)
+    figure.savefig(path, dpi=150)
+
+
+def main() -> None:
+    """Print the table, and draw it where a file is named."""
+    asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("--figure", type=pathlib.Path)
+    figure = asked.parse_args().figure
+    print(machine())
+    print("| idle line | length | unknowns | steps per s | ms per simulated s |\n| --- | --- | --- | --- | --- |")
+    rows = []
+    for row in measured():
+        rows.append(row)
+        print(f"| {row.kind} | {row.idle:.0f} m | {row.unknowns} | {row.steps:.0f} | {1e3 * row.per_second:.1f} |",
+              flush=True)  # fmt: skip
+    if figure is not None:
+        draw(rows, figure)
+
+
+if __name__ == "__main__":
+    main()
