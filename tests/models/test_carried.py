@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import parts
-from fairlead.system import carried
+from fairlead.system import carried, probing
 
 SCENE = """
     components:
@@ -70,7 +70,7 @@ CLASSES = '''
 def brief(monkeypatch):
     """Little margin, so that much is woken and left out again in a short run."""
     monkeypatch.setattr(carried, "KEPT_FREE", 4)
-    monkeypatch.setattr(carried, "NEAR", 0.5)
+    monkeypatch.setattr(probing, "NEAR", 0.5)
 
 
 def on_the_grid(result, name):

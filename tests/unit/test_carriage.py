@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, integrate, parts
-from fairlead.system.cutting import aligned, call
+from fairlead.system.asking import aligned, call
 from fairlead.system.influence import answers, influence
 from tests.models.test_carried import CLASSES, CONTROLLED, SCENE
 

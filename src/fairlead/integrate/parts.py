@@ -67,7 +67,7 @@ class Scope:
         self._seen: Any = None
         self._switched = np.zeros(len(problem.zones), dtype=np.int64)
         able = engine != "ida" and n >= LEAST and self.narrowing is not None and self.narrowing.possible
-        able = able and bool(problem.callbacks.get("outputs"))  # else the unknowns are recorded, which are fewer in a part
+        able = able and bool(problem.callbacks.get("outputs"))  # else unknowns are recorded, and a part has fewer
         self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
 
     def look(self) -> None:
@@ -134,7 +134,7 @@ class Scope:
         """Work on what moves from now on."""
         part = self.narrowing.part(float(self.whole.number["t"]), self.whole.array["y"], moving)
         if part is None:
-            self.memory.number["narrow_at"] = NEVER_LOOK
+            self.memory.number["narrow_at"], self._pause = steps + self._pause, 2 * self._pause
             return
         memory = self._prepare(part.problem)
         for names, places in self._places(part):

@@ -8,7 +8,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import dataclasses
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -18,10 +17,12 @@ import numpy as np
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
+from fairlead.system.asking import aligned, call
 from fairlead.system.blocks import Block
 from fairlead.system.build import build
-from fairlead.system.driver import SPREAD, callbacks
+from fairlead.system.driver import SPREAD
 from fairlead.system.moving import Following, Moving
+from fairlead.system.part import Part, hand_over
 from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
 from fairlead.system.system import System
@@ -30,46 +31,6 @@ from fairlead.system.unknowns import Numbering
 
 AGREE, EPSILON = 1e-6, 1e-14
 """An equation of the part may differ from that of the whole by such a share of itself, and of its terms."""
-POINTER = ctypes.c_void_p
-CALLS = {k: ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, *(k + 1) * [POINTER]) for k in (1, 2)}
-"""Callbacks at (t, y), by how many vectors they fill."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Part:
-    """What moves, and where it lies in the whole."""
-
-    problem: System
-    unknowns: Integers
-    machines: Integers
-    guards: Integers
-    rim: Integers
-    """By machine of the part: 1 if its change ends what is true of the part."""
-    whole: System
-    carried: Following
-
-    @property
-    def sure(self) -> bool:
-        """True if what is left out cannot move by itself, however little the run has shown."""
-        return bool(len(self.carried.unknowns))
-
-    def give_back(self, t: float, y: Floats) -> None:
-        """Give the whole, whose unknowns are y [n], what is carried at t, and what its controllers know."""
-        call(self.problem, SPREAD, t, y[self.unknowns], y)
-        hand_over(self.problem, self.whole)
-
-    def carry(self, of_unknowns: Floats) -> None:
-        """Give what is carried the share of its carrier in numbers by unknown of the whole, such as slopes."""
-        u, what = self.carried.unknowns, self.carried
-        own = what.place[u] < self.whole.n
-        of_unknowns[u[own]] = what.ratio[u[own]] * of_unknowns[what.place[u[own]]]
-
-
-def hand_over(one: System, other: System) -> None:
-    """Give another System of the same sampled instances what they know: counts of samples, objects in Python."""
-    other.memory["sample_count"][:] = one.memory["sample_count"]
-    for mine, its in zip(one.controllers, other.controllers, strict=True):
-        its.take_over(mine)
 
 
 @collected_later
@@ -255,14 +216,6 @@ def _say_what_rests(
     return True
 
 
-def aligned(system: System, what: Following, t: float, y: Floats) -> Floats:
-    """Put all that is carried where its carrier is at t, and as fast; the unknowns [n] then."""
-    call(system, "rhs", t, y, np.zeros(system.n))
-    made, u = y.copy(), what.unknowns
-    made[u] = what.ratio[u] * system.memory["z"][what.place[u]] + what.offset[u]
-    return made
-
-
 def _terms(system: System, t: float, y: Floats) -> Floats:
     """By row of w: the sum of its terms without their signs, as far as it is linear in the unknowns."""
     values, made = np.zeros(len(system.pattern.rows)), np.zeros(system.numbering.w_dump + 1)
@@ -270,9 +223,3 @@ def _terms(system: System, t: float, y: Floats) -> Floats:
     column = np.repeat(np.arange(system.n), np.diff(system.pattern.starts))
     np.add.at(made, system.pattern.rows, np.abs(values * y[column]))
     return made
-
-
-def call(system: System, name: str, t: float, y: Floats, *out: Floats) -> None:
-    """Call one of the callbacks that fill vectors at (t, y)."""
-    y = np.ascontiguousarray(y)
-    CALLS[len(out)](callbacks().address[name])(system.context, t, y.ctypes.data, *(one.ctypes.data for one in out))

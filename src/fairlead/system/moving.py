@@ -10,6 +10,16 @@ from fairlead.system.rest import Booleans, Floats, Integers
 from fairlead.system.system import System
 
 
+class Rider(NamedTuple):
+    """A node that is carried: its group, the carrier's, the ratio of their speeds, the bond's law and its damping."""
+
+    group: int
+    by: int
+    ratio: float
+    law: int
+    bond: float
+
+
 class Following(NamedTuple):
     """What is carried, see carried.py: by place in z and by row of w what stands for it, how much of it.
 

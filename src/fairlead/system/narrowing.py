@@ -11,8 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.system.carried import Carriage
-from fairlead.system.cutting import Part, cut
+from fairlead.system.cutting import cut
 from fairlead.system.moving import Moving, nothing_carried
+from fairlead.system.part import Part
 from fairlead.system.rest import Anatomy, Booleans, Floats, Integers, Rest, anatomy, at_rest, leaning_on
 from fairlead.system.system import System
 

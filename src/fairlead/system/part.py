@@ -1,0 +1,48 @@
+"""A part of a System that an engine works on, and what it gives back to the whole."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from fairlead.system.asking import call
+from fairlead.system.driver import SPREAD
+from fairlead.system.moving import Following
+from fairlead.system.rest import Floats, Integers
+from fairlead.system.system import System
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """What moves, and where it lies in the whole."""
+
+    problem: System
+    unknowns: Integers
+    machines: Integers
+    guards: Integers
+    rim: Integers
+    """By machine of the part: 1 if its change ends what is true of the part."""
+    whole: System
+    carried: Following
+
+    @property
+    def sure(self) -> bool:
+        """True if what is left out cannot move by itself, however little the run has shown."""
+        return bool(len(self.carried.unknowns))
+
+    def give_back(self, t: float, y: Floats) -> None:
+        """Give the whole, whose unknowns are y [n], what is carried at t, and what its controllers know."""
+        call(self.problem, SPREAD, t, y[self.unknowns], y)
+        hand_over(self.problem, self.whole)
+
+    def carry(self, of_unknowns: Floats) -> None:
+        """Give what is carried the share of its carrier in numbers by unknown of the whole, such as slopes."""
+        u, what = self.carried.unknowns, self.carried
+        own = what.place[u] < self.whole.n
+        of_unknowns[u[own]] = what.ratio[u[own]] * of_unknowns[what.place[u[own]]]
+
+
+def hand_over(one: System, other: System) -> None:
+    """Give another System of the same sampled instances what they know: counts of samples, objects in Python."""
+    other.memory["sample_count"][:] = one.memory["sample_count"]
+    for mine, its in zip(one.controllers, other.controllers, strict=True):
+        its.take_over(mine)
