@@ -36,7 +36,7 @@ lint: $(VENV)/lint.done link-tree  ## look for mistakes and style with ruff
 types: $(VENV)/lint.done link-tree  ## check types with mypy
 	MYPYPATH=typing $(RUN) -m mypy -p fairlead
 
-bench: $(VENV)/bench.done  ## error, time and counters beside peers (a quarter of an hour; all with BENCH="everything.py --full")
+bench: $(VENV)/bench.done  ## error, time and counters beside peers (an hour and a half; one case with BENCH="compare.py --case belt")
 	$(RUN) benchmarks/$(BENCH)
 
 docs: $(VENV)/fairlead.done  ## make the pages and figures about friction again, from the classes

@@ -23,6 +23,7 @@ from machine import machine, sentence  # first: it settles the number of threads
 import numpy as np  # isort: skip
 
 DATA = pathlib.Path(__file__).parent / "data"
+FILE = DATA / "bend_growth.json"
 ELEMENTS = (50, 200, 800, 3200)
 ACCURACIES = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
 ENGINES = ("stepping", "rodas", "ida")
@@ -63,6 +64,8 @@ def measure(elements: int, engine: str, start: int) -> dict[str, Any]:
         outcome, positions = run(elements, engine, ACCURACIES[place])
         if not outcome.ok:
             row["failed"] = f"accuracy {ACCURACIES[place]:g}: {outcome.sentence}"
+            if outcome.status.is_budget:
+                break  # a tighter one takes longer
             continue
         found = error(positions, reference) if reference is not None else None
         if found is None or found <= WANTED:
@@ -108,24 +111,28 @@ def main() -> None:
     found = machine()
     print(sentence(found))
     print(f"single bend with exact friction, {STOP:g} s, error at most {WANTED:g} over {SCALE:g} m; processor time")
-    rows: list[dict[str, Any]] = []
     for engine in options.engine or ENGINES:
         ours, place = [], 0
         for elements in options.elements or ELEMENTS:
-            row = measure(elements, engine, place)
+            row = {**measure(elements, engine, place), "commit": found["commit"], "date": found["date"]}
             place = row.get("place", place)  # a finer line never needs less
             ours.append(row)
             print(line(row), flush=True)
+            keep(row, found)
         grows = exponent(ours)
         if grows is not None:
             print(f"{engine:9} exponent {grows:.2f} (aim at most {AIM_EXPONENT})")
         for row in ours:
             if row["elements"] == AIM_ELEMENTS and "per_second" in row and engine == "stepping":
                 print(f"aim at {AIM_ELEMENTS} elements: {AIM} s per simulated second, here {row['per_second']:.3f} s")
-        rows += ours
-    if not (options.engine or options.elements):
-        text = json.dumps({"machine": found, "wanted": WANTED, "rows": rows}, indent=1)
-        (DATA / "bend_growth.json").write_text(text + "\n", encoding="utf-8")
+
+
+def keep(row: dict[str, Any], found: dict[str, object]) -> None:
+    """Write a row into the data file, in the place of an earlier one of the same engine and size."""
+    stored = json.loads(FILE.read_text(encoding="utf-8"))["rows"] if FILE.exists() else []
+    rows = [one for one in stored if (one["engine"], one["elements"]) != (row["engine"], row["elements"])] + [row]
+    rows.sort(key=lambda one: (ENGINES.index(one["engine"]), one["elements"]))
+    FILE.write_text(json.dumps({"machine": found, "wanted": WANTED, "rows": rows}, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,12 +1,15 @@
 """Belt and chains on all engines of fairlead beside its peers, in one run on one machine: error, time, counters.
 
-    python benchmarks/compare.py                     quick set of all cases
+    python benchmarks/compare.py                     quick set of all cases; most of an hour
     python benchmarks/compare.py --full              all methods and tolerances, hours
-    python benchmarks/compare.py --case belt         only this case; nothing is written
+    python benchmarks/compare.py --case belt         only this case is measured anew
+    python benchmarks/compare.py --only stepping     only these series; --dry writes nothing
+    python benchmarks/compare.py --draw              page and figure from the data file as it is
 
 Contenders take turns, several rounds, so that a busy spell of the machine hits all alike; a time is the median of
 its rounds, and what counts are ratios of CPU times. The first round of each contender is not counted (imports,
-caches). Writes data/compare.json and the figure docs/benchmarks.png; docs/benchmarks.md says how to read them.
+caches) unless it is the only one. Who takes too long is given up and says so. Writes data/compare.json, in which each
+row has its commit and time of day, the tables of docs/benchmarks.md and the figure docs/benchmarks.png.
 """
 
 from __future__ import annotations
@@ -16,11 +19,14 @@ import json
 import pathlib
 import statistics
 import sys
-from collections.abc import Iterable
+import time
+from collections import Counter
 from typing import Any
 
-from machine import machine, sentence  # first: it settles the number of threads before numpy is there
+from machine import commit, machine, sentence  # first: it settles the number of threads before numpy is there
 
+from compare_page import write  # isort: skip
+from compare_table import ratios, show  # isort: skip
 from contenders import Attempt, Contender, contenders  # isort: skip
 from peer_cases import Belt, Chain  # isort: skip
 from peers import Unable  # isort: skip
@@ -29,27 +35,25 @@ from work_precision import figure  # isort: skip
 HERE = pathlib.Path(__file__).parent
 DATA, FIGURE = HERE / "data" / "compare.json", HERE.parent / "docs" / "benchmarks.png"
 ROUNDS = 5  # counted, for what is quick
+MOST_LATE = 2
 SPENT = 3.0  # s of CPU time, so that load does not cut the rounds; who has used more does not start another
 CASES = {"belt": Belt(), "chain-10": Chain(10), "chain-100": Chain(100), "chain-1000": Chain(1000)}
-ERRORS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
-# Case and error: solve time aimed at [s] on a machine where the best peer took the second time [s] (None: it does
-# not get there), and C written by hand for these very equations the third. The ratio is what can be compared.
-AIMS = {
-    ("belt", 1e-4): (1e-3, 60e-3, None),
-    ("belt", 1e-6): (2e-3, None, None),
-    ("chain-100", 1e-4): (10e-3, 0.5, 2.3e-3),
-    ("chain-1000", 1e-4): (0.3, 3.4, 0.11),
-    ("chain-1000", 1e-6): (0.6, None, 0.17),
-}
 
 
 def measure(rivals: list[Contender]) -> list[dict[str, Any]]:
-    """One row per contender: medians of its rounds, or the reason why there is none."""
+    """One row per contender: medians of its rounds, or the reason why there is none.
+
+    Where two of a series used up their time the others are not tried: a tolerance that is too loose may chatter.
+    """
     attempts: list[list[Attempt]] = [[] for _ in rivals]
     failed: dict[int, str] = {}
+    late: Counter[str] = Counter()  # how many of a series used up their time
     for round_ in range(ROUNDS + 1):
         for k, rival in enumerate(rivals):
             if k in failed or sum(one.cpu for one in attempts[k]) > SPENT:
+                continue
+            if late[rival.series] >= MOST_LATE and not attempts[k]:
+                failed[k] = f"not tried, {MOST_LATE} others did not finish"
                 continue
             try:
                 attempts[k].append(rival.attempt())
@@ -57,17 +61,21 @@ def measure(rivals: list[Contender]) -> list[dict[str, Any]]:
                 failed[k] = f"not installed: {missing}"
             except Unable as reason:
                 failed[k] = f"cannot: {reason}"
-            except (RuntimeError, TimeoutError, ValueError) as problem:
+            except TimeoutError as used_up:
+                failed[k] = str(used_up)
+                late[rival.series] += 1
+            except (RuntimeError, ValueError) as problem:
                 failed[k] = f"failed: {problem}"
             if round_ == 0:
-                print(".", end="", flush=True, file=sys.stderr)
-    print(file=sys.stderr)
+                told = failed.get(k) or f"{attempts[k][0].cpu:.3g} s, error {attempts[k][0].error:.1e}"
+                print(f"{rival.series} {rival.accuracy:.0e}: {told[:120]}", flush=True, file=sys.stderr)
     return [row(rival, attempts[k], failed.get(k)) for k, rival in enumerate(rivals)]
 
 
 def row(rival: Contender, attempts: list[Attempt], failed: str | None) -> dict[str, Any]:
     """What is kept of a contender; times in seconds."""
     about = {name: getattr(rival, name) for name in ("series", "program", "law", "method", "accuracy", "width")}
+    about |= {"commit": commit(), "date": time.strftime("%Y-%m-%d %H:%M")}
     if failed is not None:
         return {**about, "failed": failed}
     counted = attempts[1:] or attempts
@@ -76,103 +84,53 @@ def row(rival: Contender, attempts: list[Attempt], failed: str | None) -> dict[s
     return {**about, "error": attempts[0].error, **times, "rounds": len(counted), "counters": attempts[0].counters}
 
 
-def cheapest(rows: Iterable[dict], wanted: float) -> dict | None:
-    """The row with the least CPU time at an error of at most `wanted`."""
-    good = [one for one in rows if one.get("error", 1.0) <= wanted]
-    return min(good, key=lambda one: one["cpu"]) if good else None
+def stored() -> dict[str, Any]:
+    """The data file as it is."""
+    return json.loads(DATA.read_text(encoding="utf-8"))
 
 
-def ratios(rows: list[dict]) -> list[dict[str, Any]]:
-    """Per error asked for: the cheapest row of fairlead and of its peers, and how many times less fairlead takes."""
-    table = []
-    for wanted in ERRORS:
-        ours = cheapest((one for one in rows if one["program"] == "fairlead"), wanted)
-        theirs = cheapest((one for one in rows if one["program"] != "fairlead"), wanted)
-        if ours is not None:
-            ratio = theirs["cpu"] / ours["cpu"] if theirs else None
-            table.append({"error": wanted, "fairlead": ours, "peer": theirs, "ratio": ratio})
-    return table
+def setting(one: dict[str, Any]) -> tuple[Any, ...]:
+    """What tells a row from the others of its case."""
+    return one["series"], one["accuracy"], one["width"]
 
 
-def show(name: str, rows: list[dict]) -> None:
-    """Print all rows of a case, the ratios and the aims."""
-    print(f"\n{name}: ms; error over 0.1 m (closed form or converged reference); accuracy of MuJoCo: its step [s]")
-    print(f"{'':30}{'accuracy':>9}{'width':>8}{'error':>10}{'CPU':>10}{'loop':>10}{'wall':>10}"
-          f"{'steps':>8}{'rhs':>8}{'LU':>7}{'switches':>9}{'rounds':>7}")  # fmt: skip
-    for one in rows:
-        head = f"{one['series']:30}{one['accuracy']:9.0e}{one['width'] or 0:8.0e}"
-        if "failed" in one:
-            print(f"{head}   {one['failed'][:110]}")
-            continue
-        count = one["counters"]
-        evaluations, factored = count.get("rhs", count.get("nfev", 0)), count.get("factorisations", count.get("nlu", 0))
-        times = "".join(f"{1e3 * one[key]:10.2f}" for key in ("cpu", "solve", "wall"))
-        counts = f"{count.get('steps', 0):8}{evaluations:8}{factored:7}{count.get('switches', 0):9}{one['rounds']:7}"
-        print(f"{head}{one['error']:10.1e}{times}{counts}")
-    print(f"\n{'error at most':14}{'fairlead CPU':>14}  {'by':30}{'best peer CPU':>15}  {'by':38}{'ratio':>7}")
-    for line in ratios(rows):
-        print(ratio_line(line))
-    for (case, wanted), (aim, peer, by_hand) in AIMS.items():
-        if case == name and any(one["program"] == "fairlead" for one in rows):
-            print(verdict(rows, wanted, aim, peer, by_hand))
-
-
-def ratio_line(line: dict) -> str:
-    """One line of the table of ratios."""
-    ours, theirs = line["fairlead"], line["peer"]
-    text = f"{line['error']:<14.0e}{1e3 * ours['cpu']:11.2f} ms  {label(ours):30}"
-    if theirs is None:
-        return text + "  none gets there"
-    name = f"{theirs['program']} {label(theirs)}"
-    return text + f"{1e3 * theirs['cpu']:12.1f} ms  {name:38}{line['ratio']:7.1f}"
-
-
-def verdict(rows: list[dict], wanted: float, aim: float, peer: float | None, by_hand: float | None) -> str:
-    """What was aimed at, and what was found: as a ratio of solve times to the best peer where there is one."""
-    ours = [one for one in rows if one["program"] == "fairlead" and one.get("error", 1.0) <= wanted]
-    theirs = cheapest((one for one in rows if one["program"] != "fairlead"), wanted)
-    beside = f", C by hand {1e3 * by_hand:g} ms" if by_hand else ""
-    text = f"aim at {wanted:g}: {1e3 * aim:g} ms of solve time (best peer there {peer or 'never'} s{beside})"
-    if not ours:
-        return f"{text}: NOT met, fairlead does not get there"
-    best = min(one["least_solve"] for one in ours)
-    text += f"; here {1e3 * best:.2f} ms"
-    if peer is None or theirs is None:
-        return f"{text}: {'met' if best <= aim else 'NOT met'} by the clock of this machine"
-    ratio = theirs["least_cpu"] / best
-    return f"{text}, {ratio:.0f} times less than the best peer (aim {peer / aim:.0f}): {verb(ratio >= peer / aim)}"
-
-
-def verb(met: bool) -> str:
-    """The verdict in a word."""
-    return "met" if met else "NOT met"
-
-
-def label(one: dict) -> str:
-    """Who won, with the setting."""
-    width = f", {one['width']:.0e} m/s" if one["width"] else ""
-    return f"{one['law']} {one['method']} {one['accuracy']:.0e}{width}"
+def keep(name: str, found: dict[str, object], rows: list[dict], whole: bool) -> None:
+    """Write the rows of a case into the data file at once; of a part of the contenders in the places of theirs."""
+    result = stored()
+    if not whole:
+        new = {setting(one): one for one in rows}
+        old = result["cases"].get(name, {"rows": []})["rows"]
+        rows = [new.pop(setting(one), one) for one in old] + list(new.values())
+    result["cases"][name] = {"machine": found, "rows": rows, "ratios": ratios(rows)}
+    result["cases"] = {each: result["cases"][each] for each in CASES if each in result["cases"]}
+    DATA.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
 
 
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--full", action="store_true", help="all methods and tolerances")
-    parser.add_argument("--case", choices=list(CASES), action="append", help="only this case; nothing is written")
-    parser.add_argument("--only", help="only programs whose name contains this; nothing is written")
+    parser.add_argument("--case", choices=list(CASES), action="append", help="only this case")
+    parser.add_argument("--only", action="append", help="only series whose name contains this")
+    parser.add_argument("--dry", action="store_true", help="print only, write nothing")
+    parser.add_argument("--draw", action="store_true", help="measure nothing, make page and figure from the data file")
     options = parser.parse_args()
     found = machine()
     print(sentence(found))
-    result: dict[str, Any] = {"machine": found, "full": options.full, "cases": {}}
-    for name in options.case or CASES:
-        rivals = [each for each in contenders(CASES[name], options.full) if (options.only or "") in each.series]
+    for name in () if options.draw else options.case or CASES:
+        rivals = [
+            each
+            for each in contenders(CASES[name], options.full)
+            if any(word in each.series for word in options.only or [""])
+        ]
         rows = measure(rivals)
-        result["cases"][name] = {"rows": rows, "ratios": ratios(rows)}
         show(name, rows)
-    if not (options.case or options.only):
-        DATA.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-        figure(result, FIGURE)
-        print(f"\nwrote {DATA.relative_to(HERE.parent)} and {FIGURE.relative_to(HERE.parent)}")
+        if not options.dry:
+            keep(name, found, rows, options.only is None)
+    if not options.dry:
+        figure(stored(), FIGURE)
+        write(stored())
+        print(f"\nwrote {DATA.relative_to(HERE.parent)}, {FIGURE.relative_to(HERE.parent)} and docs/benchmarks.md")
 
 
 if __name__ == "__main__":

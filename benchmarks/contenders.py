@@ -22,7 +22,8 @@ from peer_pathsim import SOLVERS, pathsim
 from peer_scipy import event_driven, smooth
 from peers import Case, Peer, error, reference_positions, sample_times
 
-LIMIT, LIMIT_FULL = 30.0, 300.0  # CPU time [s] after which an attempt is given up
+LIMIT, LIMIT_LONG = 30.0, 150.0  # CPU time [s] after which an attempt is given up; of long chains and the full set
+LONG = 200  # blocks; of a longer chain most ways take minutes: fewer tolerances
 
 
 @dataclass(frozen=True)
@@ -65,48 +66,49 @@ def contenders(case: Case, full: bool) -> list[Contender]:
 
 def of_fairlead(case: Case, full: bool) -> Iterator[Contender]:
     """Every engine with exact friction, and binding over its creep."""
-    long = isinstance(case, Chain) and case.blocks > 200
+    long = _long(case)
     ways: dict[tuple[str, str], tuple[float, ...]] = {
         ("hold", "rodas5p"): (1e-3, 1e-5) if long else tuple(10.0**-k for k in range(2, 9)),
         ("hold", "rodas3p"): () if long else (1e-3, 1e-4, 1e-5),
-        ("hold", "stepping"): (1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6),
-        ("hold", "ida"): ((1e-3,) if full else ()) if long else (1e-2, 1e-3, 1e-4, 1e-5),
+        ("hold", "stepping"): (1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, *((3e-7,) if long else ())),
+        ("hold", "ida"): (1e-3,) if long else (1e-2, 1e-3, 1e-4, 1e-5),
     }
     for (law, method), accuracies in ways.items():
         for accuracy in accuracies:
-            call = functools.partial(fairlead, case, law, method, accuracy, None, _limit(full))
+            call = functools.partial(fairlead, case, law, method, accuracy, None, _limit(case, full))
             yield Contender("fairlead", law, method, accuracy, None, call)
-    for creep in () if long else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)[: 5 if full else 4]:
+    for creep in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)[: 5 if full else 3 if long else 4]:
         accuracy = 1e-3  # of the steps; the creep alone decides the error
-        call = functools.partial(fairlead, case, "binding", "rodas5p", accuracy, creep, _limit(full))
+        call = functools.partial(fairlead, case, "binding", "rodas5p", accuracy, creep, _limit(case, full))
         yield Contender("fairlead", "binding", "rodas5p", accuracy, creep, call)
 
 
 def of_scipy(case: Case, full: bool) -> Iterator[Contender]:
     """Exact switches with five methods, the smooth law with three."""
-    small, long = isinstance(case, Belt) or case.blocks < 100, isinstance(case, Chain) and case.blocks > 200
+    small, long = isinstance(case, Belt) or case.blocks < 100, _long(case)
     everything = {method: range(3, 10) for method in ("Radau", "BDF", "LSODA", "RK45", "DOP853")}
     quick = {"LSODA": range(5, 10), "RK45": range(3, 9), "DOP853": range(4, 10), "BDF": (5, 7), "Radau": (4, 6)}
     slow = {"LSODA": range(4, 8), "RK45": range(3, 6), "DOP853": (6, 7), "BDF": (6,), "Radau": (4,)}
-    chosen = everything if full else {"LSODA": (5,)} if long else quick if small else slow
+    longest = {"LSODA": (7,), "RK45": (5,), "DOP853": (7,), "BDF": (6,), "Radau": (5,)}  # looser ones chatter
+    chosen = everything if full else longest if long else quick if small else slow
     for method, powers in chosen.items():
         for k in powers:
-            run = functools.partial(event_driven, case, method, 10.0**-k, _limit(full))
+            run = functools.partial(event_driven, case, method, 10.0**-k, _limit(case, full))
             yield _peer_of(case, "scipy", "events", method, 10.0**-k, None, run)
     widths = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6) if full else (1e-3, 1e-4, 1e-5)
-    for method in ("Radau", "BDF", "LSODA") if full else ("LSODA",):
-        for width in widths:
+    for method in ("Radau", "BDF", "LSODA") if full or long else ("LSODA",):
+        for width in widths if full or not long else (*widths, 3e-6) if method == "LSODA" else widths[:1]:
             for k in (4, 5) if full else (4,):
-                run = functools.partial(smooth, case, method, 10.0**-k, width, _limit(full))
+                run = functools.partial(smooth, case, method, 10.0**-k, width, _limit(case, full))
                 yield _peer_of(case, "scipy", "smooth", method, 10.0**-k, width, run)
 
 
 def of_cvode(case: Case, full: bool) -> Iterator[Contender]:
     """SUNDIALS CVODE with the guards as root functions, both of its methods."""
-    long = isinstance(case, Chain) and case.blocks > 200
+    long = _long(case)
     for method in ("BDF", "Adams"):
-        for k in range(3, 9) if full or not long else (4, 6):
-            run = functools.partial(cvode, case, method, 10.0**-k, _limit(full))
+        for k in range(3, 9) if full or not long else range(4, 10) if method == "BDF" else (4, 6, 8):
+            run = functools.partial(cvode, case, method, 10.0**-k, _limit(case, full))
             yield _peer_of(case, "sundae", "events", method, 10.0**-k, None, run)
 
 
@@ -114,8 +116,8 @@ def of_pathsim(case: Case, full: bool) -> Iterator[Contender]:
     """PathSim's explicit methods, of which the longer chains take the cheaper ones."""
     blocks = 1 if isinstance(case, Belt) else case.blocks
     for method in SOLVERS if full or blocks < 100 else SOLVERS[:2] if blocks < 1000 else SOLVERS[:1]:
-        for k in range(2, 8) if full else (3, 4, 6) if blocks < 100 else (3,):
-            run = functools.partial(pathsim, case, method, 10.0**-k, _limit(full))
+        for k in range(2, 8) if full else (3, 4, 6) if blocks < 100 else (3, 5) if blocks < 1000 else (3,):
+            run = functools.partial(pathsim, case, method, 10.0**-k, _limit(case, full))
             yield _peer_of(case, "PathSim", "events", method, 10.0**-k, None, run)
 
 
@@ -124,12 +126,16 @@ def of_mujoco(case: Case, full: bool) -> Iterator[Contender]:
     tried = 6 if full or isinstance(case, Belt) or case.blocks < 100 else 3 if case.blocks < 1000 else 1
     for integrator in INTEGRATORS[:1] if isinstance(case, Belt) else INTEGRATORS:
         for step in (0.0,) if isinstance(case, Belt) else steps(case, integrator)[:tried]:
-            run = functools.partial(mujoco, case, integrator, step, _limit(full))
+            run = functools.partial(mujoco, case, integrator, step, _limit(case, full))
             yield _peer_of(case, "MuJoCo", "frictionloss", integrator, step, None, run)
 
 
-def _limit(full: bool) -> float:
-    return LIMIT_FULL if full else LIMIT
+def _limit(case: Case, full: bool) -> float:
+    return LIMIT_LONG if full or _long(case) else LIMIT
+
+
+def _long(case: Case) -> bool:
+    return isinstance(case, Chain) and case.blocks > LONG
 
 
 def fairlead(case: Case, law: str, method: str, accuracy: float, creep: float | None, limit: float) -> Attempt:
@@ -141,7 +147,7 @@ def fairlead(case: Case, law: str, method: str, accuracy: float, creep: float | 
     chosen = system.record(["block.x" if isinstance(case, Belt) else "rod.block[*].x"])
     engine = {"method": method} if method.startswith("rodas") else {"engine": method}
     cpu, wall = time.process_time(), time.perf_counter()
-    outcome = integrate(system, Run(stop=case.stop, every=case.stop / (times.size - 1), max_wall=4 * limit, **engine))
+    outcome = integrate(system, Run(stop=case.stop, every=case.stop / (times.size - 1), max_wall=2 * limit, **engine))
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
     if not outcome.ok:
         raise RuntimeError(outcome.sentence)

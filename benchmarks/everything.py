@@ -1,6 +1,6 @@
 """All benchmarks of speed in a row: what `make bench` runs.
 
-    python benchmarks/everything.py            about a quarter of an hour on a quiet machine
+    python benchmarks/everything.py            an hour and a half, of which an hour peers at a thousand blocks
     python benchmarks/everything.py --full     all methods and tolerances of compare.py, hours
 
 Each script is a process of its own, so that none inherits the caches or the memory of another, and one that fails

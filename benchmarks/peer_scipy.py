@@ -7,7 +7,7 @@ The event-driven runs step scipy's solver classes themselves and judge all guard
 
 import numpy as np
 from peer_cases import Belt
-from peers import Case, Limit, Peer, sample_times, weights
+from peers import JUST_ZERO, Case, Limit, Peer, sample_times, settled, weights
 from scipy.integrate import BDF, DOP853, LSODA, RK45, Radau
 from scipy.optimize import brentq
 from scipy.sparse import issparse
@@ -47,7 +47,7 @@ def event_driven(case: Case, method: str, rtol: float, limit: float = 120.0, car
     `careful` also looks for guards that rise and fall inside a step.
     """
     y, zones = case.initial()
-    t, done, next_step = 0.0, 0, None
+    t, done, next_step, stalled = 0.0, 0, None, 0
     times = sample_times(case)
     states = np.empty((times.size, y.size))
     atol = weights(y.size, rtol, np.inf)
@@ -70,9 +70,9 @@ def event_driven(case: Case, method: str, rtol: float, limit: float = 120.0, car
         t = found
         y = solver.dense_output()(t)
         guard = case.guards(t, y, zones)
-        y, zones = case.switch(t, y, zones, (guard >= 0.0) | (guard == guard.max()))
-        count["switches"] += 1
-        if t - began_at < STALL and count["switches"] > 100 * times.size:
+        y, zones = settled(case, t, y, zones, (guard >= 0.0) | (guard == guard.max()), count)
+        stalled = stalled + 1 if t - began_at < STALL else 0
+        if stalled > 10 * zones.size + 100:
             raise RuntimeError(f"switching without end at t = {t:.9f} s")
     return Peer(times, states, count)
 
@@ -92,7 +92,7 @@ def first_switch(case: Case, solver: object, zones: np.ndarray, careful: bool) -
         else:
             dense = dense or solver.dense_output()
             guard = case.guards(t, dense(t), zones)
-        rising = guard > 1e-14
+        rising = guard > JUST_ZERO
         if rising.any():
             dense = dense or solver.dense_output()
             return _locate(case, dense, zones, rising, before, t)
@@ -104,7 +104,7 @@ def _locate(case: Case, dense: object, zones: np.ndarray, rising: np.ndarray, lo
     """Right-hand end of the bracket around the first root of the largest of the `rising` guards."""
 
     def largest(t: float) -> float:
-        return float(case.guards(t, dense(t), zones)[rising].max()) - 1e-15
+        return float(case.guards(t, dense(t), zones)[rising].max()) - 0.5 * JUST_ZERO
 
     if largest(low) >= 0.0:
         low += 1e-9 * (high - low)

@@ -39,7 +39,7 @@ class Limit:
     def check(self, t: float) -> None:
         """Raise TimeoutError when the time is used up; t is how far the run has come [s]."""
         if time.process_time() - self.began > self.seconds:
-            raise TimeoutError(f"more than {self.seconds:g} s of CPU time at t = {t:.4g} s")
+            raise TimeoutError(f"did not finish in {self.seconds:g} s of CPU time, came to t = {t:.3g} s")
 
 
 def sample_times(case: Case) -> np.ndarray:
