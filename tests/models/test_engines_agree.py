@@ -40,8 +40,6 @@ friction of a motor and of a pair of gears that goes through zero, and does not 
 class Unknowns:
     """The system without its outputs, so that the engine records the unknowns themselves."""
 
-    narrowing = None  # a part records for all by its outputs
-
     def __init__(self, system):
         self.system = system
         self.callbacks = {name: address for name, address in system.callbacks.items() if name != "outputs"}
