@@ -6,7 +6,7 @@ import dataclasses
 import pathlib
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
 SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
 MOST_JUMPS_TOLD = 5
-CONTINUOUS = 1e-9  # relative difference across an event that is rounding of the settlement
+LITTLE = 1e-9  # of whatever unit: less is nothing
+CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none
 
 
 @dataclass
@@ -52,6 +53,8 @@ class Watch:
     progress: Callable[[float, float, Any], None] | None
     on_grid: bool
     interruption: Interruption
+    least_jump: NDArray[np.float64]  # by recorded signal: share of its largest value from which a difference is a jump
+    largest: NDArray[np.float64] = field(default_factory=lambda: np.zeros(1))
     kept_jumps: int = 0  # events that have two rows on a grid
     jumps: Counter[str] = field(default_factory=Counter)  # of every signal
 
@@ -65,7 +68,10 @@ class Watch:
         columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
         rows: Any = slice(None)
         if self.on_grid:
-            rows, jumped = worth_keeping(block.values[:, : self.chosen], block.side)
+            values = block.values[:, : self.chosen]
+            if len(values):
+                self.largest = np.maximum(self.largest, np.abs(values).max(axis=0))
+            rows, jumped = worth_keeping(values, block.side, self.least_jump * (self.largest + LITTLE))
             self.kept_jumps += int(jumped.any(axis=1).sum())
             for k in np.flatnonzero(counts := jumped.sum(axis=0)):
                 self.jumps[self.system.recorded[k].name] += int(counts[k])
@@ -79,17 +85,30 @@ class Watch:
             self.progress(block.fraction, block.reached, None)
 
 
+def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float) -> NDArray[np.float64]:
+    """By recorded signal: the share of its largest value from which a difference across an event is a jump.
+
+    What a sampler holds is a stair whose steps come by the clock: none of them has rows of its own (infinite).
+    """
+    held = set()
+    for block in system.blocks:
+        s = block.kernel.structure
+        stairs = set(range(len(s.outputs))) - {k for k, _ in s.d_signals} if s.period else set()
+        held |= {f"{instance.path}.{s.outputs[k]}" for instance in block.instances for k in stairs}
+    return np.array([np.inf if one.name in held else CONTINUOUS * accuracy for one in chosen])
+
+
 def worth_keeping(
-    values: NDArray[np.float64], side: NDArray[np.int8]
+    values: NDArray[np.float64], side: NDArray[np.int8], least: NDArray[np.float64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Rows (k,) to write when a grid was asked for, and which value jumps at which event.
 
-    The two sides of events at which no recorded value jumps are left out: a kink needs no row of its own, and a long
-    line switches thousands of times.
+    The two sides of events at which no recorded value jumps, by more than its `least`, are left out: a kink needs no
+    row of its own, and a long line switches thousands of times.
     """
     keep = np.ones(len(side), dtype=bool)
     left = np.flatnonzero((side[:-1] == BEFORE) & (side[1:] == AFTER))
-    jump = np.abs(values[left + 1] - values[left]) > CONTINUOUS * (1 + np.abs(values[left]))
+    jump = np.abs(values[left + 1] - values[left]) > least
     smooth = left[~jump.any(axis=1)]
     keep[smooth] = keep[smooth + 1] = False
     return keep, jump
@@ -113,7 +132,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     ):
         on_grid = netlist.record.every is not None
         watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid,
-                      interruption)  # fmt: skip
+                      interruption, least_jumps(system, chosen, settings.accuracy))  # fmt: skip
         outcome = integrate(system, _engine_settings(netlist, settings, system), watch)
         interruption.between_blocks = False
         outcome = _explained(outcome, system)

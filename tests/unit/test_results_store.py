@@ -138,8 +138,8 @@ def test_every_prefix_of_a_flush_is_readable(tmp_path: Path, count: int) -> None
     signals = signals_named(*(f"line.core[{i}].tension" for i in range(count)))
     writer = SeriesWriter(tmp_path / "series.nc", signals)
     writer.write(*block(0, 100, count))
-    writer.close()
     disk = Recorded((tmp_path / "series.nc").read_bytes())
+    writer.close()  # leaves no room for more
     with h5py.File(disk, "r+", libver=("earliest", "v110")) as file:
         for first in (100, 200):
             store._append(file, signals, first, *block(first, 100, count))
@@ -150,6 +150,19 @@ def test_every_prefix_of_a_flush_is_readable(tmp_path: Path, count: int) -> None
         cut.write_bytes(state)
         assert readable_rows(cut) >= 100
     assert readable_rows(cut) == 300
+
+
+@pytest.mark.parametrize("count", [3, 501])
+def test_a_file_that_is_closed_keeps_no_room_for_rows_that_never_came(tmp_path: Path, count: int) -> None:
+    path = tmp_path / "series.nc"
+    writer = SeriesWriter(path, signals_named(*(f"line.core[{i}].tension" for i in range(count))))
+    for first in range(0, 1100, 100):
+        writer.write(*block(first, 100, count))
+    before = path.stat().st_size
+    writer.close()
+    assert before > 2000 * 8 * count
+    assert path.stat().st_size < 1100 * 8 * (count + 3) + 4096 * (count + 10)
+    assert readable_rows(path) == 1100
 
 
 def test_a_full_disk_is_told_with_a_way_out(tmp_path: Path) -> None:

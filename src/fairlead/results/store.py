@@ -18,6 +18,7 @@ Chunks are not compressed: a compressed chunk changes its place in the file with
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 from typing import Any
@@ -74,9 +75,13 @@ class SeriesWriter:
         self._rows = rows
 
     def close(self) -> None:
-        """Close the file; a file that never got a block is created without rows."""
+        """Close the file, without the room that was left; one that never got a block is created without rows."""
+        nothing = np.empty(0), np.empty((0, len(self._signals))), np.empty(0, "i1")
         if self._file is None:
-            self.write(np.empty(0), np.empty((0, len(self._signals))), np.empty(0, "i1"), last=True)
+            self.write(*nothing, last=True)
+        elif self._room == self._chunk and self._room > self._rows > 0:
+            with contextlib.suppress(OSError):  # no place for a copy: the file is good as it is
+                self._move(self._rows, *nothing)
         self._file.close()
 
     def _most_room(self) -> int:
