@@ -136,9 +136,9 @@ def absent(rows: list[dict[str, Any]]) -> str:
     told: dict[str, list[str]] = {}
     for series in dict.fromkeys(row["series"] for row in rows):
         mine = [row for row in rows if row["series"] == series]
-        if any("error" in row for row in mine):
+        if any(row.get("error", SPAN[0]) < SPAN[0] for row in mine):
             continue
-        reason = mine[0]["failed"].partition(", came to")[0].removeprefix("failed: ").partition(" at t =")[0]
+        reason = mine[0].get("failed", "off by more than 0.1 m").partition(", came to")[0].removeprefix("failed: ").partition(" at t =")[0]
         told.setdefault(reason.removeprefix("cannot: "), []).append(spoken(series, ""))
     lines = [f"{reason}: {'; '.join(who)}" for reason, who in told.items()]
     return "\n".join(textwrap.fill(line, 80) for line in lines)
