@@ -138,7 +138,8 @@ def absent(rows: list[dict[str, Any]]) -> str:
         mine = [row for row in rows if row["series"] == series]
         if any(row.get("error", SPAN[0]) < SPAN[0] for row in mine):
             continue
-        reason = mine[0].get("failed", "off by more than 0.1 m").partition(", came to")[0].removeprefix("failed: ").partition(" at t =")[0]
-        told.setdefault(reason.removeprefix("cannot: "), []).append(spoken(series, ""))
+        reason = mine[0].get("failed", "off by more than 0.1 m").removeprefix("failed: ").removeprefix("cannot: ")
+        reason = reason.partition(", came to")[0].partition(" at t =")[0]
+        told.setdefault(reason, []).append(spoken(series, ""))
     lines = [f"{reason}: {'; '.join(who)}" for reason, who in told.items()]
     return "\n".join(textwrap.fill(line, 80) for line in lines)
