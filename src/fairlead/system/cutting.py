@@ -197,7 +197,8 @@ def _say_what_rests(
 ) -> bool:
     """Write the numbers of the rest into the part; False if the equations of the part are not those of the whole."""
     of_part, carried, n = np.zeros(part.n), moving.carried, system.n
-    call(system, "outputs", t, aligned(system, carried, t, y), np.zeros(system.n_outputs))  # whatever a law may read
+    without_slip = aligned(system, carried, t, y)
+    call(system, "outputs", t, without_slip, np.zeros(system.n_outputs))  # whatever a law may read
     z, w, whole_y = part.memory["z"], part.memory["w"], y.copy()
     z[part.numbering.dump + 1 :] = system.memory["z"][rests]
     call(part, SPREAD, t, y[unknowns], whole_y)
@@ -205,6 +206,10 @@ def _say_what_rests(
     rows = carried.added_up(system.memory["w"])
     rounding = EPSILON * carried.added_up(_terms(system, t, whole_y))
     call(part, "rhs", t, y[unknowns], of_part)
+    if "dissipated" in system.numbering.ledger:  # the bonds of what is carried let nothing slip in the part
+        rates = carried.unknowns[len(carried.mass) :]
+        leak = (carried.bond * (whole_y[rates] - without_slip[rates]) ** 2).sum()
+        rows[system.numbering.ledger["dissipated"]] -= leak
     meters = part.quadrature
     missing = rows[unknowns] - of_part
     size = np.abs(rows[unknowns]) + np.abs(of_part) + np.abs(part.absolute)
