@@ -25,6 +25,7 @@ def begin_set(m):
     """Remember the zones at the start of the step."""
     m.passes = 0
     m.one_by_one = 0
+    m.fewest = m.n_guards + 1
     m.newly_held = 0
     caught, row = indices(m.at_caught, m.n), indices(m.at_hold_mass_row, m.n_hold_mass)
     for e in range(m.n_hold_mass):
@@ -70,7 +71,7 @@ def expect_fronts(m, h):
         slot[w] = fired[k] - first[w]
     if m.n_fired > 0:
         switch_at(m.call_switch, (m.context, m.t + h, m.at_y_end, m.at_fired, m.n_fired))
-        m.linearised = 0
+        m.zones_differ = 1
         m.expecting = 1
         m.passes = 1
         reals(m.at_patterns_met, m.max_passes + 1)[1] = pattern_of_zones(m)
@@ -126,6 +127,9 @@ def follow_guards(m, h, cascade):
     if m.passes >= m.max_passes:
         m.passes += 1
         return False
+    if m.n_fired < m.fewest:
+        m.fewest = m.n_fired
+        m.one_by_one = 0
     if m.one_by_one == 1:
         m.n_fired = 1
     elif cascade:
@@ -134,7 +138,7 @@ def follow_guards(m, h, cascade):
     y, after = reals(m.at_y_end, m.n), reals(m.at_y_probe, m.n)
     copy(y, after)
     switch_at(m.call_switch, (m.context, m.t + h, m.at_y_probe, m.at_fired, m.n_fired))
-    m.linearised = 0
+    m.zones_differ = 1
     m.passes += 1
     m.settling_passes += 1
     if m.one_by_one == 0 and recurs(m):
@@ -193,20 +197,25 @@ def note_released(m):
         if z >= 0 and is_limit[fired[k]] == 1 and still_holds(m, z):
             released[z] = m.steps + 1
             slot[z] = fired[k] - first[z]
-            learn_from_neighbours(m, z)
+    learn_from_neighbours(m)
 
 
 @compiled
-def learn_from_neighbours(m, z):
-    """A limit at which the law of a neighbour was seen to be continuous counts as continuous here too."""
+def learn_from_neighbours(m):
+    """Limits in `fired` at which the law of a neighbour was seen to be continuous count as continuous here too."""
     known, first = indices(m.at_continuous, m.n_guards), indices(m.at_first_guard, m.n_zones)
     released, slot = indices(m.at_released, m.n_zones), indices(m.at_released_by, m.n_zones)
     starts, neighbours = indices(m.at_neighbour_starts, m.n_zones + 1), indices(m.at_neighbours, m.n_neighbours)
-    zone = indices(m.at_zones, m.n_zones)[z]
-    for e in range(starts[z], starts[z + 1]):
-        w = neighbours[e]
-        if released[w] >= m.steps and slot[w] == slot[z] and known[first[w] + slot[w]] == zone + 1:
-            known[first[z] + slot[z]] = zone + 1
+    fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
+    is_limit, zones = indices(m.at_limit_guard, m.n_guards), indices(m.at_zones, m.n_zones)
+    for k in range(m.n_fired):
+        i, z = fired[k], machine[fired[k]]
+        if z < 0 or is_limit[i] == 0 or known[i] == zones[z] + 1:
+            continue
+        for e in range(starts[z], starts[z + 1]):
+            w = neighbours[e]
+            if released[w] >= m.steps and slot[w] == i - first[z] and known[first[w] + slot[w]] == zones[z] + 1:
+                known[i] = zones[z] + 1
 
 
 @compiled

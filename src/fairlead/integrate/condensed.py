@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fairlead.integrate.condensing import FROM_JACOBIAN, FROM_MASS
 from fairlead.integrate.foreign import compiled, copy, indices, reals
-from fairlead.integrate.sparse import backward_error, factorise_columns, scale_rows, substitute
+from fairlead.integrate.sparse import backward_error, factorise_columns, mark_users, scale_rows, substitute
 
 REFILL = 0.3
 """With more than this share of the columns changed, all are done."""
@@ -21,8 +21,10 @@ def factorise_core(m, scale, consistent):
     kind = 1 if consistent else 0
     dirty = indices(m.at_dirty, n)
     everything = m.core_kind != kind or m.core_scale != scale or m.core_valid == 0
+    changed = 0
     if not everything:
-        everything = mark_changed(m) > REFILL * n
+        changed = mark_changed(m)
+        everything = changed > REFILL * n
     if everything:
         for k in range(n):
             dirty[k] = 1
@@ -35,6 +37,8 @@ def factorise_core(m, scale, consistent):
     copy(reals(m.at_mass, m.n_mass), reals(m.at_mass_used, m.n_mass))
     if everything:
         scale_rows(m)
+    else:
+        mark_users(m, changed)
     status = factorise_columns(m)
     m.core_valid = 1 if status == 0 else 0
     return status
@@ -42,24 +46,44 @@ def factorise_core(m, scale, consistent):
 
 @compiled
 def mark_changed(m):
-    """Mark the columns of the core with an entry of J or M that is not what it was; how many."""
-    dirty = indices(m.at_dirty, m.n_core)
-    dirty[:] = 0
+    """Mark the columns of the core with an entry of J or M that is not what it was; how many, listed in `waiting`."""
     count = 0
     column, now, used = (
         indices(m.at_jacobian_column, m.n_jacobian), reals(m.at_jacobian, m.n_jacobian),
         reals(m.at_jacobian_used, m.n_jacobian),
     )  # fmt: skip
     for p in range(m.n_jacobian):
-        if now[p] != used[p] and column[p] >= 0:
-            count += 1 - dirty[column[p]]
-            dirty[column[p]] = 1
+        if now[p] != used[p]:
+            count = mark(m, column[p], count)
     column, now, used = indices(m.at_mass_column, m.n_mass), reals(m.at_mass, m.n_mass), reals(m.at_mass_used, m.n_mass)
     for p in range(m.n_mass):
-        if now[p] != used[p] and column[p] >= 0:
-            count += 1 - dirty[column[p]]
-            dirty[column[p]] = 1
+        if now[p] != used[p]:
+            count = mark(m, column[p], count)
     return count
+
+
+@compiled
+def mark(m, k, count):
+    """Mark column k of the core (-1: none), the `count`-th or already marked; how many then are."""
+    dirty = indices(m.at_dirty, m.n_core)
+    if k >= 0 and dirty[k] == 0:
+        dirty[k] = 1
+        indices(m.at_waiting, m.n_core)[count] = k
+        count += 1
+    return count
+
+
+@compiled
+def factorise_marked(m, count):
+    """Factorise anew the `count` columns in `waiting`, whose entries changed, and those that use them."""
+    waiting = indices(m.at_waiting, m.n_core)
+    m.core_valid = 0
+    for e in range(count):
+        assemble_column(m, waiting[e])
+    mark_users(m, count)
+    status = factorise_columns(m)
+    m.core_valid = 1 if status == 0 else 0
+    return status
 
 
 @compiled

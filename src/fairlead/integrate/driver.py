@@ -12,7 +12,7 @@ from fairlead.integrate.condensing import lay_out
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
-from fairlead.integrate.neighbours import held_entries, neighbours, what_is_held
+from fairlead.integrate.neighbours import held_entries, known_rows, neighbours, what_is_held
 from fairlead.integrate.parts import NEVER_LOOK, Scope
 from fairlead.integrate.protocol import (
     CALLBACKS,
@@ -162,6 +162,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
         "rows_outputs": rows * n_outputs, "n_plus_1": n + 1, "passes_zones": (passes_allowed(run, nz) + 1) * nz,
         "passes": passes_allowed(run, nz) + 1, "n_zones_plus_1": nz + 1,
         "n_neighbours": 0, "n_hold_mass": 0, "n_hold_slope": 0, "n_hold_share": 0,
+        "n_own_slopes": 0, "n_own_masses": 0, "no_own": 0,
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
@@ -175,6 +176,11 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
             memory.point(name, values, np.int64)
             if f"n_{name}" in (LAYOUT.names or ()):
                 memory.number[f"n_{name}"] = len(values)
+        for name, kept in known_rows(problem).items():
+            memory.point(name, kept, kept.dtype)
+        memory.number["n_own_slopes"] = len(memory.array["own_slopes"])
+        memory.number["n_own_masses"] = len(memory.array["own_masses"])
+        memory.number["n_known"] = len(memory.array["known"])
         for name, of_machine in what_is_held(problem).items():
             memory.array[name][:] = of_machine
     calls = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}

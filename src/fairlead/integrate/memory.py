@@ -30,8 +30,8 @@ INTEGERS = (
     # the settlement: which violators change, since which pass, the fewest there were, passes since, whether
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
-    # the core of W: which matrix is factored there, and whether its factors are good
-    "core_kind", "core_valid", "skip_meters",
+    # the core of W: which matrix is factored there, whether its factors are good, columns of the last factorisation
+    "core_kind", "core_valid", "skip_meters", "n_redone",
     # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
     # part, whether its rim has changed
     "narrow_at", "narrowed", "woken",
@@ -40,6 +40,10 @@ INTEGERS = (
     "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
     "n_quadratures", "rows_slip",
     "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
+    # stepping only (known_rows.py): whether zones may not be those of J and M, in how many machines they differ, if
+    # only known rows were exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
+    "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row",
+    "n_own_slopes", "n_own_masses", "n_known",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans", "partial_steps",
@@ -72,6 +76,7 @@ VECTORS = {
     "pivot": "n_core", "jacobian_used": "n_jacobian", "mass_used": "n_mass", "core_x": "n_core", "core_b": "n_core",
     "core_residual": "n_core", "position_ratio": "n_positions", "position_share": "n_positions",
     "meter_share": "n_meters",
+    "known_slopes": "no_own", "known_masses": "no_own", "known_constants": "no_own",
     # the method
     "a": "stages_stages", "C": "stages_stages", "c": "stages", "d": "stages", "m": "stages", "e": "stages",
     "H": "three_stages",
@@ -102,6 +107,11 @@ INDICES = {
     "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_mass_column": "n_hold_mass",
     "hold_mass_partner": "n_hold_mass", "hold_slope": "n_hold_slope", "hold_slope_row": "n_hold_slope",
     "hold_share": "n_hold_share", "hold_share_row": "n_hold_share", "hold_share_column": "n_hold_share",
+    "own_row": "n_zones", "own_slope_starts": "n_zones_plus_1", "own_slopes": "n_own_slopes",
+    "own_slope_columns": "n_own_slopes", "own_mass_columns": "n_own_masses",
+    "own_mass_starts": "n_zones_plus_1", "own_masses": "n_own_masses", "known": "no_own",
+    "zones_linearised": "n_zones", "own_kind": "n_zones", "only_kinks": "n_zones",
+    "known_of_kind": "no_own", "exchanged_machines": "n_zones",
     "rim": "n_zones", "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",
@@ -111,6 +121,7 @@ INDICES = {
     # the plan of the sparse factorisation: pivot order, pattern of W, of L (without diagonal) and of U
     "row_order": "n_core", "column_order": "n_core", "matrix_starts": "n_core_plus_1", "matrix_rows": "n_matrix",
     "lower_starts": "n_core_plus_1", "lower_rows": "n_lower", "upper_starts": "n_core_plus_1", "upper_rows": "n_upper",
+    "using_starts": "n_core_plus_1", "using_columns": "n_upper", "row_place": "n", "waiting": "n_core",
     "pivot_rows": "n", "dirty": "n_core",
     # what J and M put into each column of the core, and what follows from the core
     "entry_starts": "n_core_plus_1", "entry_source": "n_entries", "entry_place": "n_entries", "entry_kind": "n_entries",

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
+from fairlead.integrate.codes import KNOWN_ZONES
 from fairlead.integrate.condensing import columns_of, core_entries, lay_out
 from fairlead.integrate.protocol import Floats, Integers, Problem
 
@@ -65,6 +68,50 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
         "neighbour_starts": np.cumsum([0, *map(len, found)]).astype(np.int64),
         "neighbours": np.array([w for others in found for w in others], dtype=np.int64),
     }  # fmt: skip
+
+
+def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
+    """Entries of J and M in the row each machine holds, and room for what they are in every zone.
+
+    A machine that holds no row, or more than one, has none.
+    """
+    nz = len(problem.zones)
+    holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
+    rows: list[list[int]] = [[] for _ in range(nz)]
+    for k in np.flatnonzero(holder >= 0).tolist():
+        rows[holder[k]].append(k)
+    row = np.array([own[0] if len(own) == 1 else -1 for own in rows], dtype=np.int64)
+    found: dict[str, Floats | Integers] = {"own_row": row}
+    for name, pattern in (("own_slope", problem.pattern), ("own_mass", problem.mass_pattern)):
+        machine = np.full(len(problem.initial), -1, dtype=np.int64)
+        machine[row[row >= 0]] = np.flatnonzero(row >= 0)
+        owner = machine[pattern.rows]
+        entries = np.flatnonzero(owner >= 0)
+        entries = entries[np.argsort(owner[entries], kind="stable")]
+        found[f"{name}_starts"] = np.concatenate([[0], np.cumsum(np.bincount(owner[entries], minlength=nz))])
+        found["own_slopes" if name == "own_slope" else "own_masses"] = entries
+        found[f"{name}_columns"] = columns_of(pattern)[entries]
+    kinds: dict[tuple[object, ...], int] = {}
+    counts = zip(np.diff(found["own_slope_starts"]).tolist(), np.diff(found["own_mass_starts"]).tolist(), strict=True)
+    names = [re.sub(r"\d+", "", name) for name in problem.machine_names]
+    shapes = [(names[z], tuple(problem.zone_names(z)), *each) for z, each in enumerate(counts)]
+    found["own_kind"] = np.array([kinds.setdefault(shape, len(kinds)) for shape in shapes], dtype=np.int64)
+    found["only_kinks"] = only_kinks(problem)
+    found["known_of_kind"] = np.zeros(KNOWN_ZONES * nz, dtype=np.int64)
+    found["known_slopes"] = np.zeros(KNOWN_ZONES * len(found["own_slopes"]))
+    found["known_masses"] = np.zeros(KNOWN_ZONES * len(found["own_masses"]))
+    found["known_constants"], found["known"] = np.zeros(KNOWN_ZONES * nz), np.zeros(KNOWN_ZONES * nz, dtype=np.int64)
+    return found
+
+
+def only_kinks(problem: Problem) -> Integers:
+    """1 for machines that hold nothing and lead only from one piece of a continuous table to the next."""
+    ng, nz = len(problem.guard_machine), len(problem.zones)
+    machine = np.asarray(problem.guard_machine)
+    kink = np.asarray(getattr(problem, "kink_guard", np.zeros(ng)), dtype=bool)
+    guards = np.bincount(machine[machine >= 0], minlength=nz)
+    kinks = np.bincount(machine[(machine >= 0) & kink], minlength=nz)
+    return ((guards > 0) & (guards == kinks)).astype(np.int64)
 
 
 def what_is_held(problem: Problem) -> dict[str, Floats | Integers]:

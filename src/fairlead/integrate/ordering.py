@@ -105,6 +105,7 @@ def sparse_plan(
     keys, place = np.unique(columns * core + rows[sorting], return_inverse=True)
     matrix_rows, matrix_columns = keys % core, keys // core
     lower, upper = fill(matrix_rows, matrix_columns, core)
+    by_row = np.argsort(upper.rows, kind="stable")
     is_mass = kind == FROM_MASS
     column_of_jacobian = used_by(columns[~is_mass], source[~is_mass], len(problem.pattern.rows))
     followers = arrays_of(problem, layout)
@@ -118,6 +119,8 @@ def sparse_plan(
             "matrix_starts": starts_of(matrix_columns, core), "matrix_rows": matrix_rows,
             "lower_starts": lower.starts, "lower_rows": lower.rows,
             "upper_starts": upper.starts, "upper_rows": upper.rows,
+            "using_starts": starts_of(upper.rows, core), "using_columns": columns_of(upper)[by_row],
+            "row_place": inverse(row_order, n)[:n],
             "entry_starts": starts_of(columns, core), "entry_source": source,
             "entry_place": place.astype(np.int64).reshape(-1), "entry_kind": kind,
             "jacobian_column": column_of_jacobian,

@@ -22,7 +22,7 @@ solution would count as an error (a chain that came to rest once ended a run as 
 
 @compiled
 def factorise_columns(m):
-    """Refactorise the columns marked `dirty` and those that use them; 0 done, 2 a pivot is not to be trusted."""
+    """Refactorise the columns marked `dirty`, `n_redone`, and unmark them; 0 done, 2 a pivot is not to be trusted."""
     n = m.n_core
     starts, rows = indices(m.at_matrix_starts, n + 1), indices(m.at_matrix_rows, m.n_matrix)
     values = reals(m.at_matrix, m.n_matrix)
@@ -32,14 +32,13 @@ def factorise_columns(m):
     lower, upper = reals(m.at_lower, n_lower), reals(m.at_upper, n_upper)
     pivot, x = reals(m.at_pivot, n), reals(m.at_factor_work, n)
     dirty, scale = indices(m.at_dirty, n), reals(m.at_row_scale, n)
+    m.n_redone = 0
     for k in range(n):
-        first, last = upper_starts[k], upper_starts[k + 1]
-        fresh = dirty[k]
-        for p in range(first, last):
-            fresh |= dirty[upper_rows[p]]
-        if fresh == 0:
+        if dirty[k] == 0:
             continue
-        dirty[k] = 1
+        dirty[k] = 0
+        m.n_redone += 1
+        first, last = upper_starts[k], upper_starts[k + 1]
         for p in range(first, last):
             x[upper_rows[p]] = 0.0
         x[k] = 0.0
@@ -66,6 +65,23 @@ def factorise_columns(m):
         for p in range(below, end):
             lower[p] = x[lower_rows[p]] * inverse
     return 0
+
+
+@compiled
+def mark_users(m, count):
+    """Mark as `dirty` all columns that use one of the `count` columns in `waiting`, and those that use them."""
+    starts = indices(m.at_using_starts, m.n_core + 1)
+    columns = indices(m.at_using_columns, starts[m.n_core])
+    dirty, waiting = indices(m.at_dirty, m.n_core), indices(m.at_waiting, m.n_core)
+    while count > 0:
+        count -= 1
+        j = waiting[count]
+        for p in range(starts[j], starts[j + 1]):
+            k = columns[p]
+            if dirty[k] == 0:
+                dirty[k] = 1
+                waiting[count] = k
+                count += 1
 
 
 @compiled

@@ -29,6 +29,7 @@ from fairlead.integrate.codes import (
 from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
+from fairlead.integrate.known_rows import forget_rows
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
@@ -237,6 +238,7 @@ def begin_history(m):
     before, earlier = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n)
     differential = indices(m.at_differential, n)
     m.linearised = 0
+    forget_rows(m)
     m.failed = 0
     begin_rest(m)
     if m.adaptive == 1 and not (m.steps == 0 and m.first_step > 0.0):

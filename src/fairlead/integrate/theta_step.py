@@ -21,13 +21,15 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.active_set import begin_set, expect_fronts, follow_guards, violators
+from fairlead.integrate.active_set import begin_set, expect_fronts, follow_guards, learn_from_neighbours, violators
+from fairlead.integrate.exchange import exchange_rows, give_up_guesses, solve_exchanged, watch_surfaces
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.jumps import all_continuous, find_jump, law_jumps
+from fairlead.integrate.known_rows import constants_known, learn_constants, learn_rows
 from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, factorise_step, solve
 
-CYCLES, DIVERGES, JUMPS, GO_ON = 6, 7, 8, 9
+CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
 PASSED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved."""
 SLOW = 0.01
@@ -45,23 +47,24 @@ def take_theta_step(m, h):
     predict(m, h)
     begin_set(m)
     expect_fronts(m, h)
-    solves, previous = 0, 1e300
+    solves, solved, previous = 0, False, 1e300
+    m.guessed, m.caught_by_row = 0, 0
     while True:
         status = linearise_step(m, h)
         if status != DONE:
             return status
-        residual_of_step(m, h, solves > 0)
-        if solves > 0:
-            verdict, size = judge_residual(m, solves, previous)
-            if verdict == DONE:
-                move_quadratures(m, h)
+        if solved and m.rows_alone == 1 and constants_known(m):
+            solve_exchanged(m, h)
+        else:
+            verdict, previous = approach_laws(m, h, solves, previous)
+            if verdict == AFRESH:
+                solves = 0
+                continue
             if verdict != GO_ON:
                 return verdict
-            previous = size
-        solve(m, m.at_b)
-        move_end(m)
-        m.newly_held = 0
+        solved = True
         solves += 1
+        m.newly_held = 0
         guards_of_step(m, h)
         violators(m)
         if m.n_fired == 0:
@@ -70,15 +73,48 @@ def take_theta_step(m, h):
                 return DONE
             continue
         solves = 0
-        known = all_continuous(m)
-        if m.passes == 0 and not known and m.gap > 0.0 and law_jumps(m, h):
-            find_jump(m, h)
-            return JUMPS
-        if follow_guards(m, h, known):
-            find_jump(m, h)
-            return JUMPS
-        if m.passes > m.max_passes:
-            return CYCLES
+        status = switch_zones(m, h)
+        if status != GO_ON:
+            return status
+
+
+@compiled
+def approach_laws(m, h, solves, previous):
+    """Judge the residual after `solves` without a switch, solve for it: DONE, GO_ON, AFRESH or why not; its size."""
+    m.newly_held |= m.caught_by_row
+    residual_of_step(m, h, solves > 0)
+    size = previous
+    if solves > 0:
+        verdict, size = judge_residual(m, solves, previous)
+        if verdict == DONE:
+            move_quadratures(m, h)
+            if m.caught_by_row == 1:
+                watch_surfaces(m)
+        elif m.guessed > 0:
+            give_up_guesses(m)
+            return AFRESH, size
+        if verdict != GO_ON:
+            return verdict, size
+    if m.n_exchanged > 0 and m.linear == 1:
+        learn_constants(m, h)
+    solve(m, m.at_b)
+    move_end(m)
+    return GO_ON, size
+
+
+@compiled
+def switch_zones(m, h):
+    """Switch the zones whose guards are violated: GO_ON, CYCLES, or JUMPS where a law jumps."""
+    if m.passes > 0:
+        learn_from_neighbours(m)
+    known = all_continuous(m)
+    if m.passes == 0 and not known and m.gap > 0.0 and law_jumps(m, h):
+        find_jump(m, h)
+        return JUMPS
+    if follow_guards(m, h, known):
+        find_jump(m, h)
+        return JUMPS
+    return CYCLES if m.passes > m.max_passes else GO_ON
 
 
 @compiled
@@ -123,12 +159,26 @@ def theta_point(m):
 @compiled
 def linearise_step(m, h):
     """M, J and the factors, as far as they are not those of the zones and the step in force."""
+    m.n_exchanged, m.rows_alone = 0, 0
+    if m.zones_differ == 1 and m.linearised == 1:
+        factorised = m.factored_h == h and m.factored_theta == m.theta_now and m.core_valid == 1
+        if m.dense == 1 or not exchange_rows(m, factorised):
+            m.linearised, m.n_exchanged = 0, 0
+        elif factorised:
+            m.factorisations += 1
+            m.unchecked, m.zones_differ, m.rows_alone = 1, 0, 1
+            return DONE
+        else:
+            m.factored_h = 0.0
+    m.zones_differ = 0
     if m.linearised == 0:
         mass_at(m.call_mass, (m.context, m.at_mass))
         theta_point(m)
         jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
         m.jacobians += 1
         find_holds(m)
+        if m.dense == 0:
+            learn_rows(m)
         m.linearised = 1
         m.factored_h = 0.0
     if m.factored_h == h and m.factored_theta == m.theta_now:
@@ -288,5 +338,5 @@ def move_quadratures(m, h):
 def give_back_zones(m):
     """The zones of the start of the step; M and J are then not theirs."""
     copy(indices(m.at_zones_at_start, m.n_zones), indices(m.at_zones, m.n_zones))
-    m.linearised = 0
+    m.zones_differ = 1
     m.n_fired = 0
