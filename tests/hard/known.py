@@ -17,7 +17,6 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("stick slip at accuracy, 1e-10", "stepping", "hold", ROUNDED),
     ("stick slip cycles without drift, *", "stepping", "hold", ROUNDED),
     ("node without mass, slipping", "stepping", "hold", ROUNDED),
-    ("feedback through a lag, mu k = 0.9", "stepping", "hold", ROUNDED),
     ("tether that starts exactly at its length, arriving", "stepping", "none", ROUNDED),
     ("tether that starts exactly at its length, pulled", "stepping", "none", ROUNDED),
     ("end stop touched at the start, upper, outward", "stepping", "none", ROUNDED),

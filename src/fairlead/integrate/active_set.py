@@ -1,7 +1,9 @@
 """The active set of a step: which contacts hold, slide, pull or are apart at its end.
 
     all whose guards are violated switch at once, and with them those that will be handed too much
-    if a pattern of zones recurs, the one of least index switches, one per pass (settling.py says why)
+    if a pattern of zones recurs, those at least half as wrong as the worst, by the force each is wrong by
+    if one recurs again, the one of least index, one per pass (settling.py says why); all again, once fewer are
+    violated than ever before in the step
 
 A contact that lets go hands its excess on: where fronts of slipping run through a chain of contacts, the
 first that still holds screens the others from the load, and one would be found per pass. So its neighbours,
@@ -26,6 +28,7 @@ def begin_set(m):
     m.passes = 0
     m.one_by_one = 0
     m.fewest = m.n_guards + 1
+    m.stage_from = 0
     m.newly_held = 0
     caught, row = indices(m.at_caught, m.n), indices(m.at_hold_mass_row, m.n_hold_mass)
     for e in range(m.n_hold_mass):
@@ -130,8 +133,10 @@ def follow_guards(m, h, cascade):
     if m.n_fired < m.fewest:
         m.fewest = m.n_fired
         m.one_by_one = 0
-    if m.one_by_one == 1:
+    if m.one_by_one == 2:
         m.n_fired = 1
+    elif m.one_by_one == 1:
+        keep_worst(m, h)
     elif cascade:
         hand_on(m)
     note_released(m)
@@ -141,12 +146,31 @@ def follow_guards(m, h, cascade):
     m.zones_differ = 1
     m.passes += 1
     m.settling_passes += 1
-    if m.one_by_one == 0 and recurs(m):
-        m.one_by_one = 1
+    if m.one_by_one < 2 and recurs(m):
+        m.one_by_one += 1
+        m.stage_from = m.passes
     changed = False
     for k in range(m.n):
         changed = changed or y[k] != after[k]
     return changed
+
+
+@compiled
+def keep_worst(m, h):
+    """Of the violators in `fired` keep those at least half as wrong as the worst, by the force each is wrong by."""
+    fired, is_limit = indices(m.at_fired, m.n_guards), indices(m.at_limit_guard, m.n_guards)
+    g, inertia = reals(m.at_g_end, m.n_guards), reals(m.at_guard_inertia, m.n_guards)
+    wrong, worst = reals(m.at_wrong, m.n_guards), 0.0
+    for k in range(m.n_fired):
+        i = fired[k]
+        wrong[k] = g[i] if is_limit[i] == 1 else g[i] * max(inertia[i], 1e-30) / h
+        worst = max(worst, wrong[k])
+    count = 0
+    for k in range(m.n_fired):
+        if wrong[k] >= 0.5 * worst:
+            fired[count] = fired[k]
+            count += 1
+    m.n_fired = count
 
 
 @compiled
@@ -233,7 +257,7 @@ def recurs(m):
     """True if the zones now in force were already in force in this step; remembers them."""
     met, now = reals(m.at_patterns_met, m.max_passes + 1), pattern_of_zones(m)
     found = False
-    for k in range(m.passes):
+    for k in range(m.stage_from, m.passes):
         found = found or met[k] == now
     met[m.passes] = now
     return found

@@ -87,6 +87,8 @@ def solve_exchanged(m, h):
     """Move `y_end` by the solution for a residual that is zero but in the rows just exchanged."""
     m.solves += 1
     m.guessed |= CONSTANT
+    if m.newly_held == 1:
+        field_at(m.call_drift, (m.context, m.t + h, m.at_y_end, m.at_residual))
     n = m.n_core
     x, place = reals(m.at_core_x, n), indices(m.at_row_place, m.n)
     changed, own = indices(m.at_exchanged_machines, m.n_zones), indices(m.at_own_row, m.n_zones)

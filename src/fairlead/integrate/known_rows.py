@@ -1,12 +1,8 @@
 """Rows of J and M that machines hold, kept for every zone a machine has been in.
 
 A machine that holds a row changes, when it switches, that row of J and M alone. Where f is linear between switches,
-the constant of the row is kept as well,
-
-    slides   0 = J_i u + c
-    holds    0 = h J_i y1 - M_i y1 + c
-
-and a row not yet known is that of a machine of the same kind. A settlement forgets all: a time event may have
+the constant c of a row that slides, 0 = J_i u + c, is kept as well, and a row not yet known is that of a machine of the
+same kind. A settlement forgets all: a time event may have
 changed the laws.
 """
 
@@ -109,57 +105,55 @@ def row_holds(m, z):
 
 
 @compiled
-def learn_constants(m, h):
-    """Keep the constants of the rows just exchanged or evaluated, from the residual b at `y_end`."""
+def learn_constants(m):
+    """Keep the constants of the rows just exchanged or evaluated that do not hold, from the residual b at `y_end`."""
     changed, zones = indices(m.at_exchanged_machines, m.n_zones), indices(m.at_zones, m.n_zones)
     constants, known = reals(m.at_known_constants, m.n_known), indices(m.at_known, m.n_known)
     b, own, holds = reals(m.at_b, m.n), indices(m.at_own_row, m.n_zones), indices(m.at_holds, m.n)
     for c in range(m.n_exchanged):
         z = changed[c]
         place = zones[z] * m.n_zones + z
-        if known[place] == ROW:
-            constants[place] = b[own[z]] * (h if holds[own[z]] == 1 else 1.0) - linear_part(m, z, h)
+        if known[place] == ROW and holds[own[z]] == 0:
+            constants[place] = b[own[z]] - linear_part(m, z)
             known[place] = CONSTANT
 
 
 @compiled
 def residual_of_row(m, z, h):
-    """The entry of b in the row of machine z, by its constant."""
-    constant = reals(m.at_known_constants, m.n_known)[indices(m.at_zones, m.n_zones)[z] * m.n_zones + z]
-    holds = indices(m.at_holds, m.n)[indices(m.at_own_row, m.n_zones)[z]] == 1
-    return (constant + linear_part(m, z, h)) / (h if holds else 1.0)
+    """The entry of b in the row of machine z: by the constant, or where it holds by the slip, in `residual`."""
+    row = indices(m.at_own_row, m.n_zones)[z]
+    if indices(m.at_holds, m.n)[row] == 1:
+        return reals(m.at_residual, m.n)[row] / h + linear_part(m, z)
+    return reals(m.at_known_constants, m.n_known)[indices(m.at_zones, m.n_zones)[z] * m.n_zones + z] + linear_part(m, z)
 
 
 @compiled
-def linear_part(m, z, h):
-    """J_i u of a row that slides, with u at the theta point; h J_i y1 - M_i y1 of one that holds."""
+def linear_part(m, z):
+    """J_i u in the row of machine z, with u at the theta point; of a row that holds J_i has entries of forces alone."""
     y, y_end, differential = reals(m.at_y, m.n), reals(m.at_y_end, m.n), indices(m.at_differential, m.n)
-    holds = indices(m.at_holds, m.n)[indices(m.at_own_row, m.n_zones)[z]] == 1
     starts, entries = indices(m.at_own_slope_starts, m.n_zones + 1), indices(m.at_own_slopes, m.n_own_slopes)
     columns, values, total = indices(m.at_own_slope_columns, m.n_own_slopes), reals(m.at_jacobian, m.n_jacobian), 0.0
     for e in range(starts[z], starts[z + 1]):
         k = columns[e]
-        at_end = holds or differential[k] == 0
-        total += values[entries[e]] * (y_end[k] if at_end else y[k] + m.theta_now * (y_end[k] - y[k]))
-    if not holds:
-        return total
-    total *= h
-    starts, entries = indices(m.at_own_mass_starts, m.n_zones + 1), indices(m.at_own_masses, m.n_own_masses)
-    columns, values = indices(m.at_own_mass_columns, m.n_own_masses), reals(m.at_mass, m.n_mass)
-    for e in range(starts[z], starts[z + 1]):
-        total -= values[entries[e]] * y_end[columns[e]]
+        u = y_end[k] if differential[k] == 0 else y[k] + m.theta_now * (y_end[k] - y[k])
+        total += values[entries[e]] * u
     return total
 
 
 @compiled
-def constants_known(m):
-    """True if f is linear and the constants of the rows just exchanged are known."""
+def rows_tell(m):
+    """True if f is linear, and the residual of the rows just exchanged known without it."""
     if m.linear == 0 or (m.distrusted & CONSTANT) != 0 or m.driven == 1:
         return False
     changed, zones = indices(m.at_exchanged_machines, m.n_zones), indices(m.at_zones, m.n_zones)
-    known, all_known = indices(m.at_known, m.n_known), True
+    known, own = indices(m.at_known, m.n_known), indices(m.at_own_row, m.n_zones)
+    holds, caught, all_known = indices(m.at_holds, m.n), indices(m.at_caught, m.n), True
     for c in range(m.n_exchanged):
-        all_known = all_known and known[zones[changed[c]] * m.n_zones + changed[c]] == CONSTANT
+        z = changed[c]
+        if holds[own[z]] == 1:
+            all_known = all_known and caught[own[z]] == 1
+        else:
+            all_known = all_known and known[zones[z] * m.n_zones + z] == CONSTANT
     return all_known
 
 

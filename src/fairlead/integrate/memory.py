@@ -42,7 +42,7 @@ INTEGERS = (
     "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
     # stepping only (known_rows.py): whether zones may not be those of J and M, in how many machines they differ, if
     # only known rows were exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
-    "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row",
+    "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row", "limits_vary",
     "n_own_slopes", "n_own_masses", "n_known",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",

@@ -26,7 +26,7 @@ from fairlead.integrate.exchange import exchange_rows, give_up_guesses, solve_ex
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.jumps import all_continuous, find_jump, law_jumps
-from fairlead.integrate.known_rows import constants_known, learn_constants, learn_rows
+from fairlead.integrate.known_rows import learn_constants, learn_rows, rows_tell
 from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, factorise_step, solve
 
 CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
@@ -34,6 +34,8 @@ PASSED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved."""
 SLOW = 0.01
 """A residual that shrinks by less than this in an iteration asks for a new Jacobian."""
+LOOK_AT_LIMITS = 8
+"""Steps from one look at whether limits vary with time to the next."""
 MOST_SOLVES, MOST_LINEAR_SOLVES = 10, 3
 """Solves without a switch before the step counts as not converging; a linear one needs no more than a refinement."""
 
@@ -53,7 +55,7 @@ def take_theta_step(m, h):
         status = linearise_step(m, h)
         if status != DONE:
             return status
-        if solved and m.rows_alone == 1 and constants_known(m):
+        if solved and m.rows_alone == 1 and m.one_by_one == 0 and rows_tell(m):
             solve_exchanged(m, h)
         else:
             verdict, previous = approach_laws(m, h, solves, previous)
@@ -74,6 +76,8 @@ def take_theta_step(m, h):
             continue
         solves = 0
         status = switch_zones(m, h)
+        if status == CYCLES and m.guessed > 0:
+            give_up_guesses(m)
         if status != GO_ON:
             return status
 
@@ -96,7 +100,7 @@ def approach_laws(m, h, solves, previous):
         if verdict != GO_ON:
             return verdict, size
     if m.n_exchanged > 0 and m.linear == 1:
-        learn_constants(m, h)
+        learn_constants(m)
     solve(m, m.at_b)
     move_end(m)
     return GO_ON, size
@@ -299,18 +303,23 @@ def guards_of_step(m, h):
     """Into `g_end` every guard where its law is read: limits of forces at the theta point, all others at the end.
 
     A limit that varies (a normal force that follows a tension) would else let a contact go that, sliding, is
-    held back by more than it was let go for. Where f is linear no limit varies with the unknowns.
+    held back by more than it was let go for. Where f is linear no limit varies with the unknowns; whether one varies
+    with time is looked at now and then, and where zones cycle.
     """
     evaluate_guards(m, m.t + h, m.at_y_end, m.at_g_end)
-    if m.linear == 1 or m.has_limits == 0:
+    constant = m.linear == 1 and m.limits_vary == 0
+    if m.has_limits == 0 or (constant and m.one_by_one == 0 and (m.passes > 0 or m.steps % LOOK_AT_LIMITS != 0)):
         return
     theta_point(m)
     evaluate_guards(m, m.t + m.theta_now * h, m.at_u, m.at_g_probe)
     g, at_theta, is_limit = (
         reals(m.at_g_end, m.n_guards), reals(m.at_g_probe, m.n_guards), indices(m.at_limit_guard, m.n_guards),
     )  # fmt: skip
+    tolerance = reals(m.at_guard_tolerance, m.n_guards)
     for i in range(m.n_guards):
         if is_limit[i] == 1:
+            if abs(g[i] - at_theta[i]) > tolerance[i]:
+                m.limits_vary = 1
             g[i] = at_theta[i]
 
 
