@@ -5,6 +5,7 @@ import pytest
 
 import fairlead
 from fairlead.integrate import Run, integrate
+from fairlead.integrate.neighbours import known_rows
 
 BLOCKS = 8
 SHAKEN = "position: {sine: {amplitude: 40 mm, frequency: 1.5 Hz}}"  # its acceleration is zero at the start, alone
@@ -61,3 +62,26 @@ def test_laws_that_vary_are_followed_as_by_rodas_and_held_exactly(tmp_path, case
     assert np.abs(found["x"] - exact["x"]).max() < 1e-4  # m, of 40 mm
     assert counters.jacobians < counters.switches  # not evaluated anew at every switch
     assert counters.settling_passes < 3 * counters.switches  # limits are judged where they are read: no cycles
+
+
+def test_contacts_that_share_a_load_are_not_known_by_their_row_alone(scene):
+    """Two pads under one block divide what holds it: when one lets go the other's share changes too."""
+    system = scene("""
+        components:
+          floor: {type: Ground}
+          one: {type: Mass, mass: 1 kg}
+          left: {type: Contact, normal_force: 10 N, curve: 0.5}
+          right: {type: Contact, normal_force: 8 N, curve: 0.4}
+          other: {type: Mass, mass: 1 kg}
+          alone: {type: Contact, normal_force: 10 N, curve: 0.5}
+          spring: {type: Spring, stiffness: 100 N/m}
+        connections:
+          - [floor.flange, left.a, right.a, alone.a]
+          - [left.b, right.b, one.flange, spring.a]
+          - [spring.b, other.flange, alone.b]
+        friction: {method: hold}
+        run: {stop: 1 s}
+    """).system
+    assert {system.machine_names[z] for z in system.beyond_row} == {"left", "right"}
+    row = known_rows(system)["own_row"]
+    assert {system.machine_names[z] for z in np.flatnonzero(row >= 0)} == {"alone"}

@@ -73,7 +73,8 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
 def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
     """Entries of J and M in the row each machine holds, and room for what they are in every zone.
 
-    A machine that holds no row, or more than one, has none.
+    A machine that holds no row, or more than one, has none; nor has one whose switch changes other rows too, as that of
+    a contact in a circle changes how the others share (`beyond_row`).
     """
     nz = len(problem.zones)
     holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
@@ -81,6 +82,7 @@ def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
     for k in np.flatnonzero(holder >= 0).tolist():
         rows[holder[k]].append(k)
     row = np.array([own[0] if len(own) == 1 else -1 for own in rows], dtype=np.int64)
+    row[np.asarray(getattr(problem, "beyond_row", ()), dtype=np.int64)] = -1
     found: dict[str, Floats | Integers] = {"own_row": row}
     for name, pattern in (("own_slope", problem.pattern), ("own_mass", problem.mass_pattern)):
         machine = np.full(len(problem.initial), -1, dtype=np.int64)

@@ -175,25 +175,36 @@ def linearise_step(m, h):
         else:
             m.factored_h = 0.0
     m.zones_differ = 0
-    if m.linearised == 0:
-        mass_at(m.call_mass, (m.context, m.at_mass))
-        theta_point(m)
-        jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
-        m.jacobians += 1
-        find_holds(m)
-        if m.dense == 0:
-            learn_rows(m)
-        m.linearised = 1
-        m.factored_h = 0.0
+    evaluated = m.linearised == 0
+    if evaluated:
+        evaluate_slopes(m, h)
     if m.factored_h == h and m.factored_theta == m.theta_now:
         return DONE
     m.factored_h = 0.0
     status = factorise_step(m, 1.0 / (h * m.theta_now))
+    if status != DONE and not evaluated:  # rows that were exchanged are not all that a switch changes in a circle
+        m.n_exchanged = 0
+        evaluate_slopes(m, h)
+        status = factorise_step(m, 1.0 / (h * m.theta_now))
     m.unchecked = 1
     if status == DONE:
         m.factored_h = h
         m.factored_theta = m.theta_now
     return status
+
+
+@compiled
+def evaluate_slopes(m, h):
+    """M and J of the zones in force, at the theta point."""
+    mass_at(m.call_mass, (m.context, m.at_mass))
+    theta_point(m)
+    jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
+    m.jacobians += 1
+    find_holds(m)
+    if m.dense == 0:
+        learn_rows(m)
+    m.linearised = 1
+    m.factored_h = 0.0
 
 
 @compiled

@@ -86,6 +86,12 @@ class System:
         return [unknown.name for unknown in self.numbering.unknowns]
 
     @property
+    def beyond_row(self) -> Integers:
+        """Machines of contacts that may close a circle: their switch changes the rows of shares as well as their own."""
+        machines = np.unique(self.memory["circle_pairs"][:, 5])
+        return machines[machines >= 0]
+
+    @property
     def n_outputs(self) -> int:
         """Recorded outputs, and the stored energy at the end."""
         return len(self.recorded) + 1
