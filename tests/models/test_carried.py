@@ -111,3 +111,31 @@ def test_what_moves_the_drum_moves_all_that_lies_on_it(simulate):
     rows = (t > 0.2) & (t < 0.4)
     pull = np.asarray(result["drum.force"])[rows] + np.asarray(result["route.gauge.tension"])[rows]
     assert pull.mean() == pytest.approx((20 / 0.5**2 + 2 * 34) * 0.8 / 0.5, rel=0.02)
+
+
+JERKED = "{table: {t: [0 s, 0.1 s, 1.5 s, 1.6 s, 2 s], y: [0, 2, 2, 0, 0]}}"
+
+
+def test_a_rope_that_lies_slack_off_the_drum_comes_taut_again(simulate):
+    """Two metres a second from a drum that stops at once, with 20 N on it: elements that are loose stay in."""
+    drum = RIM | {"drive": f"drum: {{type: MotionSource, velocity: {JERKED}}}"}
+    text = SCENE.format(**drum).replace("300 N", "20 N").replace("speed: 3 m/s", "speed: 1 m/s").replace("7 s,", "2 s,")
+    result = simulate(text)
+    assert result.run["counters"]["partial_steps"] > 0.9 * result.run["counters"]["steps"]
+    assert result.run["energy"]["closure"] < 1e-4
+    assert np.asarray(result["route.gauge.tension"]).max() < 5e3
+
+
+def test_nothing_is_carried_while_one_layer_goes_over_to_the_next(simulate, monkeypatch):
+    """The drum begins between two layers: its radius falls by a hundredth within half a second, in one zone."""
+    text = SCENE.format(**LAYERS).replace("length: 40 m", "length: 80 m").replace("start: -34 m", "start: -70 m")
+    text = text.replace("stop: 7 s", "stop: 1 s")
+    part = simulate(text)
+    monkeypatch.setattr(parts, "LEAST", 10**9)
+    whole = simulate(text)
+    radius = np.asarray(part["route.winch.radius"])
+    assert radius[0] - radius[-1] > 5e-3
+    assert part.run["counters"]["partial_steps"] > 0
+    for k in (80, 200, 270, 300):
+        name = f"line.node[{k}].x"
+        assert on_the_grid(part, name) == pytest.approx(on_the_grid(whole, name), abs=1e-6), name

@@ -39,11 +39,12 @@ class Look:
         while True:
             there = partials_at(system, t, self._jolted(may_rest))
             which = answers(found, [here, there], self.following.place, self.following.ratio)
-            moves, self.laws = spread(found, which, self._moving(may_rest), may_rest, varies)
-            fewer = may_rest & ~moves[: system.n]
+            self.moves, self.laws = spread(found, which, self._moving(may_rest), may_rest, varies)
+            self.varying = found.gives[which.value[self.moves[which.z]]]
+            fewer = may_rest & ~self.moves[: system.n]
             if (fewer == may_rest).all():
                 self.kept = self._kept(may_rest)
-                stays, self.watched = probe.judged(self.laws, moves, self.kept)
+                stays, self.watched = probe.judged(self.laws, self.moves, self.kept)
                 if not (stays & ~varies).any():
                     break
                 varies |= stays
@@ -95,8 +96,10 @@ class Look:
         return kept
 
     def hindered(self) -> set[int]:
-        """Groups that cannot be left out: a contact of a circle that stays holds them."""
+        """Groups that cannot be left out: a contact of a circle that stays holds them, or their ratio varies."""
         numbering = self.system.numbering
+        if np.isin(self._signals_of_bonds(), self.varying).any():  # as the radius of a drum from one layer to the next
+            return set(self.following.groups)
         return {
             group for pair in numbering.circles if self.kept[numbering.own[pair.path, pair.unknown]]
             for group, _ in pair.ends if group in self.following.groups

@@ -26,6 +26,8 @@ ROUNDING = 1e-7
 """Share of its size and its tolerance that a guard must change by to have changed."""
 FAST = 10.0
 """m/s or rad/s; at the speeds from this to its opposite nothing may happen to what is left out."""
+FEW = 3
+"""Times that everything that moves is displaced, and moved, by chance."""
 NEAR = 2.0
 """m or rad; what comes upon something within this way stays in."""
 
@@ -66,8 +68,9 @@ class Probe:
     def judged(self, laws: Booleans, moves: Booleans, kept: Booleans) -> tuple[Booleans, Integers]:
         """By law that is left out (not in `laws`): whether it must stay; and those that say when that ends.
 
-        It must stay if a guard answers to a signal or a state that varies (`moves` by place in z), if one fires at
-        other speeds, or within a short way. One that fires further on ends the part.
+        It must stay if a guard answers to a signal or a state that varies (`moves` by place in z) or to how far apart
+        things are that move, if one fires at other speeds, or within a short way. One that fires further on ends the
+        part.
         """
         rates_carried = self.following.unknowns[len(self.riders) :]
         position, rate = self._motions(kept)
@@ -80,9 +83,15 @@ class Probe:
             stays |= self._ask(others, self.z[others] + jolt * (1.0 + np.abs(self.z[others])))[0]
         speeds, ratio = np.concatenate([rate, rates_carried]), np.ones(len(self.z))
         ratio[rates_carried] = self.following.ratio[rates_carried]
+        chance = np.random.default_rng(2)
         for speed in (-FAST, 0.0, FAST):
             changes, fires = self._ask(speeds, speed * ratio[speeds])
             stays |= changes & fires
+        for _ in range(FEW):
+            changes, fires = self._ask(rate, FAST * chance.uniform(-1, 1, len(rate)))
+            stays |= changes & fires
+            changes, _ = self._ask(position, self.z[position] + NEAR * chance.uniform(-1, 1, len(position)))
+            stays |= changes & self._between(position)[self.law]
         for way in (-NEAR, NEAR):
             changes, fires = self._ask(position, self.z[position] + way)
             stays |= changes & fires
@@ -90,6 +99,11 @@ class Probe:
         left_out = ~laws[self.law]
         watches, must = self._laws_of(watched & left_out), self._laws_of(stays & left_out)
         return must | (watches & self.has_unknowns), np.flatnonzero(watches)
+
+    def _between(self, position: Integers) -> Booleans:
+        """By law: whether it reads several of these places, and so how far they are apart."""
+        counts = [np.isin(block.in_index, position).sum(axis=1) for block in self.system.blocks]
+        return np.concatenate(counts) > 1
 
     def _ask(self, where: Integers, what: Floats) -> tuple[Booleans, Booleans]:
         """By guard: whether it changes when this stands there, and whether it fires then."""

@@ -87,7 +87,7 @@ class System:
 
     @property
     def beyond_row(self) -> Integers:
-        """Machines of contacts that may close a circle: their switch changes the rows of shares as well as their own."""
+        """Machines of contacts that may close a circle: a switch changes more than their own row."""
         machines = np.unique(self.memory["circle_pairs"][:, 5])
         return machines[machines >= 0]
 
