@@ -82,6 +82,9 @@ def _tell_of_the_whole(
         context[getattr(layout, name)] = part.memory[name.lower()].ctypes.data
     context[layout.N_KEPT_MACHINES], context[layout.N_CARRIED] = len(machines), count
     context[layout.WHOLE] = system.context
+    accelerations = any(key.endswith(":a") for block in system.blocks for key in block.kernel.structure.inputs)
+    given = (carried.row[v] >= system.n).any()  # of a carrier whose motion is prescribed the force is a reaction
+    context[layout.SLIP_SHOWN] = int(accelerations or given)
     context[layout.WHOLE_ZONES], context[layout.WHOLE_W] = (
         system.memory[name].ctypes.data for name in ("zones", "w")
     )  # fmt: skip

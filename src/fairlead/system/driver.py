@@ -296,25 +296,25 @@ def at_time(ctx, t, y):
 
 
 def expand(ctx, t, y, of_whole):
-    """The unknowns of the whole at (t, y) of a part of it: what it keeps, and what is carried along.
-
-    What is carried follows its carrier, but for the slip with which its bond moves it so.
-    """
-    whole, zones, of_all = i8(ctx[WHOLE]), i8(ctx[ZONES]), i8(ctx[WHOLE_ZONES])
-    kept, machines = i8(ctx[KEPT]), i8(ctx[KEPT_MACHINES])
+    """The unknowns of the whole at (t, y) of a part of it: what it keeps, and what is carried at its carrier's pace."""
+    look(ctx, t, y)
+    zones, of_all, kept, machines = i8(ctx[ZONES]), i8(ctx[WHOLE_ZONES]), i8(ctx[KEPT]), i8(ctx[KEPT_MACHINES])
     for i in range(0, ctx[N]):
         of_whole[kept[i]] = y[i]
     for k in range(0, ctx[N_KEPT_MACHINES]):
         of_all[machines[k]] = zones[k]
-    if ctx[N_CARRIED] > 0:
-        accelerate(ctx, t, y)
     z, carried, coef = f8(ctx[Z]), i8(ctx[CARRIED]), f8(ctx[CARRIED_COEF])
     for k in range(0, ctx[N_CARRIED]):
         of_whole[carried[5 * k]] = coef[5 * k] * z[carried[5 * k + 2]] + coef[5 * k + 1]
         of_whole[carried[5 * k + 1]] = coef[5 * k + 2] * z[carried[5 * k + 3]]
+
+
+def let_slip(ctx, t, y, of_whole):
+    """Add to what is carried the slip with which its bond accelerates it."""
     if ctx[N_CARRIED] > 0:
-        evaluate(whole, t, of_whole)
-    w = f8(ctx[WHOLE_W])
+        accelerate(ctx, t, y)
+        evaluate(i8(ctx[WHOLE]), t, of_whole)
+    z, w, carried, coef = f8(ctx[Z]), f8(ctx[WHOLE_W]), i8(ctx[CARRIED]), f8(ctx[CARRIED_COEF])
     for k in range(0, ctx[N_CARRIED]):
         v = carried[5 * k + 1]
         of_whole[v] += (w[v] - coef[5 * k + 3] * z[carried[5 * k + 4]]) * coef[5 * k + 4]
@@ -341,8 +341,9 @@ def show(ctx, t, y, out):
 
 
 def spread(ctx, t, y, of_whole):
-    """As expand."""
+    """The unknowns of the whole that a part stands for."""
     expand(ctx, t, y, of_whole)
+    let_slip(ctx, t, y, of_whole)
 
 
 def outputs(ctx, t, y, out):
@@ -351,12 +352,14 @@ def outputs(ctx, t, y, out):
         show(ctx, t, y, out)
     if ctx[WHOLE] != 0:
         expand(ctx, t, y, f8(ctx[WHOLE_Y]))
+        if ctx[SLIP_SHOWN] > 0:
+            let_slip(ctx, t, y, f8(ctx[WHOLE_Y]))
         show(i8(ctx[WHOLE]), t, f8(ctx[WHOLE_Y]), out)
 
 
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
-    assemble, expand, show,
+    assemble, expand, let_slip, show,
 )  # fmt: skip
 
 

@@ -137,6 +137,7 @@ N_CARRIED = 88
 WHOLE_ZONES = 89  # those of the whole
 WHOLE_W = 90
 GUARD_COUNTS = 91  # int64 (blocks,)       instances whose guards are asked for
-CONTEXT = 92
+SLIP_SHOWN = 92  # 1 if an output may follow the slip of what is carried
+CONTEXT = 93
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on
