@@ -127,7 +127,7 @@ def test_laws_that_are_compiled_on_the_way_are_not_counted(lagging):
 
 def test_a_switch_that_changes_no_equation_is_told_and_not_run():
     """Coulomb friction without exponents has no term for load and temperature, whatever is on."""
-    found = effects(lambda more: fairlead.load("belt", set={"run.stop": "1 s", **more}))
+    found = effects(lambda more: fairlead.load("belt", set={"run.stop": "1 s", **more}), budget=600)
     assert {"load_dependence off", "temperature_dependence off"} <= set(found.untouched)
     assert not {"load_dependence", "temperature_dependence"} & {row.switch.name for row in found.rows}
 

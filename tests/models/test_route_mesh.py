@@ -53,7 +53,7 @@ def meshes(tmp_path_factory):
     for name, element in (("coarse", 0.5), ("halved", 0.25), ("shifted", 0.5)):
         folder = tmp_path_factory.mktemp(name)
         path = with_half_ends(folder, element) if name == "shifted" else MODELS / "guidance_route.yaml"
-        settings = {"element": f"{element} m", "run.stop": "8 s", "run.accuracy": "1e-4"}
+        settings = {"element": f"{element} m", "run.stop": "8 s", "run.accuracy": "1e-4", "record.every": "5 ms"}
         found[name] = figures(fairlead.load(path, set=settings).run(out=folder / "run"))
     return found
 
