@@ -8,6 +8,7 @@ magnitude of 1 - 1/(1 + i w tau) times the amplitude: w tau / sqrt(1 + (w tau)^2
 import json
 import math
 import pathlib
+from dataclasses import replace
 
 import fairlead.models
 import numpy as np
@@ -16,8 +17,10 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.analysis.effects import effects
+from fairlead.analysis.sameness import same
 from fairlead.analysis.switches import all_off, switches
 from fairlead.cli import app
+from fairlead.system.structure import Structure
 
 LIBRARY = '''
     class Direct(Component):
@@ -127,7 +130,7 @@ def test_laws_that_are_compiled_on_the_way_are_not_counted(lagging):
 
 def test_a_switch_that_changes_no_equation_is_told_and_not_run():
     """Coulomb friction without exponents has no term for load and temperature, whatever is on."""
-    found = effects(lambda more: fairlead.load("belt", set={"run.stop": "1 s", **more}), budget=600)
+    found = effects(lambda more: fairlead.load("belt", set={"run.stop": "1 s", **more}))
     assert {"load_dependence off", "temperature_dependence off"} <= set(found.untouched)
     assert not {"load_dependence", "temperature_dependence"} & {row.switch.name for row in found.rows}
 
@@ -167,3 +170,14 @@ def test_the_command_prints_a_sentence_for_each(tmp_path):
     record = json.loads((tmp_path / "effects.json").read_text())
     assert {row["name"] for row in record["rows"]} >= {"energy", "friction"}
     assert all(row["sentence"] in done.output.replace("\n", " ") or row["sentence"] for row in record["rows"])
+
+
+def test_a_law_just_traced_is_the_same_as_that_from_the_cache():
+    """What is read back has lists where what was traced has tuples."""
+    model = fairlead.load("belt", set={"run.stop": "1 s"})
+    off = next(one for one in switches(model) if one.label == "load_dependence off")
+    other = fairlead.load("belt", set={"run.stop": "1 s", **off.settings}).system
+    for k, block in enumerate(other.blocks):
+        facts = {n: tuple(v) if isinstance(v, list) else v for n, v in vars(block.kernel.structure).items()}
+        other.blocks[k] = replace(block, kernel=replace(block.kernel, structure=Structure(**facts)))
+    assert same(model.system, other)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict
 from typing import Any
 
@@ -39,6 +40,11 @@ def _same_law(mine: Kernel, its: Kernel) -> bool:
     """Two variants of a class may come out as the same text: an effect that none of its given parameters enters."""
     if mine.variant == its.variant:
         return True
-    if mine.variant.type is not its.variant.type or asdict(mine.structure) != asdict(its.structure):
+    if mine.variant.type is not its.variant.type or _facts(mine) != _facts(its):
         return False
     return write_source(mine.variant)[0] == write_source(its.variant)[0]
+
+
+def _facts(kernel: Kernel) -> str:
+    """Its structure, whether it was just traced (tuples) or comes from the cache (lists)."""
+    return json.dumps(asdict(kernel.structure), sort_keys=True)
