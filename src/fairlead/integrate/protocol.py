@@ -31,13 +31,17 @@ limit or an acceleration against the friction (settling.py). And `kink_guard` [n
 nothing but its slope jumps, as between two pieces of a table; `rodas` steps a hair past those instead of on them.
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
-that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time.
+that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `beyond_row`
+names the machines whose switch changes more rows of J and M than the one they hold: these are evaluated then.
 And `narrowing`, which tells what moves and cuts it out as a problem of its own that records for all (parts.py):
 
     possible                     whether that may be asked
-    moving(y, margin, most)      .kept [n], .machines; None if more than a share of `most` of the unknowns moves
+    moving(t, y, margin, most, part)  .kept [n], .machines, .sure (it needs no proof by the run so far); None if that is
+                                 not worth while beside the part in force (or None)
     part(t, y, that)             .problem, .unknowns, .machines, .guards (places in the whole), .rim (1 for machines
-                                 of the part whose change sets more in motion); or None
+                                 of the part whose change sets more in motion), .sure; or None. give_back(t, y) puts
+                                 into the y of the whole what follows from the part, carry(v) into such a vector the
+                                 slopes of what is carried
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
 no guards, no held contacts, no time events; outputs missing records y itself; rhs, jacobian and slip

@@ -36,6 +36,7 @@ MOST = 0.9
 LEAST_CARRIED = 16
 """Fewer nodes than this are not worth it."""
 
+
 class Bond(NamedTuple):
     """What ties a node to its carrier: path, law, and how its force depends on the speed of either."""
 

@@ -81,15 +81,16 @@ def _entries(block: Block, share: Share, first: int) -> list[tuple[NDArray, ...]
 
 def _values(block: Block, first: int, dump: int) -> tuple[Integers, Integers, Integers]:
     s, count = block.kernel.structure, block.count
-    gives = np.where(block.sig_index == dump, -1, block.sig_index).reshape(count, -1)
-    nothing = np.full((count, len(s.outputs)), NOBODY), np.full((count, len(s.targets) + len(s.ledger)), -1)
-    row = block.flow_index.reshape(count, -1)
-    law = np.repeat(first + np.arange(count), len(s.outputs) + len(s.targets) + len(s.ledger))
-    of_ledger = np.full((count, len(s.ledger)), -1)
+
+    def row_by_row(*columns: NDArray) -> Integers:
+        return np.concatenate(columns, axis=1).ravel().astype(np.int64)
+
+    outputs, targets, ledger = ((count, len(names)) for names in (s.outputs, s.targets, s.ledger))
+    signals = np.where(block.sig_index == dump, -1, block.sig_index).reshape(outputs)
     return (
-        law,
-        np.concatenate([gives, nothing[1]], axis=1).ravel().astype(np.int64),
-        np.concatenate([nothing[0], row, of_ledger], axis=1).ravel().astype(np.int64),
+        np.repeat(first + np.arange(count), len(s.outputs) + len(s.targets) + len(s.ledger)),
+        row_by_row(signals, np.full(targets, -1), np.full(ledger, -1)),
+        row_by_row(np.full(outputs, NOBODY), block.flow_index.reshape(targets), np.full(ledger, -1)),
     )
 
 
