@@ -20,8 +20,10 @@ from fairlead.components.mechanics.rigid_link import RigidLink
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.route.bearing_load import Told
 from fairlead.components.route.drum import StoredNode, WoundNode
+from fairlead.components.route.far_line import FarNode
 from fairlead.components.route.placing import Placed
 from fairlead.components.route.route_line import RouteLine, Surface
+from fairlead.components.route.sea import HANDS_OVER
 from fairlead.components.route.tow import SeaDrag, TailEnd
 from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.window import Reach, Window, total
@@ -103,6 +105,7 @@ class _On:
         bodies = [body] + ([f"{self.line.inner}[{i}]"] if two else [])
         for one in bodies:
             self.storage(i, one)
+            self.far_out(i, one)
             self.weight(i, one, reach, bodies)
         self.drag(i, body, reach)
 
@@ -248,7 +251,7 @@ class _On:
         for one in self.route.of_type("Winch"):
             made, station = self.route.machinery[one.name], one.station
             given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
-            name = f"stored_{body.partition('_')[0]}[{i}]" if self.line.inner else f"stored[{i}]"
+            name = self.of_layer("stored", body, i)
             if i == 0 and one in self.drums():
                 self.fasten(body, f"{self.path}.{one.name}.{made.surface}")
                 continue
@@ -260,6 +263,20 @@ class _On:
                 self.to.join_to(f"{stored}.drum", f"{self.path}.{one.name}.{made.surface}")
                 self.to.join_to(f"{stored}.radius", f"{self.path}.{one.name}.layers.radius_now")
             self.to.join(f"{stored}.node", f"{body}.flange")
+
+    def far_out(self, i: int, body: str) -> None:
+        """The bond with the outboard end, where the line out in the sea is to move as one body with it."""
+        last = self.line.mesh.elements
+        for one in self.route.of_type("Sea"):
+            if one.station.form == "rigid" and i != last:
+                place = one.station.rigid_from(one.begin) + HANDS_OVER / 2
+                bond = self.to.child(self.of_layer("far", body, i), FarNode, place=place, edge=HANDS_OVER)
+                self.to.join(f"{bond}.end", f"{self.line.outer}[{last}].flange")
+                self.to.join(f"{bond}.node", f"{body}.flange")
+
+    def of_layer(self, word: str, body: str, i: int) -> str:
+        """Name of what acts on one body of a node: of a line with two layers, with the name of its own."""
+        return f"{word}_{body.partition('_')[0]}[{i}]" if self.line.inner else f"{word}[{i}]"
 
     def drums(self) -> list[Placed]:
         """The drum that the inboard end of the line is fastened to, if it is."""
@@ -298,14 +315,14 @@ class _On:
             return
         share = self.to.mass(body) / sum(map(self.to.mass, bodies))
         windows = [one.window(weight * share * math.sin(one.station.slope)) for one in steep]
-        name = f"weight_{body.partition('_')[0]}[{i}]" if self.line.inner else f"weight[{i}]"
+        name = self.of_layer("weight", body, i)
         child = self.to.child(name, LineWeight, fall=self.table(reach, *windows), length=reach.length)
         self.to.join(f"{child}.node", f"{body}.flange")
 
     def drag(self, i: int, body: str, reach: Reach) -> None:
         """Drag of the sea."""
         for one in self.route.of_type("Sea"):
-            if one.station.form == "distributed" and one.station.drag_coefficient > 0:
+            if one.station.form != "lumped" and one.station.drag_coefficient > 0:
                 per_length = one.station.per_length(self.line.values.diameter)
                 window = self.table(reach, one.window())
                 child = self.to.child(f"drag[{i}]", SeaDrag, window=window, per_length=per_length, length=reach.length)

@@ -8,6 +8,7 @@ from fairlead.components.route.tow import Tow
 from fairlead.component import Choice, Parameter, Waveform
 
 WATER = 1025.0  # kg/m^3, sea water
+HANDS_OVER = 2.0  # m over which a node becomes part of the rigid line, slow enough for its neighbours to follow
 
 
 class Sea(Station):
@@ -20,6 +21,11 @@ class Sea(Station):
     `form: lumped` leaves the drag to the outboard end, for a line whose sea part is not modelled: `beyond` is the
     length that is in the water outboard of the end at the start, and grows by what is paid out; its inertia
     (mass per length times `beyond`, as at the start) is added to the end.
+
+    `form: rigid` is for a line that travels through the route into the sea: what is further out than `margin` moves
+    as one body with the outboard end. Drag, inertia and so the tension in steady tow are those of the distributed form;
+    the stretch of the line out there and its waves are not counted, nor the time they cost. Its strain stays as it
+    was when it passed the margin, and comes back with it: the line takes hold and lets go over `HANDS_OVER` metres.
     """
 
     word = "Sea"
@@ -28,7 +34,10 @@ class Sea(Station):
     density = Parameter("kg/m^3", "Density of the water.", default=WATER, above=0)
     tail = Parameter("N", "Steady pull at the end of the line.", default=0.0, least=0)
     drogue = Parameter("m^2", "Drag area C_D A of a drogue at the end of the line.", default=0.0, least=0)
-    form = Choice(("distributed", "lumped"), "Where the drag acts.", default="distributed")
+    form = Choice(("distributed", "rigid", "lumped"), "How the line in the water moves, and where its drag acts.",
+                  default="distributed")  # fmt: skip
+    margin = Parameter("m", "Line in the water that moves by itself before the rest moves as one, if rigid.",
+                       default=5.0, least=0)  # fmt: skip
     beyond = Parameter("m", "Line in the water outboard of the modelled end, if lumped.", default=0.0, least=0)
 
     def extent(p):
@@ -38,6 +47,10 @@ class Sea(Station):
     def span(p, start):
         """All that is outboard of it."""
         return start, math.inf
+
+    def rigid_from(p, begin):
+        """Where the line begins to move as one body [m], for a sea that begins at `begin`; infinite if nowhere."""
+        return begin + p.margin if p.form == "rigid" else math.inf
 
     def per_length(p, diameter):
         """1/2 rho C_t pi d [kg/m^2]: drag per length and speed squared."""

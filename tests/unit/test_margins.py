@@ -52,6 +52,13 @@ def of(path):
     return found, {one.name: one for one in found.stations}
 
 
+def test_tensions_of_line_that_moves_as_one_body_are_not_judged(tmp_path, monkeypatch):
+    """They are those with which it went in; the greatest but for them is at 1.5 m, at the start."""
+    monkeypatch.setitem(ROUTE, "rigid_from", 1.8)
+    found, _ = of(written(tmp_path))
+    assert (found.whole.peak.value, found.whole.peak.t, found.whole.peak.place) == (154, 0.0, 1.5)
+
+
 def test_the_extremes_of_a_station_are_those_of_the_elements_that_are_in_it(tmp_path):
     found, stations = of(written(tmp_path))
     bend = stations["bend"]  # elements with their middle in 1 ... 2 m: [1] at first, [0] and [1] after 1 s, then [0]

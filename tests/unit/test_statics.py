@@ -167,6 +167,7 @@ def test_drag_that_is_lumped_and_drag_along_the_line_pull_alike(scene):
     want = 50 + (0.5 * 1025 * 0.003 * math.pi * 0.02 * line + 0.5 * 1025 * 0.01) * flow**2
     assert tension("") == pytest.approx(want)
     assert tension(", form: lumped, beyond: 10 m") == pytest.approx(want)
+    assert tension(", form: rigid") == pytest.approx(want)
 
 
 def test_a_drum_with_layers_tells_its_torque_at_the_layer_the_line_leaves(scene):

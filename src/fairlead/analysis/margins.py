@@ -111,10 +111,13 @@ class _Judge(RecordedLine):
         return StationMargins(station["name"], **found)
 
     def _whole(self, stations: tuple[StationMargins, ...]) -> StationMargins:
-        """Over all of the line, drum and sea as well."""
+        """Over all of the line, drum and sea as well, but for what moves as one body out there and has no waves."""
         found: dict[str, Worst | None] = {}
         if self.total is not None:
-            found |= self._tensions(np.ones(self.total.shape, dtype=bool))
+            judged, end = np.ones(self.total.shape, dtype=bool), self.record.get("rigid_from")
+            if end is not None and self.places is not None:
+                judged = self.places <= end
+            found |= self._tensions(judged)
         for name in ("side_wall", "scuffed", "inner_scuffed", "slipped"):
             here = [one for each in stations if (one := getattr(each, name)) is not None]
             found[name] = max(here, key=lambda one: one.value, default=None)

@@ -50,8 +50,8 @@ def _grip(route: LaidRoute, device: Device, piece: Piece) -> float:
 
 
 def drag(route: LaidRoute, sea: Device, t: float, speed: float) -> float:
-    """Drag per length in a sea whose drag is distributed [N/m], positive outboard."""
-    if sea.station.form != "distributed":
+    """Drag per length [N/m] in a sea whose drag acts along the line, which may move as one body; outboard positive."""
+    if sea.station.form == "lumped":
         return 0.0
     flow = route.signal(sea, t) - speed
     return float(sea.station.per_length(route.values.diameter) * abs(flow) * flow)

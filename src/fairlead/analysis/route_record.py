@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from fairlead.analysis.laid_route import LaidRoute, laid_routes
@@ -20,9 +21,10 @@ def _record(laid: LaidRoute) -> dict[str, Any]:
         for surface in laid.route.line.surfaces
         for one, _ in surface.devices
     }
+    rigid_from = min((one.station.rigid_from(one.begin) for one in laid.seas), default=math.inf)
     stations = [
         {
-            "name": one.name, "type": one.station.type.word, "begin": one.begin, "end": one.end,
+            "name": one.name, "type": one.station.type.word, "begin": one.begin, "end": min(one.end, rigid_from),
             "curvature": one.curvature, "contact": contacts.get(one.name),
             "moves": one.name in laid.route.line.machinery and one.name in contacts,
         }
@@ -31,4 +33,5 @@ def _record(laid: LaidRoute) -> dict[str, Any]:
     return {
         "line": laid.line.path, "route": laid.route.path, "layers": list(line.layers), "outer": line.outer,
         "nodes": line.mesh.elements + 1, "ruck_force": p.ruck_force, "side_wall": p.side_wall, "stations": stations,
+        "rigid_from": rigid_from if math.isfinite(rigid_from) else None,
     }  # fmt: skip
