@@ -16,7 +16,7 @@ SCENE = """
         stations:
           - {{name: gauge, type: Tensiometer, start: 0.75 m}}
           - {{name: bend, type: Bend, start: 2 m, angle: 60 deg, radius: 1 m, friction: {friction}}}
-          - {{name: sea, type: Sea, start: {sea} m, speed: {ship} m/s, tail: {tail} N, form: {form}, margin: 2 m}}
+          - {{name: sea, type: Sea, start: {sea} m, speed: {ship} m/s, tail: {tail} N, form: {form}}}
       haul: {{type: MotionSource, velocity: {speed}}}
     connections:
       - [line.path, route.path]
