@@ -1,74 +1,71 @@
 """Rows inside a step of the stepping engine show its end zones: what holds at the end is shown without slip.
 
-It would else seem to creep: a body that is caught in the step has a slip at its start, and one that is carried along
-follows its parabola where the surface follows its own law. Of two bodies that hold on to each other the lighter moves.
+It would else seem to creep: a body that is caught in the step has a slip at its start, bodies that hold on to each
+other have parabolas of their own, and one that is carried along has another than the surface, which follows its law.
+The slip r of held contacts, whatever network they form, is taken away by an impulse spread over the step,
+
+    (M/(h theta) - J) (dv, Lambda) = r/(h theta)    r = -slip in the rows that hold
+
+with the factors the step has left; dv is added, Lambda dropped. Slip is linear in the speeds. So where surfaces keep
+their speed this is done once for the start of the step and once for its bend, else in every row.
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.meters import inertia_of
+from fairlead.integrate.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.linear import solve
 
-PASSES = 4
-"""First what holds on to surfaces of given motion, then what holds on to that, then what holds on to each other."""
 
 @compiled
 def prepare_rows(m):
-    """Of an accepted step: a body that was caught goes with what caught it from the start of the step."""
-    y, bend = reals(m.at_y, m.n), reals(m.at_D, m.n)
-    entry, row = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_row, m.n_hold_mass)
-    column, partner = indices(m.at_hold_mass_column, m.n_hold_mass), indices(m.at_hold_mass_partner, m.n_hold_mass)
-    values, holds, caught = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n), indices(m.at_caught, m.n)
-    rested, slip = indices(m.at_rested, m.n), reals(m.at_residual, m.n)
-    any_caught, pairs = False, False
+    """Of an accepted step with grid points inside: take slip out of its start and its bend; see `rows_slip`."""
+    m.rows_slip = 0
+    if m.start + m.grid_next * m.every >= m.t_piece - 1e-12 * max(abs(m.t_piece), m.every):
+        return
+    row, caught = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_caught, m.n)
+    holds, any_holds, any_caught = indices(m.at_holds, m.n), False, False
     for e in range(m.n_hold_mass):
-        any_caught = any_caught or (holds[row[e]] == 1 and caught[row[e]] == 1)
-        pairs = pairs or (holds[row[e]] == 1 and partner[e] >= 0)
-    m.rows_slip = 1 if pairs or any_caught or m.driven == 1 else 0
+        if holds[row[e]] == 1:
+            any_holds = True
+            any_caught = any_caught or caught[row[e]] == 1
+    if not any_holds:
+        return
+    if m.driven == 1:
+        m.rows_slip = 1
+        return
     if any_caught:
-        field_at(m.call_drift, (m.context, m.t, m.at_y, m.at_residual))
+        take_slip_away(m, m.t, m.at_y)
+    entry, column = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_column, m.n_hold_mass)
+    values, bend, slip = reals(m.at_mass, m.n_mass), reals(m.at_D, m.n), reals(m.at_residual, m.n)
+    for k in range(m.n):
+        slip[k] = 0.0
     for e in range(m.n_hold_mass):
-        j, k, other = column[e], row[e], partner[e]
-        if holds[k] == 0 or values[entry[e]] == 0.0:
-            continue
-        if is_heavier(m, j, other):
-            continue
-        if caught[k] == 1:
-            y[j] += slip[k] / values[entry[e]]
-        if other >= 0:
-            bend[j] = -values[entry[other]] / values[entry[e]] * bend[column[other]]
-        elif caught[k] == 1 or m.driven == 0 or rested[k] == 0:
-            bend[j] = 0.0
+        slip[row[e]] -= values[entry[e]] * bend[column[e]]
+    remove_slip(m, m.at_D)
 
 
 @compiled
 def take_slip_away(m, t, at_y):
-    """Correct the speeds at (t, y) by the slip that contacts show which hold; each body once.
-
-    A body that one contact has put right is not moved by the next, which then moves the other one.
-    """
-    y, before, slip = reals(at_y, m.n), reals(m.at_u, m.n), reals(m.at_residual, m.n)
-    entry, row = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_row, m.n_hold_mass)
-    column, partner = indices(m.at_hold_mass_column, m.n_hold_mass), indices(m.at_hold_mass_partner, m.n_hold_mass)
-    values, holds = reals(m.at_mass, m.n_mass), indices(m.at_holds, m.n)
-    copy(y, before)
-    for some in range(PASSES):
-        field_at(m.call_drift, (m.context, t, at_y, m.at_residual))
-        for e in range(m.n_hold_mass):
-            j, k, other = column[e], row[e], partner[e]
-            if holds[k] == 0 or values[entry[e]] == 0.0 or slip[k] == 0.0 or y[j] != before[j]:
-                continue
-            if other >= 0 and some == 0:
-                continue
-            if other < 0 or (is_heavier(m, column[other], e) and some > 1) or y[column[other]] != before[column[other]]:
-                y[j] += slip[k] / values[entry[e]]
-                slip[k] = 0.0
+    """Correct the speeds at (t, y) by the slip of contacts that hold."""
+    field_at(m.call_drift, (m.context, t, at_y, m.at_residual))
+    remove_slip(m, at_y)
 
 
 @compiled
-def is_heavier(m, j, other):
-    """True if the speed of entry `other` (-1: none) is that of a lighter body than j."""
-    if other < 0:
-        return False
-    column = indices(m.at_hold_mass_column, m.n_hold_mass)
-    return (inertia_of(m, j), j) > (inertia_of(m, column[other]), column[other])
+def remove_slip(m, at_v):
+    """Add to the speeds in v what takes away the slip whose negative is in `residual`, in rows that hold."""
+    row, holds = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_holds, m.n)
+    slip, b, found = reals(m.at_residual, m.n), reals(m.at_b, m.n), False
+    for k in range(m.n):
+        b[k] = 0.0
+    for e in range(m.n_hold_mass):
+        if holds[row[e]] == 1 and slip[row[e]] != 0.0:
+            b[row[e]] = slip[row[e]] / (m.factored_h * m.factored_theta)
+            found = True
+    if not found:
+        return
+    solve(m, m.at_b)
+    v, speeds = reals(at_v, m.n), indices(m.at_hold_mass_column, m.n_hold_mass)
+    for e in range(m.n_hold_mass):
+        v[speeds[e]] += b[speeds[e]]
+        b[speeds[e]] = 0.0
