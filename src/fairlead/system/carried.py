@@ -27,6 +27,7 @@ from fairlead.system.moving import Following, Moving, Rider
 from fairlead.system.probing import Guards
 from fairlead.system.rest import Floats
 from fairlead.system.shares import shares
+from fairlead.system.structure import Structure
 from fairlead.system.system import System
 
 KEPT_FREE = 24
@@ -54,6 +55,7 @@ class Carriage:
         self.system = system
         self.bonds = [b for b in system.blocks if b.kernel.variant.type.declaration.carries is not None]
         self._known: tuple[Influence, Guards] | None = None
+        self._ends: dict[str, tuple[int, float, int, float] | None] = {}
 
     @property
     def count(self) -> int:
@@ -89,17 +91,18 @@ class Carriage:
         for block, share in zip(self.system.blocks, shares(self.system.blocks)[0], strict=True):
             s, says = block.kernel.structure, block.kernel.variant.type.declaration.carries
             if says is not None:
-                zone = s.zones.index(says.zone)
-                for i in np.flatnonzero(self.system.zones[block.machines[:, 0]] == zone).tolist():
-                    d = partials[share.flows + i * len(s.d_flows) : share.flows + (i + 1) * len(s.d_flows)]
-                    slopes = {(s.targets[k], s.inputs[j]): d[e] for e, (k, j) in enumerate(s.d_flows)}
-                    own, other = (slopes.get((f"port:{says.node}", f"port:{p}:v"), 0.0) for p in (says.node, says.by))
-                    bond = Bond(block.instances[i].path, first_law + i, own, other)
-                    rider = self._rider(bond, says) if own else None
+                here = np.flatnonzero(self.system.zones[block.machines[:, 0]] == s.zones.index(says.zone))
+                slopes = partials[share.flows :][: block.count * len(s.d_flows)].reshape(block.count, -1)[here]
+                own, other = (
+                    _slope(s, slopes, f"port:{says.node}", f"port:{port}:v") for port in (says.node, says.by)
+                )  # fmt: skip
+                of_guards = guards[share.guards :][: block.count * s.slots].reshape(block.count, -1)[here]
+                nearest = of_guards[:, : len(s.guards[says.zone])].max(axis=1, initial=-np.inf)
+                for k, i in enumerate(here.tolist()):
+                    bond = Bond(block.instances[i].path, first_law + i, float(own[k]), float(other[k]))
+                    rider = self._rider(bond, says) if bond.own else None
                     if rider is not None:
-                        at = share.guards + i * s.slots
-                        nearest = guards[at : at + len(s.guards[says.zone])].max()
-                        found[rider.by].append((nearest, rider))
+                        found[rider.by].append((float(nearest[k]), rider))
             first_law += block.count
         return [
             rider for of_one in found.values()
@@ -107,15 +110,34 @@ class Carriage:
         ]  # fmt: skip
 
     def _rider(self, bond: Bond, says: Carries) -> Rider | None:
+        if bond.path not in self._ends:
+            self._ends[bond.path] = self._ends_of(bond.path, says)
+        ends = self._ends[bond.path]
+        if ends is None:
+            return None
+        group, of_node, by, of_by = ends
+        ratio = -bond.other / bond.own * of_by / of_node
+        return Rider(group, by, ratio, bond.law, abs(bond.own) * of_node**2)
+
+
+    def _ends_of(self, path: str, says: Carries) -> tuple[int, float, int, float] | None:
+        """Groups of a bond's node and of its carrier, and their ratios; None if it cannot carry."""
         flat, numbering = self.system.flat, self.system.numbering
-        group, of_node, _ = flat.place(PortRef(bond.path, says.node))
-        by, of_by, _ = flat.place(PortRef(bond.path, says.by))
+        group, of_node, _ = flat.place(PortRef(path, says.node))
+        by, of_by, _ = flat.place(PortRef(path, says.by))
         if group == by or not flat.groups[group].free or group not in numbering.rate:
             return None
         if flat.groups[by].free and by not in numbering.rate:
             return None
-        ratio = -bond.other / bond.own * of_by / of_node
-        return Rider(group, by, ratio, bond.law, abs(bond.own) * of_node**2)
+        return group, of_node, by, of_by
+
+
+def _slope(structure: Structure, slopes: Floats, target: str, key: str) -> Floats:
+    """By instance: how what its law gives to a target changes with one of its inputs, of all its slopes (k, e)."""
+    for e, (k, j) in enumerate(structure.d_flows):
+        if structure.targets[k] == target and structure.inputs[j] == key:
+            return slopes[:, e]
+    return np.zeros(len(slopes))
 
 
 def following(system: System, riders: list[Rider], t: float, y: Floats) -> Following:
@@ -126,10 +148,11 @@ def following(system: System, riders: list[Rider], t: float, y: Floats) -> Follo
     place, ratio, offset = np.arange(len(z)), np.ones(len(z)), np.zeros(len(z))
     row, share = np.arange(numbering.w_dump + 1), np.ones(numbering.w_dump + 1)
     masses: dict[int, float] = defaultdict(float)
+    carriers = {rider.by for rider in riders}
+    motions = {by: [place_of_motion(flat, numbering, by, 1.0, 0.0, variable) for variable in "xva"] for by in carriers}
     for rider in riders:
         x, v = numbering.position[rider.group], numbering.rate[rider.group]
-        for own, variable in ((x, "x"), (v, "v"), (numbering.acceleration + v, "a")):
-            at, coef, _ = place_of_motion(flat, numbering, rider.by, 1.0, 0.0, variable)
+        for own, (at, coef, _) in zip((x, v, numbering.acceleration + v), motions[rider.by], strict=True):
             place[own], ratio[own] = at, rider.ratio * coef
         offset[x] = y[x] - ratio[x] * z[place[x]]
         free = flat.groups[rider.by].free

@@ -92,11 +92,10 @@ def _tell_of_the_whole(
 
 def _heavier(flat: FlatModel, carried: Following) -> FlatModel:
     """The model with the inertia of what is carried at what carries it."""
-    groups = tuple(
-        dataclasses.replace(group, mass=group.mass + carried.masses.get(index, 0.0))
-        for index, group in enumerate(flat.groups)
-    )
-    return dataclasses.replace(flat, groups=groups) if carried.masses else flat
+    groups = list(flat.groups)
+    for index, mass in carried.masses.items():
+        groups[index] = dataclasses.replace(groups[index], mass=groups[index].mass + mass)
+    return dataclasses.replace(flat, groups=tuple(groups)) if carried.masses else flat
 
 
 def _numbering(system: System, moving: Moving) -> Numbering:

@@ -101,20 +101,35 @@ class Answers(NamedTuple):
     z: Integers
 
 
-def answers(found: Influence, partials: Sequence[Floats], follow: Integers, ratio: Floats) -> Answers:
+class Paths(NamedTuple):
+    """Entries with the places that stand for theirs, of which several may be one: see `answers`."""
+
+    value: Integers
+    z: Integers
+    pair: Integers
+    """By entry: its pair of `value` and `z`."""
+    coef: Floats
+    partial: Integers
+
+
+def paths(found: Influence, follow: Integers, ratio: Floats) -> Paths:
+    """The entries where places follow others, `ratio` times as far, and so count as those."""
+    reach = len(follow)
+    key, pair = np.unique(found.value * reach + follow[found.z], return_inverse=True)
+    return Paths(key // reach, key % reach, pair, found.coef * ratio[found.z], found.partial)
+
+
+def answers(along: Paths, partials: Sequence[Floats]) -> Answers:
     """Who answers to what at the points where these partial derivatives hold.
 
-    Places that follow others, `ratio` times as far, count as those: what moves along with all that it touches
-    answers to nothing.
+    What moves along with all that it touches answers to nothing.
     """
-    reach = len(follow)
-    key, entry = np.unique(found.value * reach + follow[found.z], return_inverse=True)
-    does = np.zeros(len(key), dtype=bool)
+    does = np.zeros(len(along.value), dtype=bool)
     for partial in partials:
-        term = partial[found.partial] * found.coef * ratio[found.z]
-        total, size = (np.bincount(entry, weights=part, minlength=len(key)) for part in (term, np.abs(term)))
+        term = partial[along.partial] * along.coef
+        total, size = (np.bincount(along.pair, weights=part, minlength=len(does)) for part in (term, np.abs(term)))
         does |= ~(np.abs(total) <= ANSWERS * size)
-    return Answers(key[does] // reach, key[does] % reach)
+    return Answers(along.value[does], along.z[does])
 
 
 def spread(

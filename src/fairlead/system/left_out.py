@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from fairlead.system.asking import aligned, call, partials_at
-from fairlead.system.influence import Influence, answers, spread
+from fairlead.system.influence import Influence, answers, paths, spread
 from fairlead.system.moving import Following, Moving, Rider
 from fairlead.system.probing import Guards, Probe
 from fairlead.system.rest import Booleans, Floats, Integers
@@ -34,11 +34,11 @@ class Look:
         self.following = what
         self.y = aligned(system, self.following, t, y)
         may_rest, varies = self._may_rest(), np.zeros(len(found.restless), dtype=bool)
-        here = partials_at(system, t, self.y)
+        here, along = partials_at(system, t, self.y), paths(found, self.following.place, self.following.ratio)
         probe = Probe(system, guards, riders, self.following, system.memory["z"].copy())
         while True:
             there = partials_at(system, t, self._jolted(may_rest))
-            which = answers(found, [here, there], self.following.place, self.following.ratio)
+            which = answers(along, [here, there])
             self.moves, self.laws = spread(found, which, self._moving(may_rest), may_rest, varies)
             self.varying = found.gives[which.value[self.moves[which.z]]]
             fewer = may_rest & ~self.moves[: system.n]

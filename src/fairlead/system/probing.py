@@ -28,8 +28,12 @@ FAST = 10.0
 """m/s or rad/s; at the speeds from this to its opposite nothing may happen to what is left out."""
 FEW = 3
 """Times that everything that moves is displaced, and moved, by chance."""
-NEAR = 2.0
-"""m or rad; what comes upon something within this way stays in."""
+NEAR, AT = 2.0, 1000
+"""m or rad; what comes upon something within this way stays in: of a whole with so many unknowns.
+
+The way to the next look grows with the root of their number, as a look costs the more the more there are, and what
+stays in costs the same.
+"""
 
 
 class Guards:
@@ -64,6 +68,7 @@ class Probe:
         self.now = guards.at(z)
         self.size = ROUNDING * (np.abs(self.now) + system.guard_tolerance)
         self.law, self.has_unknowns = laws_of_guards(system), laws_with_unknowns(system)
+        self.near = NEAR * max(system.n / AT, 1.0) ** 0.5
 
     def judged(self, laws: Booleans, moves: Booleans, kept: Booleans) -> tuple[Booleans, Integers]:
         """By law that is left out (not in `laws`): whether it must stay; and those that say when that ends.
@@ -90,9 +95,9 @@ class Probe:
         for _ in range(FEW):
             changes, fires = self._ask(rate, FAST * chance.uniform(-1, 1, len(rate)))
             stays |= changes & fires
-            changes, _ = self._ask(position, self.z[position] + NEAR * chance.uniform(-1, 1, len(position)))
+            changes, _ = self._ask(position, self.z[position] + self.near * chance.uniform(-1, 1, len(position)))
             stays |= changes & self._between(position)[self.law]
-        for way in (-NEAR, NEAR):
+        for way in (-self.near, self.near):
             changes, fires = self._ask(position, self.z[position] + way)
             stays |= changes & fires
             watched |= changes
