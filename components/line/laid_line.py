@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -23,7 +24,7 @@ from fairlead.components.route.drum import StoredNode, WoundNode
 from fairlead.components.route.far_line import FarNode
 from fairlead.components.route.placing import Placed
 from fairlead.components.route.route_line import RouteLine, Surface
-from fairlead.components.route.sea import HANDS_OVER
+from fairlead.components.route.sea import HANDS_OVER, LEAST_MARGIN
 from fairlead.components.route.tow import SeaDrag, TailEnd
 from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.window import Reach, Window, total
@@ -63,6 +64,17 @@ class LaidLine:
     def load(self) -> float:
         """Weight per length, if the scene has any [N/m]."""
         return float(self.values.weight) if self.values.gravity == "on" else 0.0
+
+    def slips_over(self) -> float:
+        """Length of the longest module in which the hose may slip on the core; 0 where it cannot [m]."""
+        ends = [self.mesh.places[i] for i in sorted(self.mesh.connectors)]
+        return max((b - a for a, b in itertools.pairwise(ends)), default=0.0) if self.inner else 0.0
+
+    def rigid_from(self, begin: float, sea: Any) -> float:
+        """Place on the route from which on the line moves as one body in a sea that begins at `begin` [m]."""
+        if sea.form != "rigid":
+            return math.inf
+        return begin + float(self.slips_over() + LEAST_MARGIN if sea.margin is None else sea.margin)
 
     def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
         """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""
@@ -269,7 +281,7 @@ class _On:
         last = self.line.mesh.elements
         for one in self.route.of_type("Sea"):
             if one.station.form == "rigid" and i != last:
-                place = one.station.rigid_from(one.begin) + HANDS_OVER / 2
+                place = self.line.rigid_from(one.begin, one.station) + HANDS_OVER / 2
                 bond = self.to.child(self.of_layer("far", body, i), FarNode, place=place, edge=HANDS_OVER)
                 self.to.join(f"{bond}.end", f"{self.line.outer}[{last}].flange")
                 self.to.join(f"{bond}.node", f"{body}.flange")

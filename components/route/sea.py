@@ -8,6 +8,7 @@ from fairlead.components.route.tow import Tow
 from fairlead.component import Choice, Parameter, Waveform
 
 WATER = 1025.0  # kg/m^3, sea water
+LEAST_MARGIN = 5.0  # m; some elements
 HANDS_OVER = 2.0  # m over which a node becomes part of the rigid line, slow enough for its neighbours to follow
 
 
@@ -25,7 +26,9 @@ class Sea(Station):
     `form: rigid` is for a line that travels through the route into the sea: what is further out than `margin` moves
     as one body with the outboard end. Drag, inertia and so the tension in steady tow are those of the distributed form;
     the stretch of the line out there and its waves are not counted, nor the time they cost. Its strain stays as it
-    was when it passed the margin, and comes back with it: the line takes hold and lets go over `HANDS_OVER` metres.
+    was when it passed the margin, and comes back with it; nodes are taken hold of and let go over 2 m. Hose and core
+    are one out there, so that the margin of an array is its longest module and 5 m, unless one is given: a hose
+    that has slid off its core in the route is held back by the next connector, and not earlier. Twist stays free.
     """
 
     word = "Sea"
@@ -36,8 +39,9 @@ class Sea(Station):
     drogue = Parameter("m^2", "Drag area C_D A of a drogue at the end of the line.", default=0.0, least=0)
     form = Choice(("distributed", "rigid", "lumped"), "How the line in the water moves, and where its drag acts.",
                   default="distributed")  # fmt: skip
-    margin = Parameter("m", "Line in the water that moves by itself before the rest moves as one, if rigid.",
-                       default=5.0, least=0)  # fmt: skip
+    margin = Parameter("m", "Line in the water that moves by itself before the rest moves as one, if rigid; 5 m, and "
+                       "the longest module of a line with a hose that slips, when not given.",
+                       default=None, least=0)  # fmt: skip
     beyond = Parameter("m", "Line in the water outboard of the modelled end, if lumped.", default=0.0, least=0)
 
     def extent(p):
@@ -47,10 +51,6 @@ class Sea(Station):
     def span(p, start):
         """All that is outboard of it."""
         return start, math.inf
-
-    def rigid_from(p, begin):
-        """Where the line begins to move as one body [m], for a sea that begins at `begin`; infinite if nowhere."""
-        return begin + p.margin if p.form == "rigid" else math.inf
 
     def per_length(p, diameter):
         """1/2 rho C_t pi d [kg/m^2]: drag per length and speed squared."""

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fairlead.analysis.laid_route import laid_routes
 from fairlead.integrate import parts
 from fairlead.system import carried, probing
 from tests.reference.hanging_line import drag_per_length
@@ -150,6 +151,17 @@ def test_a_margin_longer_than_the_line_leaves_nothing_to_move_as_one(simulate):
     far, along = (simulate(text(form, stop=3)) for form in ("rigid, margin: 100 m", "distributed"))
     for name in along.match("line.node[*].x")[::20]:
         assert on_the_grid(far, name) == pytest.approx(on_the_grid(along, name), abs=1e-6), name
+
+
+def test_a_margin_that_holds_a_hose_within_its_module_is_told(scene):
+    """Unless one is given it is the longest module, here 20 m, and 5 m; a rope has no hose to hold."""
+    (told,) = scene(text(line=ARRAY)).check()
+    assert "route.sea.margin = 2 m is shorter than a module of line, 20 m" in str(told)
+    assert not scene(text("rigid", line=ARRAY)).check()
+    assert not scene(text()).check()
+    for line, margin in ((ARRAY, 25.0), (ROPE, 5.0)):
+        (laid,) = laid_routes(scene(text("rigid", line=line)).flat)
+        assert laid.line.line.rigid_from(START, laid.seas[0].station) == START + margin
 
 
 def test_all_of_a_line_comes_out_of_the_sea_and_goes_back(simulate):

@@ -15,11 +15,11 @@ from fairlead.flatten.flat_model import FlatModel
 
 
 def remarks(flat: FlatModel) -> list[Fault]:
-    """Contacts too wide, clamps too weak, curves too tight for the tension, winches without line, drives too slow."""
+    """Contacts too wide, weak clamps, tight curves, winches without line, short margins in the sea, slow drives."""
     solved = statics(flat)
     found = list(too_wide(flat))
     for one in solved:
-        found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route)]
+        found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route), *short_margins(one.route)]
     return [*found, *slow_drives(flat, solved)]
 
 
@@ -73,6 +73,20 @@ def side_walls(found: Statics) -> Iterator[Fault]:
         what = f"{device}: {when} the line is pressed with {load:.4g} N/m (tension over radius), "
         bears = f"more than {found.route.line.path} bears, {most:.4g} N/m."
         yield Fault(where(found.route, name), what + bears, "Use a larger radius, or a line that bears more.")
+
+
+def short_margins(route: LaidRoute) -> Iterator[Fault]:
+    """Seas whose line moves as one body from within the module that a hose may slip in."""
+    module = route.line.line.slips_over()
+    for sea in route.seas:
+        margin = sea.station.margin
+        if sea.station.form == "rigid" and margin is not None and margin < module:
+            what = (
+                f"{route.route.path}.{sea.name}.margin = {margin:.4g} m is shorter than a module of {route.line.path}, "
+                f"{module:.4g} m: the hose is held to the core there, and not by the next connector."
+            )
+            cure = "De-registration and compression of the hose will be too small; leave out the margin if they count."
+            yield Fault(where(route, sea.name), what, cure)
 
 
 def where(route: LaidRoute, name: str) -> Location:

@@ -21,7 +21,7 @@ def _record(laid: LaidRoute) -> dict[str, Any]:
         for surface in laid.route.line.surfaces
         for one, _ in surface.devices
     }
-    rigid_from = min((one.station.rigid_from(one.begin) for one in laid.seas), default=math.inf)
+    rigid_from = min((line.rigid_from(one.begin, one.station) for one in laid.seas), default=math.inf)
     stations = [
         {
             "name": one.name, "type": one.station.type.word, "begin": one.begin, "end": min(one.end, rigid_from),
