@@ -107,8 +107,9 @@ class Probe:
 
     def _between(self, position: Integers) -> Booleans:
         """By law: whether it reads several of these places, and so how far they are apart."""
-        counts = [np.isin(block.in_index, position).sum(axis=1) for block in self.system.blocks]
-        return np.concatenate(counts) > 1
+        among = np.zeros(len(self.z), dtype=np.int64)
+        among[position] = 1
+        return np.concatenate([among[block.in_index].sum(axis=1) for block in self.system.blocks]) > 1
 
     def _ask(self, where: Integers, what: Floats) -> tuple[Booleans, Booleans]:
         """By guard: whether it changes when this stands there, and whether it fires then."""
