@@ -72,9 +72,11 @@ class LaidLine:
 
     def rigid_from(self, begin: float, sea: Any) -> float:
         """Place on the route from which on the line moves as one body in a sea that begins at `begin` [m]."""
-        if sea.form != "rigid":
-            return math.inf
-        return begin + float(self.slips_over() + LEAST_MARGIN if sea.margin is None else sea.margin)
+        return begin + self.margin(sea) if sea.form == "rigid" else math.inf
+
+    def margin(self, sea: Any) -> float:
+        """Line in a sea that moves by itself before the rest moves as one, if that is wanted [m]."""
+        return float(self.slips_over() + LEAST_MARGIN if sea.margin is None else sea.margin)
 
     def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
         """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fairlead.analysis.laid_route import laid_routes
+from fairlead.analysis.switches import switches
 from fairlead.integrate import parts
 from fairlead.system import carried, probing
 from tests.reference.hanging_line import drag_per_length
@@ -162,6 +163,74 @@ def test_a_margin_that_holds_a_hose_within_its_module_is_told(scene):
     for line, margin in ((ARRAY, 25.0), (ROPE, 5.0)):
         (laid,) = laid_routes(scene(text("rigid", line=line)).flat)
         assert laid.line.line.rigid_from(START, laid.seas[0].station) == START + margin
+
+
+WOUND = """
+    components:
+      line: {{type: {line}, length: 70 m, element: 0.25 m, start: -30 m, tension: 300 N}}
+      route:
+        type: Route
+        stations:
+          - {{name: winch, type: Winch, radius: 0.5 m, moment: 20 kg*m^2}}
+          - {{name: bend, type: Bend, start: 2 m, angle: 60 deg, radius: 1 m, friction: 0.3}}
+          - {{name: sea, type: Sea, start: 4 m, speed: 3 m/s, tail: 300 N, form: rigid, margin: 2 m}}
+      drum: {{type: MotionSource, velocity: {speed}}}
+    connections:
+      - [line.path, route.path]
+      - [drum.flange, route.winch.rim]
+    friction: {{method: hold}}
+    run: {{stop: 9 s, accuracy: 1e-5, engine: rodas}}
+    record: {{every: 50 ms, signals: ["line.node[*].x", drum.force, energy.*]}}
+"""
+
+
+@pytest.mark.usefixtures("brief")
+def test_line_on_the_drum_and_line_in_the_sea_are_left_out_at_once(simulate, monkeypatch):
+    scene = WOUND.format(line=LIGHTLY_DAMPED, speed=THERE_AND_BACK)
+    part = simulate(scene)
+    monkeypatch.setattr(parts, "LEAST", 10**9)
+    whole = simulate(scene)
+    assert part.run["counters"]["partial_steps"] > 0.7 * part.run["counters"]["steps"]
+    assert part.run["energy"]["closure"] < 1e-5
+    for name in part.match("line.node[*].x")[::9]:
+        assert on_the_grid(part, name) == pytest.approx(on_the_grid(whole, name), abs=1e-6), name
+
+
+TWISTED = """
+    components:
+      line: {type: Cable, length: 30 m, element: 0.25 m, start: -2 m, tension: 300 N, mass: 2 kg/m, stiffness: 100 kN,
+             damping_ratio: 0.5, torsion: {stiffness: 150 N*m^2, inertia: 6e-3 kg*m, damping_ratio: 5}}
+      route: {type: Route, stations: [{name: sea, type: Sea, start: 0 m, speed: 3 m/s, tail: 300 N, form: rigid}]}
+      wall: {type: Ground}
+      hold: {type: Housing}
+      hand: {type: TorqueSource, torque: {ramp: {to: 20 N*m, over: 10 s}}}
+    connections:
+      - [line.path, route.path]
+      - [wall.flange, line.inboard]
+      - [hold.shaft, line.inboard_twist]
+      - [line.outboard_twist, hand.shaft]
+    run: {stop: 20 s}
+    record: {every: 0.5 s, signals: ["line.twist[*].turned"]}
+"""
+
+
+def test_a_line_that_moves_as_one_is_free_to_twist(simulate):
+    """A couple at the end turns it by T length/GJ, as a line that is held nowhere else."""
+    result = simulate(TWISTED)
+    assert result.run["counters"]["partial_steps"] > 0
+    for k in (60, 120):
+        assert result[f"line.twist[{k}].turned"][-1] == pytest.approx(20 * k * 0.25 / 150, rel=1e-3)
+
+
+def test_effects_tell_what_the_waves_of_the_line_out_there_cost(scene):
+    """Where the line goes beyond the margin, 25 m for this array; not where it stays inside."""
+    def switched(form, length=40):
+        found = switches(scene(text(form, line=ARRAY, length=length)))
+        return [(one.label, dict(one.settings)) for one in found if "sea" in one.name]
+
+    assert switched("distributed") == [("route.sea.form rigid", {"route.stations[2].form": "rigid"})]
+    assert switched("rigid") == [("route.sea.form distributed", {"route.stations[2].form": "distributed"})]
+    assert switched("distributed", length=20) == []
 
 
 def test_all_of_a_line_comes_out_of_the_sea_and_goes_back(simulate):

@@ -26,7 +26,7 @@ def off_the_drum(route: LaidRoute) -> Iterator[Fault]:
     if route.winch is None:
         return
     schedule = route.schedule()
-    way, t = _most(schedule) if schedule is not None else (0.0, 0.0)
+    way, t = most_paid_out(schedule) if schedule is not None else (0.0, 0.0)
     stored, inside = route.stored(0.0), route.winch.end - p.start - p.length
     if inside > max(way, TOUCHES):
         what = (
@@ -42,7 +42,7 @@ def off_the_drum(route: LaidRoute) -> Iterator[Fault]:
         yield Fault(_start(route), what, f"Let {name} start at {route.winch.end - way:.4g} m or further inboard.")
 
 
-def _most(schedule: Schedule) -> tuple[float, float]:
+def most_paid_out(schedule: Schedule) -> tuple[float, float]:
     """The most that is paid out [m], and when first."""
     times = np.unique([*np.linspace(schedule.begin, schedule.end, LOOKS), *(one.end for one in schedule.stretches())])
     ways = [schedule.way(float(t)) for t in times]

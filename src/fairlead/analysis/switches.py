@@ -3,7 +3,7 @@
     for switch in switches(model): load(switch.settings)
 
     an effect          declared by a component (`effects: {valve_dynamics: off}`) or by the framework (`energy`)
-    a word             another option of a choice that a component of the netlist has (`compression: carried`)
+    a word             another option of a choice that a component of the netlist has (`compression: carried`), or a sea
     an optional part   a parameter or block that the netlist gives and its class can do without (`ruck_force`)
     a treatment        of friction: exact hold, binding, or no sticking at all
     a curve            of friction that is its constant level instead (`pad.curve: 0.4`)
@@ -15,6 +15,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from fairlead.analysis.laid_route import laid_routes
+from fairlead.analysis.on_the_drum import most_paid_out
 from fairlead.analysis.timed_run import Load
 from fairlead.analysis.treatments import EXACT, treatment, treatment_of
 from fairlead.component.base import Family
@@ -46,7 +48,7 @@ class Switch:
 
 def switches(model: Any) -> list[Switch]:
     """All switches of a scene, the declared effects first."""
-    return [*_effects(model), *_treatments(model), *_curves(model), *_words(model), *_parts(model)]
+    return [*_effects(model), *_treatments(model), *_curves(model), *_words(model), *_seas(model), *_parts(model)]
 
 
 def all_off(load: Load, found: list[Switch]) -> Switch | None:
@@ -135,6 +137,20 @@ def _words(model: Any) -> Iterator[Switch]:
                 for option in one.options:
                     if option != now:
                         yield Switch(f"{entry.name}.{name}", now, option, {f"{entry.name}.{name}": option}, "word")
+
+
+def _seas(model: Any) -> Iterator[Switch]:
+    """Line far out in a sea that moves as one body, or does so no longer; if any line comes so far."""
+    other = {"distributed": "rigid", "rigid": "distributed"}
+    for laid in laid_routes(model.flat):
+        schedule = laid.schedule()
+        outmost = laid.ends(most_paid_out(schedule)[0] if schedule is not None else 0.0)[1]
+        for sea in laid.seas:
+            now = sea.station.form
+            if now in other and outmost > sea.begin + laid.line.line.margin(sea.station):
+                number = next(one.number for one in laid.route.line.placed if one.name == sea.name)
+                form = {f"{laid.route.path}.stations[{number}].form": other[now]}
+                yield Switch(f"{laid.route.path}.{sea.name}.form", now, other[now], form, "word")
 
 
 def _parts(model: Any) -> Iterator[Switch]:
