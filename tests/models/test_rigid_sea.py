@@ -165,6 +165,16 @@ def test_a_margin_that_holds_a_hose_within_its_module_is_told(scene):
         assert laid.line.line.rigid_from(START, laid.seas[0].station) == START + margin
 
 
+def test_a_speed_that_changes_before_a_wave_is_back_is_told(scene):
+    """Waves run at sqrt(100 kN/2 kg/m) = 224 m/s, in 0.25 s out and back along 28 m; 2 kg/m 28 m 3 m/s^2 = 168 N."""
+    speed = "{{table: {{t: [0 s, {0} s, {1} s, 2 s], y: [0, 0.3, 0.6, 0.6]}}}}"
+    (told,) = scene(text(speed=speed.format(0.1, 0.2))).check()
+    assert "at 0 s the speed changes by 0.6 m/s in 0.2 s, and a wave needs 0.25 s to the end of the 28 m" in str(told)
+    assert "adds 168 N" in str(told)
+    assert not scene(text(speed=speed.format(0.15, 0.3))).check()
+    assert not scene(text("distributed", speed=speed.format(0.1, 0.2))).check()
+
+
 WOUND = """
     components:
       line: {{type: {line}, length: 70 m, element: 0.25 m, start: -30 m, tension: 300 N}}

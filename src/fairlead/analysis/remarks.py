@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fairlead.analysis.laid_route import LaidRoute
 from fairlead.analysis.on_the_drum import off_the_drum
+from fairlead.analysis.rigid_seas import rigid_seas
 from fairlead.analysis.slow_drives import slow_drives
 from fairlead.analysis.states import State
 from fairlead.analysis.statics import WANTED, Statics, statics
+from fairlead.analysis.station_place import where
 from fairlead.analysis.widths import too_wide
-from fairlead.errors import Fault, Location
+from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
 
 
 def remarks(flat: FlatModel) -> list[Fault]:
-    """Contacts too wide, weak clamps, tight curves, winches without line, short margins in the sea, slow drives."""
+    """Contacts too wide, weak clamps, tight curves, winches without line, rigid seas that are not, slow drives."""
     solved = statics(flat)
     found = list(too_wide(flat))
     for one in solved:
-        found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route), *short_margins(one.route)]
+        found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route), *rigid_seas(one.route)]
     return [*found, *slow_drives(flat, solved)]
 
 
@@ -73,26 +74,3 @@ def side_walls(found: Statics) -> Iterator[Fault]:
         what = f"{device}: {when} the line is pressed with {load:.4g} N/m (tension over radius), "
         bears = f"more than {found.route.line.path} bears, {most:.4g} N/m."
         yield Fault(where(found.route, name), what + bears, "Use a larger radius, or a line that bears more.")
-
-
-def short_margins(route: LaidRoute) -> Iterator[Fault]:
-    """Seas whose line moves as one body from within the module that a hose may slip in."""
-    module = route.line.line.slips_over()
-    for sea in route.seas:
-        margin = sea.station.margin
-        if sea.station.form == "rigid" and margin is not None and margin < module:
-            what = (
-                f"{route.route.path}.{sea.name}.margin = {margin:.4g} m is shorter than a module of {route.line.path}, "
-                f"{module:.4g} m: the hose is held to the core there, and not by the next connector."
-            )
-            cure = "De-registration and compression of the hose will be too small; leave out the margin if they count."
-            yield Fault(where(route, sea.name), what, cure)
-
-
-def where(route: LaidRoute, name: str) -> Location:
-    """Where a device stands in the netlist; the route itself when it was not written there."""
-    number = next(one.number for one in route.route.line.placed if one.name == name)
-    entry = route.flat.assembly.netlist.components.get(route.route.path)
-    listed = entry.parameters.get("stations") if entry is not None else None
-    items = listed.content if listed is not None and isinstance(listed.content, list) else []
-    return items[number].where if number < len(items) else route.route.where
