@@ -25,7 +25,7 @@ from fairlead.system.influence import Influence, influence
 from fairlead.system.left_out import Look
 from fairlead.system.moving import Following, Moving, Rider
 from fairlead.system.probing import Guards
-from fairlead.system.rest import Floats
+from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
 from fairlead.system.structure import Structure
 from fairlead.system.system import System
@@ -54,7 +54,7 @@ class Carriage:
         """Look at the whole; nothing is evaluated yet."""
         self.system = system
         self.bonds = [b for b in system.blocks if b.kernel.variant.type.declaration.carries is not None]
-        self._known: tuple[Influence, Guards] | None = None
+        self._known: tuple[Influence, Guards, Integers] | None = None
         self._ends: dict[str, tuple[int, float, int, float] | None] = {}
 
     @property
@@ -73,7 +73,9 @@ class Carriage:
         if not self.bonds:
             return None
         if self._known is None:
-            self._known = influence(self.system), Guards(self.system)
+            own = self.system.numbering.own
+            circles = np.array([own[p.path, p.unknown] for p in self.system.numbering.circles], dtype=np.int64)
+            self._known = influence(self.system), Guards(self.system), circles
         riders = self._riders(t, y)
         while len(riders) >= LEAST_CARRIED:
             found = Look(self.system, *self._known, riders, following(self.system, riders, t, y), t, y)
@@ -147,22 +149,21 @@ def following(system: System, riders: list[Rider], t: float, y: Floats) -> Follo
     z = system.memory["z"]
     place, ratio, offset = np.arange(len(z)), np.ones(len(z)), np.zeros(len(z))
     row, share = np.arange(numbering.w_dump + 1), np.ones(numbering.w_dump + 1)
-    masses: dict[int, float] = defaultdict(float)
-    carriers = {rider.by for rider in riders}
-    motions = {by: [place_of_motion(flat, numbering, by, 1.0, 0.0, variable) for variable in "xva"] for by in carriers}
-    for rider in riders:
-        x, v = numbering.position[rider.group], numbering.rate[rider.group]
-        for own, (at, coef, _) in zip((x, v, numbering.acceleration + v), motions[rider.by], strict=True):
-            place[own], ratio[own] = at, rider.ratio * coef
-        offset[x] = y[x] - ratio[x] * z[place[x]]
-        free = flat.groups[rider.by].free
-        row[v] = numbering.balance[rider.by] if free else system.n + numbering.reactions[rider.by]
-        row[x], share[v] = numbering.w_dump, rider.ratio if free else -rider.ratio
-        masses[rider.by] += rider.ratio**2 * flat.groups[rider.group].mass
-    groups = [rider.group for rider in riders]
-    unknowns = np.array([*(numbering.position[g] for g in groups), *(numbering.rate[g] for g in groups)])
+    groups, by = [rider.group for rider in riders], np.array([rider.by for rider in riders])
+    x, v = (np.array([where[group] for group in groups]) for where in (numbering.position, numbering.rate))
     mass = np.array([flat.groups[group].mass for group in groups])
-    bond = np.array([rider.bond for rider in riders])
+    own, bond = np.array([rider.ratio for rider in riders]), np.array([rider.bond for rider in riders])
+    masses: dict[int, float] = {}
+    for carrier in dict.fromkeys(by.tolist()):
+        mine, free = by == carrier, flat.groups[carrier].free
+        for at, variable in ((x, "x"), (v, "v"), (numbering.acceleration + v, "a")):
+            place[at[mine]], coef, _ = place_of_motion(flat, numbering, carrier, 1.0, 0.0, variable)
+            ratio[at[mine]] = own[mine] * coef
+        row[v[mine]] = numbering.balance[carrier] if free else system.n + numbering.reactions[carrier]
+        share[v[mine]] = own[mine] if free else -own[mine]
+        masses[carrier] = float((own[mine] ** 2 * mass[mine]).sum())
+    row[x] = numbering.w_dump
+    offset[x] = y[x] - ratio[x] * z[place[x]]
     return Following(
-        place, ratio, offset, row, share, unknowns, mass, bond, dict(masses), frozenset(groups)
+        place, ratio, offset, row, share, np.concatenate([x, v]), mass, bond, masses, frozenset(groups)
     )  # fmt: skip

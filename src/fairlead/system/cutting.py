@@ -102,8 +102,8 @@ def _numbering(system: System, moving: Moving) -> Numbering:
     """The numbering of what is kept, in the order of the whole."""
     whole, kept, laws = system.numbering, moving.kept, moving.laws
     new = np.cumsum(kept) - 1
-    chosen = {i.path for block, some in zip(system.blocks, laws, strict=True)
-              for i, one in zip(block.instances, some.tolist(), strict=True) if one}  # fmt: skip
+    chosen = {block.instances[i].path for block, some in zip(system.blocks, laws, strict=True)
+              for i in np.flatnonzero(some).tolist()}  # fmt: skip
     signals = [output for output in whole.signals if output.instance in chosen]
     unknowns = dict(enumerate(whole.unknowns))
     for group, mass in moving.carried.masses.items():

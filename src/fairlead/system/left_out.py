@@ -7,6 +7,8 @@ guards are asked (probing.py); what they want kept moves too, until nothing chan
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from fairlead.system.asking import aligned, call, partials_at
@@ -26,10 +28,14 @@ class Look:
     """One look at a System at (t, y) with some riders: what is left of it, and which laws say when that ends."""
 
     def __init__(
-        self, system: System, found: Influence, guards: Guards, riders: list[Rider],
+        self, system: System, found: Influence, guards: Guards, circles: Integers, riders: list[Rider],
         what: Following, t: float, y: Floats,
     ) -> None:  # fmt: skip
-        """Let go of more and more until nothing left out answers to anything that is not."""
+        """Let go of more and more until nothing left out answers to anything that is not.
+
+        `circles` are the unknowns of the contacts that may close one, in the order of the numbering.
+        """
+        self._circles = circles
         self.system, self.riders, self.t = system, riders, t
         self.following = what
         self.y = aligned(system, self.following, t, y)
@@ -90,20 +96,21 @@ class Look:
                 if target.startswith("own:"):
                     kept[block.flow_index[mine, k]] = True
             start += block.count
-        sharing = {g for p in numbering.circles if kept[numbering.own[p.path, p.unknown]] for g, _ in p.ends}
+        sharing = {group for group, _ in self._ends_of_circles(kept)}
         for group, share in numbering.share.items():
             kept[share] = group in sharing
         return kept
 
     def hindered(self) -> set[int]:
         """Groups that cannot be left out: a contact of a circle that stays holds them, or their ratio varies."""
-        numbering = self.system.numbering
         if np.isin(self._signals_of_bonds(), self.varying).any():  # as the radius of a drum from one layer to the next
             return set(self.following.groups)
-        return {
-            group for pair in numbering.circles if self.kept[numbering.own[pair.path, pair.unknown]]
-            for group, _ in pair.ends if group in self.following.groups
-        }  # fmt: skip
+        return {group for group, _ in self._ends_of_circles(self.kept) if group in self.following.groups}
+
+    def _ends_of_circles(self, kept: Booleans) -> Iterator[tuple[int, float]]:
+        """Ends of the contacts that may close a circle and are kept."""
+        for k in np.flatnonzero(kept[self._circles]).tolist():
+            yield from self.system.numbering.circles[k].ends
 
     def moving(self) -> Moving:
         """What stays, and whose change ends it."""
