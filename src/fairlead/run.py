@@ -57,6 +57,15 @@ class Watch:
     largest: NDArray[np.float64] = field(default_factory=lambda: np.zeros(1))
     kept_jumps: int = 0  # events that have two rows on a grid
     jumps: Counter[str] = field(default_factory=Counter)  # of every signal
+    creeping: NDArray[np.int64] = field(init=False)  # columns of what `creep` watches
+    metered: NDArray[np.int64] | None = field(init=False, default=None)  # and of what `ledger` does
+
+    def __post_init__(self) -> None:
+        """Find the columns."""
+        columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
+        self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
+        if "energy.supplied" in columns:
+            self.metered = np.array([columns["energy.dissipated"], columns["energy.supplied"], -1])
 
     def __call__(self, block: Block) -> None:
         """Take one block. Raises KeyboardInterrupt when it is written, if that was asked for meanwhile."""
@@ -65,22 +74,21 @@ class Watch:
         self.interruption.due()
 
     def _take(self, block: Block) -> None:
-        columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
         rows: Any = slice(None)
         if self.on_grid:
             values = block.values[:, : self.chosen]
             if len(values):
-                self.largest = np.maximum(self.largest, np.abs(values).max(axis=0))
+                self.largest = np.maximum(self.largest, np.maximum(values.max(axis=0), -values.min(axis=0)))
             rows, jumped = worth_keeping(values, block.side, self.least_jump * (self.largest + LITTLE))
-            self.kept_jumps += int(jumped.any(axis=1).sum())
+            self.kept_jumps += len(jumped)
             for k in np.flatnonzero(counts := jumped.sum(axis=0)):
                 self.jumps[self.system.recorded[k].name] += int(counts[k])
         self.directory.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
         self.directory.events(_named(self.system, row) for row in block.events)
-        self.creep.watch(block.t, block.values[:, [columns[name] for name in self.creep.names]])
+        self.creep.watch(block.t, block.values[:, self.creeping])
         self.limits.watch(block.t, block.values)
-        if "energy.supplied" in columns:
-            self.ledger.watch(block.values[:, [columns["energy.dissipated"], columns["energy.supplied"], -1]])
+        if self.metered is not None:
+            self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
 
@@ -101,7 +109,7 @@ def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float)
 def worth_keeping(
     values: NDArray[np.float64], side: NDArray[np.int8], least: NDArray[np.float64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Rows (k,) to write when a grid was asked for, and which value jumps at which event.
+    """Rows (k,) to write when a grid was asked for, and which value jumps, (events at which one does, values).
 
     The two sides of events at which no recorded value jumps, by more than its `least`, are left out: a kink needs no
     row of its own, and a long line switches thousands of times.
@@ -109,9 +117,10 @@ def worth_keeping(
     keep = np.ones(len(side), dtype=bool)
     left = np.flatnonzero((side[:-1] == BEFORE) & (side[1:] == AFTER))
     jump = np.abs(values[left + 1] - values[left]) > least
-    smooth = left[~jump.any(axis=1)]
+    sharp = jump.any(axis=1)
+    smooth = left[~sharp]
     keep[smooth] = keep[smooth + 1] = False
-    return keep, jump
+    return keep, jump[sharp]
 
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
