@@ -67,6 +67,7 @@ def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
     Returns the paths of the figures. Raises UsageError for a file outside the run directory.
     """
     import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     plots = list(plots)
     pictures = _asked_for(result, plots) if plots else _by_quantity(result)
@@ -76,7 +77,8 @@ def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
             path = result.path / picture.file
             # The mark tells a later run in this directory that the picture may go.
             mark = {"Software": "fairlead"}
-            _figure(result, picture).savefig(path, dpi=DOTS_PER_INCH, metadata=mark, pil_kwargs=FAST)
+            # Figure.savefig draws twice, the first time for the layout alone, which the second finds by itself.
+            FigureCanvasAgg(_figure(result, picture)).print_png(path, metadata=mark, pil_kwargs=FAST)
             paths.append(path)
     return paths
 
@@ -88,7 +90,7 @@ def _figure(result: Result, picture: Picture) -> Figure:
     signals = [about[name] for name in picture.signals]
     panels = _by_family(signals) if picture.map else _by_unit(signals)
     height = TITLE_HEIGHT + PANEL_HEIGHT * len(panels)
-    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    figure = Figure(figsize=(WIDTH, height), dpi=DOTS_PER_INCH, layout="constrained")
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, shown in zip(axes, panels, strict=True):
         if picture.map:
