@@ -21,6 +21,9 @@ HAIR = 1e-3
 NEAR = 2.0**-10
 """Distance in theta over which the slope of a guard at an end of the step is taken."""
 
+HIGHEST = 4.0 / 27.0
+"""Largest value of x (1 - x)^2, which is how far a cubic rises above its ends for a unit of slope at one of them."""
+
 
 @compiled
 def guards_at(m, theta, h, at_g):
@@ -139,7 +142,10 @@ def earliest_bump(m, h):
     found = 1.0
     for i in range(ng):
         if g[i] < 0.0 and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
-            top, height = hermite_top(g[i], end[i], (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR)
+            rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
+            if max(g[i], end[i]) + 1.25 * HIGHEST * (rise - fall) < 0.0:
+                continue
+            top, height = hermite_top(g[i], end[i], rise, fall)
             # A quarter of the bump is the margin for what a cubic does not see.
             if height + 0.25 * (height - max(g[i], end[i])) >= 0.0:
                 # Just switched, a guard is at its limit within rounding: there, only a bump that leaves
