@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.system import layout
 from fairlead.system.blocks import Block, Floats, Tables
 from fairlead.system.context import context, working_arrays
 from fairlead.system.driver import SPREAD, callbacks
@@ -19,6 +20,7 @@ from fairlead.system.outputs import signals, stored
 from fairlead.system.plain_python import called_controllers
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
+from fairlead.system.shown import what_to_ask
 from fairlead.system.switching import guards, holders, kinks, limits, machine_owners, machine_zones
 from fairlead.system.system import Pattern, System
 from fairlead.system.timing import samplers
@@ -49,11 +51,13 @@ def build(
     slots, switches = guards(blocks)
     start = flat.assembly.netlist.run.start
     memory |= switches | rows(blocks, shared, end) | samplers(blocks, start) | {"stored": stored(blocks, shared)}
+    memory["shown_counts"], late = what_to_ask(blocks, shared, np.zeros(0, dtype=np.int64))
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
     memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])}
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
     controllers = called_controllers(blocks, numbering, memory)
     memory["context"] = context(blocks, numbering, program, memory, end.mass)
+    memory["context"][layout.RATES_SHOWN] = int(late)
     unknowns = numbering.unknowns
     return System(
         flat=flat,

@@ -322,9 +322,12 @@ def let_slip(ctx, t, y, of_whole):
 
 def show(ctx, t, y, out):
     """The recorded outputs, then the stored energy of all."""
-    accelerate(ctx, t, y)
+    if ctx[RATES_SHOWN] == 0:
+        look(ctx, t, y)
+    if ctx[RATES_SHOWN] > 0:
+        accelerate(ctx, t, y)
     z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SHOWN_COUNTS])
     for b in range(0, ctx[N_BLOCKS]):
         block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], OUTPUT, block, 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)

@@ -151,8 +151,13 @@ class KernelText:
 
     def _guards_read(self) -> bool:
         """True if a guard reads what is known only after the forces."""
-        read = {s.name for z in self.zones for g in z.guards for value in g.values for s in value.free_symbols}
-        return any(name.startswith("port:") and name.rpartition(":")[2] in "aR" for name in read)
+        return any(_is_late(value) for z in self.zones for g in z.guards for value in g.values)
+
+    def _late(self) -> list[int]:
+        """Places of the outputs that read what is known only after the forces."""
+        names = [*self.outputs, *layout.OUTPUT_LINES]
+        values = [{**zone.outputs, **zone.ledger} for zone in self.zones]
+        return [k for k, name in enumerate(names) if any(name in of and _is_late(of[name]) for of in values)]
 
     def _mass(self, zone: TracedZone) -> list[Statement]:
         place = f"out[block[{layout.D_MASS}] + i*{len(self.mass)} + {{e}}] = {{{{}}}}"
@@ -306,6 +311,7 @@ class KernelText:
             slots=self.slots, fixed_signals=self.fixed[0], fixed_flows=self.fixed[1], fixed_ledger=self.fixed[2],
             linear=not self._curved(self.d_flows, self._target_values),
             curved=self._curved(self.d_signals, self._fit_outputs), guards_read=self._guards_read(),
+            late=self._late(), stores=any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones),
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
@@ -342,6 +348,12 @@ def _held_pair(
     if len(senses) != 1:
         return None
     return {port: float(speed) for port, speed in speeds.items()}, float(senses.pop())
+
+
+def _is_late(value: Any) -> bool:
+    """True if it reads an acceleration or a reaction."""
+    names = (s.name for s in sympy.sympify(value).free_symbols)
+    return any(name.startswith("port:") and name.rpartition(":")[2] in "aR" for name in names)
 
 
 def _group(guard: TracedGuard) -> sympy.Expr:

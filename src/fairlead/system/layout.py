@@ -138,6 +138,8 @@ WHOLE_ZONES = 89  # those of the whole
 WHOLE_W = 90
 GUARD_COUNTS = 91  # int64 (blocks,)       instances whose guards are asked for
 SLIP_SHOWN = 92  # 1 if an output may follow the slip of what is carried
-CONTEXT = 93
+SHOWN_COUNTS = 93  # int64 (blocks,)       instances whose outputs are asked for
+RATES_SHOWN = 94  # 1 if an output that is shown reads an acceleration or a reaction
+CONTEXT = 95
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

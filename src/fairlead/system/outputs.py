@@ -15,11 +15,12 @@ from fairlead.system.unknowns import Numbering
 
 
 def stored(blocks: Sequence[Block], shares: Sequence[Share]) -> Integers:
-    """Where among all outputs the stored energy of every instance lies."""
-    found = []
+    """Where among all outputs the stored energy of every instance lies that may have some."""
+    found: list[int] = []
     for block, share in zip(blocks, shares, strict=True):
         names = block.kernel.structure.all_outputs
-        found += [share.outputs + i * len(names) + names.index(STORED_ENERGY) for i in range(block.count)]
+        if block.kernel.structure.stores:
+            found += [share.outputs + i * len(names) + names.index(STORED_ENERGY) for i in range(block.count)]
     return np.array(found, dtype=np.int64)
 
 

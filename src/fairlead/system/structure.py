@@ -39,6 +39,8 @@ class Structure:
     linear: bool  # no derivative of a flow depends on an input: linear as long as the zones are frozen
     curved: list[int]  # places in outputs of those with a derivative that does
     guards_read: bool  # a guard reads an acceleration or a reaction
+    late: list[int]  # places in all outputs of those that read one
+    stores: bool  # an instance may have stored energy
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 
     @property

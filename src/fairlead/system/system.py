@@ -14,6 +14,8 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Tables
 from fairlead.system.plain_python import CalledController
+from fairlead.system.shares import shares
+from fairlead.system.shown import what_to_ask
 from fairlead.system.unknowns import Numbering
 
 Floats = NDArray[np.float64]
@@ -123,6 +125,9 @@ class System:
         context = self.memory["context"]
         context[layout.N_SELECTED] = len(self.recorded)
         context[layout.SELECTED] = self.memory["selected"].ctypes.data
+        counts, late = what_to_ask(self.blocks, shares(self.blocks)[0], self.memory["selected"])
+        self.memory["shown_counts"][:] = counts
+        context[layout.RATES_SHOWN] = int(late)
         return chosen
 
     def __str__(self) -> str:
