@@ -67,7 +67,10 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
                 flush(scope, run, take)
             if status == Status.REPLAN:
                 again = int(scope.memory.number["factorisations"]) <= replanned_at + 1
-                if again or not replan(scope.memory, scope.problem):
+                found = not again and replan(scope.memory, scope.problem)
+                if run.engine == "stepping" and scope.memory.number["midway"]:
+                    scope.memory.number["replanned"] = 1
+                elif not found:
                     status = Status.SINGULAR
                     flush(scope, run, take)
                 replanned_at = int(scope.memory.number["factorisations"])

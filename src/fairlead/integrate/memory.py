@@ -39,6 +39,9 @@ INTEGERS = (
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
     "n_quadratures", "rows_slip",
+    # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
+    # values met on the way, whether other pivots were tried for that
+    "searched", "midway", "replanned",
     "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
     # stepping only (known_rows.py): whether zones may not be those of J and M, in how many machines they differ, if
     # only known rows were exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
@@ -71,7 +74,7 @@ VECTORS = {
     "absolute": "n", "relative": "n", "cap": "n", "column_scale": "n", "row_scale": "n", "factor_work": "n",
     # matrices along their patterns; `matrix` holds W or the matrix of the consistent point
     # stepping only: mean slopes of this step, of the one before and of the one before that
-    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "patterns_met": "passes",
+    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "move": "n", "patterns_met": "passes",
     "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
     "pivot": "n_core", "jacobian_used": "n_jacobian", "mass_used": "n_mass", "core_x": "n_core", "core_b": "n_core",
     "core_residual": "n_core", "position_ratio": "n_positions", "position_share": "n_positions",

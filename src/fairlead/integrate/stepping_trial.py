@@ -67,8 +67,8 @@ def attempt_stepping(m):
     status = take_theta_step(m, h)
     m.skip_meters = 0
     if status == INACCURATE:
-        give_back_zones(m)
-        return REPLAN
+        return find_pivots(m, h)
+    m.replanned = 0
     if status == JUMPS or (status == DONE and jump_is_due(m, h)):
         if not landed(m, h):
             return GO_ON
@@ -97,6 +97,16 @@ def attempt_stepping(m):
     if m.h_next > 0.95 * h and m.h_next < KEEP_BELOW * h and m.adaptive == 1:
         m.h_next = h
     return GO_ON
+
+
+@compiled
+def find_pivots(m, h):
+    """Have other pivots found; where that did not help for a matrix met midway, a shorter step may not meet it."""
+    if m.replanned == 1 and m.midway == 1:
+        m.replanned = 0
+        return repeat_shorter(m, h, SINGULAR)
+    give_back_zones(m)
+    return REPLAN
 
 
 @compiled

@@ -27,11 +27,11 @@ from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobi
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.jumps import all_continuous, find_jump, law_jumps
 from fairlead.integrate.known_rows import learn_constants, learn_rows, rows_tell
-from fairlead.integrate.linear import DONE, INACCURATE, add_mass_times, factorise_step, solve
+from fairlead.integrate.line_search import GIVEN_UP, MOST_SEARCHED, SEARCHED, remember_move, search_line
+from fairlead.integrate.linear import DONE, INACCURATE, factorise_step, solve
+from fairlead.integrate.step_residual import PASSED, move_end, residual_of_step, scaled_residual, theta_point
 
 CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
-PASSED = 1e-3
-"""A residual below this, each row over its largest entry in error weights, is solved."""
 SLOW = 0.01
 """A residual that shrinks by less than this in an iteration asks for a new Jacobian."""
 LOOK_AT_LIMITS = 8
@@ -50,8 +50,11 @@ def take_theta_step(m, h):
     begin_set(m)
     expect_fronts(m, h)
     solves, solved, previous = 0, False, 1e300
-    m.guessed, m.caught_by_row = 0, 0
+    m.guessed, m.caught_by_row, m.searched = 0, 0, 0
     while True:
+        m.midway = 1 if solved or m.linear == 0 else 0
+        if m.linear == 0 and solves > 0:
+            search_line(m, h, previous)
         status = linearise_step(m, h)
         if status != DONE:
             return status
@@ -84,10 +87,17 @@ def take_theta_step(m, h):
 
 @compiled
 def approach_laws(m, h, solves, previous):
-    """Judge the residual after `solves` without a switch, solve for it: DONE, GO_ON, AFRESH or why not; its size."""
+    """Judge the residual after `solves` without a switch, solve for it: DONE, GO_ON, AFRESH or why not; its size.
+
+    Where f is not linear `search_line` has left the residual after a solve.
+    """
     m.newly_held |= m.caught_by_row
-    residual_of_step(m, h, solves > 0)
     size = previous
+    if m.linear == 1:
+        residual_of_step(m, h, solves > 0)
+    elif solves == 0:
+        residual_of_step(m, h, False)
+        size = scaled_residual(m)
     if solves > 0:
         verdict, size = judge_residual(m, solves, previous)
         if verdict == DONE:
@@ -102,6 +112,8 @@ def approach_laws(m, h, solves, previous):
     if m.n_exchanged > 0 and m.linear == 1:
         learn_constants(m)
     solve(m, m.at_b)
+    if m.linear == 0:
+        remember_move(m)
     move_end(m)
     return GO_ON, size
 
@@ -135,7 +147,7 @@ def judge_residual(m, solves, previous):
     if m.linear == 1 and solves >= MOST_LINEAR_SOLVES:
         m.linearised = 0
         return INACCURATE, size
-    if solves >= MOST_SOLVES:
+    if m.searched == GIVEN_UP or solves >= (MOST_SEARCHED if m.searched == SEARCHED else MOST_SOLVES):
         return DIVERGES, size
     if solves > 1 and size > SLOW * previous:
         m.linearised = 0
@@ -149,15 +161,6 @@ def predict(m, h):
     differential = indices(m.at_differential, m.n)
     for k in range(m.n):
         y_end[k] = y[k] + h * slope[k] if differential[k] == 1 else y[k]
-
-
-@compiled
-def theta_point(m):
-    """Into `u`: where the laws are evaluated."""
-    y, y_end, u = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_u, m.n)
-    differential, theta = indices(m.at_differential, m.n), m.theta_now
-    for k in range(m.n):
-        u[k] = y[k] + theta * (y_end[k] - y[k]) if differential[k] == 1 else y_end[k]
 
 
 @compiled
@@ -237,76 +240,6 @@ def find_holds(m):
     for e in range(m.n_hold_slope):
         if holds[row[e]] == 1:
             slopes[entry[e]] = 0.0
-
-
-@compiled
-def residual_of_step(m, h, may_be_last):
-    """Set b = f - M (y1 - y0)/h, and -slip/h at the end of the step in the rows of held contacts.
-
-    What M (y1 - y0)/h says there is just that for a contact that held at the start, on a surface of constant
-    speed. For one caught in the step, or on a surface that is accelerated, the law tells the slip.
-    """
-    n = m.n
-    theta_point(m)
-    if may_be_last and m.n_quadratures > 0:
-        field_at(m.call_rhs, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
-    else:
-        field_at(m.call_forces, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
-    m.rhs += 1
-    y, y_end, v, b, f = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_v, n), reals(m.at_b, n), reals(m.at_f, n)
-    differential, holds = indices(m.at_differential, n), indices(m.at_holds, n)
-    backward = -1.0 / h
-    for k in range(n):
-        v[k] = backward * (y_end[k] - y[k]) if differential[k] == 1 else 0.0
-        b[k] = f[k] if holds[k] == 0 else 0.0
-    add_mass_times(m, m.at_v, m.at_b)
-    row = indices(m.at_hold_mass_row, m.n_hold_mass)
-    caught, slip = indices(m.at_caught, n), reals(m.at_residual, n)
-    if m.newly_held == 1 or m.driven == 1:
-        field_at(m.call_drift, (m.context, m.t + h, m.at_y_end, m.at_residual))
-        for e in range(m.n_hold_mass):
-            if holds[row[e]] == 1 and (m.driven == 1 or caught[row[e]] == 1):
-                b[row[e]] = slip[row[e]] / h
-    else:
-        for e in range(m.n_hold_mass):
-            if holds[row[e]] == 1 and caught[row[e]] == 1:
-                b[row[e]] = 0.0
-    entry, row, column = (
-        indices(m.at_hold_share, m.n_hold_share), indices(m.at_hold_share_row, m.n_hold_share),
-        indices(m.at_hold_share_column, m.n_hold_share),
-    )  # fmt: skip
-    slopes = reals(m.at_jacobian, m.n_jacobian)
-    for e in range(m.n_hold_share):
-        if holds[row[e]] == 1:
-            b[row[e]] += slopes[entry[e]] * y_end[column[e]]
-
-
-@compiled
-def scaled_residual(m):
-    """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is. See `worst`."""
-    b, scale, quadrature = reals(m.at_b, m.n), reals(m.at_row_scale, m.n), indices(m.at_quadrature, m.n)
-    order = indices(m.at_row_order, m.n_core)
-    rows = m.n if m.dense == 1 else m.n_core
-    largest = 0.0
-    for k in range(rows):
-        i = k if m.dense == 1 else order[k]
-        size = abs(b[i]) * scale[k]
-        if not isfinite(size):
-            m.worst = i
-            return size
-        if quadrature[i] == 0 and size > largest:
-            largest = size
-            m.worst = i
-    return largest
-
-
-@compiled
-def move_end(m):
-    """Add the solution in b: theta times the change of a differential unknown, the change of a force."""
-    b, y_end, differential = reals(m.at_b, m.n), reals(m.at_y_end, m.n), indices(m.at_differential, m.n)
-    ahead = 1.0 / m.theta_now
-    for k in range(m.n):
-        y_end[k] += ahead * b[k] if differential[k] == 1 else b[k]
 
 
 @compiled
