@@ -65,15 +65,15 @@ def use_row(m, z, count):
     """Mark the columns of the core that the row of machine z is in, `count` are marked; how many then are."""
     starts, entries = indices(m.at_own_slope_starts, m.n_zones + 1), indices(m.at_own_slopes, m.n_own_slopes)
     values, used = reals(m.at_jacobian, m.n_jacobian), reals(m.at_jacobian_used, m.n_jacobian)
-    column = indices(m.at_jacobian_column, m.n_jacobian)
-    for e in range(starts[z], starts[z + 1]):
-        p = entries[e]
-        if values[p] != used[p]:
-            used[p] = values[p]
-            count = mark(m, column[p], count)
+    count = use_entries(m, starts, entries, values, used, indices(m.at_jacobian_column, m.n_jacobian), z, count)
     starts, entries = indices(m.at_own_mass_starts, m.n_zones + 1), indices(m.at_own_masses, m.n_own_masses)
     values, used = reals(m.at_mass, m.n_mass), reals(m.at_mass_used, m.n_mass)
-    column = indices(m.at_mass_column, m.n_mass)
+    return use_entries(m, starts, entries, values, used, indices(m.at_mass_column, m.n_mass), z, count)
+
+
+@compiled
+def use_entries(m, starts, entries, values, used, column, z, count):
+    """The same of one matrix."""
     for e in range(starts[z], starts[z + 1]):
         p = entries[e]
         if values[p] != used[p]:

@@ -44,20 +44,21 @@ def move_row(m, z, like, learn):
     zone = indices(m.at_zones, m.n_zones)[z]
     starts, entries = indices(m.at_own_slope_starts, m.n_zones + 1), indices(m.at_own_slopes, m.n_own_slopes)
     values, kept = reals(m.at_jacobian, m.n_jacobian), reals(m.at_known_slopes, KNOWN_ZONES * m.n_own_slopes)
-    shift = zone * m.n_own_slopes + starts[like] - starts[z]
-    for e in range(starts[z], starts[z + 1]):
-        if learn:
-            kept[e + shift] = values[entries[e]]
-        else:
-            values[entries[e]] = kept[e + shift]
+    move_entries(starts, entries, values, kept, z, zone * m.n_own_slopes + starts[like], learn)
     starts, entries = indices(m.at_own_mass_starts, m.n_zones + 1), indices(m.at_own_masses, m.n_own_masses)
     values, kept = reals(m.at_mass, m.n_mass), reals(m.at_known_masses, KNOWN_ZONES * m.n_own_masses)
-    shift = zone * m.n_own_masses + starts[like] - starts[z]
+    move_entries(starts, entries, values, kept, z, zone * m.n_own_masses + starts[like], learn)
+
+
+@compiled
+def move_entries(starts, entries, values, kept, z, place, learn):
+    """Move the entries of machine z between a matrix and what is kept from `place` on."""
     for e in range(starts[z], starts[z + 1]):
+        at = place + e - starts[z]
         if learn:
-            kept[e + shift] = values[entries[e]]
+            kept[at] = values[entries[e]]
         else:
-            values[entries[e]] = kept[e + shift]
+            values[entries[e]] = kept[at]
 
 
 @compiled
