@@ -30,6 +30,23 @@ def nonlinear_ode(**settings: Any) -> tuple[TextbookProblem, Any]:
     return textbook(exact(0.0), rhs, jacobian, **settings), exact
 
 
+def stiff_follower(**settings: Any) -> tuple[TextbookProblem, Any]:
+    """y' = -rate (y - cos t) - sin t, from far off: y goes to cos t in no time."""
+    rate = 1e8
+
+    def rhs(t, y, z, f):
+        f[0] = -rate * (y[0] - np.cos(t)) - np.sin(t)
+
+    def jacobian(t, y, z, J, ft):
+        J[0, 0] = -rate
+        ft[0] = -rate * np.sin(t) - np.cos(t)
+
+    def exact(t):
+        return np.array([np.cos(t)])
+
+    return textbook([1.5], rhs, jacobian, **settings), exact
+
+
 def index_one_dae(**settings: Any) -> tuple[TextbookProblem, Any]:
     """y' = y z, 0 = z^3 + z - c(t) with c = s^3 + s, s = cos t: y = exp(sin t), z = cos t."""
 

@@ -18,7 +18,7 @@ CHOICES = {
 }  # fmt: skip
 LOCATING = ("rodas5p", "rodas3p", "ida")
 """Engines that locate every switch."""
-ACCURACY = {"rodas5p": 1e-6, "rodas3p": 1e-4, "ida": 1e-5, "stepping": 1e-4}
+ACCURACY = {"rodas5p": 1e-6, "rodas3p": 1e-4, "ida": 1e-5, "stepping": 3e-5}
 """Each engine where it is at home: of order five, three, up to five, two."""
 LOST = 100
 """Errors of single steps add up, and stiff problems amplify them where they turn: two decades are lost at most, as
@@ -32,8 +32,9 @@ OTHER = {
 }  # fmt: skip
 """Where that would take 80 000 or 13 000 steps; and where it is more than the stepping engine, of order two, can: its
 algebraic unknowns are means over a step, so that they are right to order one at its end."""
-PYTHON_LOOP = {("ida", "ring_modulator")}
-"""150 000 steps of a multistep method whose loop is in Python: twenty seconds. See the test of its first tenth."""
+IN_PART = {("ida", "ring_modulator"), ("stepping", "ring_modulator")}
+"""150 000 steps of a multistep method whose loop is in Python: twenty seconds. And ringing whose phase a method of
+order two has right at 1e-6 at last (600 000 steps). See the test of its first tenth."""
 
 
 @functools.cache
@@ -59,7 +60,7 @@ def solve(problem, stop, engine, **settings):
 
 PAIRS = [
     (name, engine) for name in PROBLEMS for engine in CHOICES
-    if (engine, name) not in PYTHON_LOOP
+    if (engine, name) not in IN_PART
 ]  # fmt: skip
 # Steps tried in vain may overflow an exponential or leave the domain of a root: they are tried again shorter.
 steps_in_vain = pytest.mark.filterwarnings("ignore:overflow encountered", "ignore:invalid value encountered")
@@ -85,12 +86,16 @@ def test_the_error_falls_with_the_accuracy(name, engine):
     assert errors[2] < errors[0] / 100
 
 
-def test_the_first_tenth_of_the_ring_modulator_is_the_same_by_ida_and_by_rodas():
-    fine = published.ring_modulator(1e-8)
-    rough = published.ring_modulator(1e-4)
+TENTH = [("ida", 1e-4, LOST), ("stepping", 1e-5, 1e4), ("stepping", 1e-6, 1e4)]
+
+
+@pytest.mark.parametrize(("engine", "accuracy", "lost"), TENTH)
+def test_the_first_tenth_of_the_ring_modulator_is_as_by_rodas(engine, accuracy, lost):
+    """Of order two `stepping` loses four decades, in the phase of what rings; it gains one with each of accuracy."""
+    fine, rough = published.ring_modulator(1e-8), published.ring_modulator(accuracy)
     exact = solve(fine.problem, 1e-4, "rodas5p").y
-    found = solve(rough.problem, 1e-4, "ida").y
-    assert np.max(np.abs(found - exact) / (np.abs(exact) + rough.scale)) < LOST * 1e-4
+    found = solve(rough.problem, 1e-4, engine).y
+    assert np.max(np.abs(found - exact) / (np.abs(exact) + rough.scale)) < lost * accuracy
 
 
 @pytest.mark.parametrize("engine", LOCATING)

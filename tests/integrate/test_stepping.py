@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, Status, integrate
-from tests.integrate.problems import belt_block, coulomb_oscillator, index_one_dae, nonlinear_ode, stick_slip_times
+from tests.integrate.problems import (
+    belt_block,
+    coulomb_oscillator,
+    index_one_dae,
+    nonlinear_ode,
+    stick_slip_times,
+    stiff_follower,
+)
 
 
 def end_error(made, step, stop=2.0, **settings):
@@ -22,6 +29,15 @@ def test_the_order_is_two_where_the_motion_is_smooth(made):
     states = problem.differential
     errors = [end_error(made, h, absolute=1e-10, relative=1e-10)[states].max() for h in (0.02, 0.01)]
     assert 1.8 < np.log2(errors[0] / errors[1]) < 2.2  # h^2 and a little h^4
+
+
+def test_what_is_stiff_for_a_step_dies_away():
+    """By 0.92 a step, to the order of what it follows; the midpoint rule goes from one side to the other for ever."""
+    problem, exact = stiff_follower()
+    runs = {theta: Run(stop=1.0, engine="stepping", fixed_step=5e-3, theta=theta) for theta in (0.5, 0.51)}
+    miss = {theta: abs(integrate(problem, run).y[0] - exact(1.0)[0]) for theta, run in runs.items()}
+    assert miss[0.5] > 0.4
+    assert miss[0.51] < 1e-4
 
 
 def test_reversals_of_friction_inside_the_step_cost_no_order_but_one():

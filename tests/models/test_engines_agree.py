@@ -32,9 +32,6 @@ SPAN = {"belt": 5.0, "block_and_spring": 4.0, "sandwich": 2.0, "hundred_blocks":
         "weak_clamp": 0.1, "slack_start": 0.05, "long_deployment": 0.02, "power_unit": 0.7}  # fmt: skip
 """Seconds of each model that are compared: some whole cycles, or the first hundreds of switches."""
 SHORT = 0.5
-UNTIL = {("winch_drive", "stepping"): 0.08, ("guidance_route_electric", "stepping"): 0.03}
-"""Seconds after which `stepping` is of order one on a model, so that two decades of accuracy do not bring a fifth:
-friction of a motor and of a pair of gears that goes through zero, and does not hold there, has one sign for a step."""
 
 
 class Unknowns:
@@ -70,10 +67,7 @@ def states(name, engine, accuracy):
 def test_two_engines_agree_within_their_error_estimates(name, one, other):
     if "ida" in (one, other):
         pytest.importorskip("sksundae.ida", reason="needs scikit-sundae: pip install 'fairlead[ida]'")
-    span = SPAN.get(name, SHORT)
-    until = min(UNTIL.get((name, engine), span) for engine in (one, other))
-    rows = round(50 * until / span) + 1
-    found = {(e, a): states(name, e, a)[:rows] for e in (one, other) for a in (LOOSE, TIGHT)}
+    found = {(e, a): states(name, e, a) for e in (one, other) for a in (LOOSE, TIGHT)}
     estimates = sum(np.abs(found[engine, LOOSE] - found[engine, TIGHT]).max() for engine in (one, other))
     assert np.abs(found[one, LOOSE] - found[other, LOOSE]).max() <= estimates / (1 - FALL)
     assert np.abs(found[one, TIGHT] - found[other, TIGHT]).max() <= max(FALL * estimates, TIGHT * POSITION)

@@ -61,7 +61,8 @@ def test_laws_that_vary_are_followed_as_by_rodas_and_held_exactly(tmp_path, case
     assert np.abs(found["slip"][held]).max() < 1e-12
     assert np.abs(found["x"] - exact["x"]).max() < 1e-4  # m, of 40 mm
     assert counters.jacobians < counters.switches  # not evaluated anew at every switch
-    assert counters.settling_passes < 3 * counters.switches  # limits are judged where they are read: no cycles
+    # Limits are judged where they are read: no cycles. A step that is taken again switches again.
+    assert counters.settling_passes < 3 * counters.switches + counters.rejected_error
 
 
 def test_contacts_that_share_a_load_are_not_known_by_their_row_alone(scene):

@@ -175,6 +175,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     if run.engine == "stepping":
         write_numbers(memory, stepping_settings(run, problem))
         memory.array["controlled"][:] = controlled(problem)
+        memory.array["position_of"][:] = position_of(problem)
         for name, values in {**held_entries(problem), **neighbours(problem)}.items():
             memory.point(name, values, np.int64)
             if f"n_{name}" in (LAYOUT.names or ()):
@@ -259,8 +260,9 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
 def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
     """What the stepping engine sets differently, or alone."""
     return {
-        "least_theta": run.theta, "theta_now": run.theta, "fixed_step": run.fixed_step or 0.0,
+        "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
         "error_exponent": 1.0 / 3.0, "linear": int(getattr(problem, "linear", False)),
+        "samples": int(getattr(problem, "samples", False)),
         "has_limits": int(np.any(getattr(problem, "limit_guard", 0))),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
     }  # fmt: skip
@@ -275,10 +277,17 @@ def watched(problem: Problem) -> Integers:
 def controlled(problem: Problem) -> Integers:
     """1 for unknowns whose error sets the step: differential, and no speed that has a position."""
     chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
-    for v in lay_out(problem).positions.values():
-        if v >= 0:
-            chosen[v] = 0
+    chosen[position_of(problem) >= 0] = 0
     return chosen
+
+
+def position_of(problem: Problem) -> Integers:
+    """By unknown: the position whose rate it is, or -1."""
+    found = np.full(len(problem.initial), -1, dtype=np.int64)
+    for x, v in lay_out(problem).positions.items():
+        if v >= 0:
+            found[v] = x
+    return found
 
 
 def write_numbers(memory: Memory, values: dict[str, float]) -> None:

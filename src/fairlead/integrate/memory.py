@@ -38,7 +38,7 @@ INTEGERS = (
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
-    "n_quadratures", "rows_slip",
+    "n_quadratures", "rows_slip", "samples",
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that
     "searched", "midway", "replanned",
@@ -46,7 +46,7 @@ INTEGERS = (
     # stepping only (known_rows.py): whether zones may not be those of J and M, in how many machines they differ, if
     # only known rows were exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
     "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row", "limits_vary",
-    "n_own_slopes", "n_own_masses", "n_known",
+    "n_own_slopes", "n_own_masses", "n_known", "n_switched",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans", "partial_steps",
@@ -60,9 +60,10 @@ NUMBERS = (
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
     "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
-    # stepping only: theta asked for and in force, the step asked for, distances of the slopes remembered
-    "least_theta", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
-    "t_jump",
+    # stepping only: theta asked for, its rise when zones cycle, theta in force and how far its point leans on the step
+    # before, the step asked for, distances of the slopes remembered
+    "least_theta", "theta_raise", "theta_now", "look_back", "factored_theta", "fixed_step", "gap", "gap_before",
+    "t_jump", "t_switch",
 )  # fmt: skip
 """Real numbers of the struct."""
 
@@ -89,7 +90,7 @@ VECTORS = {
     "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
     "guard_inertia": "n_guards", "wrong": "n_guards",
     # machines
-    "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
+    "switched_after": "n_zones", "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
     # what was recorded
     "row_t": "row_capacity", "row_values": "rows_outputs", "event_t": "event_capacity",
 }  # fmt: skip
@@ -99,13 +100,14 @@ INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
     "differential": "n", "quadrature": "n", "watched": "n",
-    # stepping only: unknowns whose error sets the step, rows that hold now, zones at the start of the step
-    "controlled": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
+    # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
+    # zones at the start of the step; machines that switched in the trial (missed_impulse.py)
+    "controlled": "n", "position_of": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
     "held_position": "n_zones", "held_speed": "n_zones",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",
     "may_jump": "n_guards", "suspects": "n_guards",
     "zones_probed": "n_zones", "first_guard": "n_zones", "met": "n_zones",
-    "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones",
+    "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones", "switched": "n_zones",
     "neighbour_starts": "n_zones_plus_1", "neighbours": "n_neighbours",
     "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_mass_column": "n_hold_mass",
     "hold_mass_partner": "n_hold_mass", "hold_slope": "n_hold_slope", "hold_slope_row": "n_hold_slope",

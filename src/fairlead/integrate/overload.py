@@ -121,8 +121,12 @@ def response_time(m, z):
     """1/omega of what holds machine z back once it slips, by the stiffness its position meets; FREE without one."""
     x, v = indices(m.at_held_position, m.n_zones)[z], indices(m.at_held_speed, m.n_zones)[z]
     inertia = reals(m.at_held_inertia, m.n_zones)[z]
-    if x < 0 or inertia <= 0.0:
-        return FREE
+    return response_of(m, x, v, inertia) if x >= 0 and inertia > 0.0 else FREE
+
+
+@compiled
+def response_of(m, x, v, inertia):
+    """1/omega of what holds back the position x with the speed v and this inertia; FREE without one."""
     starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
     slopes = reals(m.at_jacobian, m.n_jacobian)
     for p in range(starts[x], starts[x + 1]):

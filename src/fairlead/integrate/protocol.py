@@ -32,7 +32,8 @@ nothing but its slope jumps, as between two pieces of a table; `rodas` steps a h
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
 that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `beyond_row`
-names the machines whose switch changes more rows of J and M than the one they hold: these are evaluated then.
+names the machines whose switch changes more rows of J and M than the one they hold: these are evaluated then. And
+whether `at_time` takes `samples` of the unknowns: they are then made consistent before.
 And `narrowing`, which tells what moves and cuts it out as a problem of its own that records for all (parts.py):
 
     possible                     whether that may be asked
@@ -186,8 +187,8 @@ class Run:
     by SUNDIALS, every switch located (sundials.py), which needs scikit-sundae."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
     """Of `rodas`."""
-    theta: float = 0.5
-    """Of `stepping`, from 1/2 (order 2, no damping) to 1 (order 1, the most damping)."""
+    theta: float = 0.51
+    """Of `stepping`, from 1/2 (the midpoint rule, no damping) to 1; 9/16 damps what is stiff for a step the most."""
     first_step: float | None = None
     max_step: float = np.inf
     fixed_step: float | None = None

@@ -63,6 +63,9 @@ def arrive_with_zones(m):
         m.passes = 0
         log_changes(m)
     copy(reals(m.at_g, m.n_guards), reals(m.at_g_early, m.n_guards))
+    if m.samples == 1 and m.landing == 1 and m.t_piece >= m.t_next and m.t_piece < m.stop:
+        m.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then
+        m.n_fired = 0
     status = arrive(m)
     if m.phase == TRY:
         remember_slope(m)

@@ -1,9 +1,10 @@
 """A trial step of the stepping engine: proposed, taken, its error estimated, accepted or repeated.
 
-The error of the midpoint rule is h^3 y'''/12, and y''' comes free of charge: it is the second divided
-difference of the mean slopes of this step and the two before,
+The error of the rule is (1 + 12 beta) h^3 y'''/12 with beta as in
+theta_step.py, and y''' comes free of charge: it is the second divided difference of the mean slopes of
+this step and the two before,
 
-    error = h^3/6 [k_n, k_n-1, k_n-2]
+    error = (1 + 12 beta) h^3/6 [k_n, k_n-1, k_n-2]
 
 Controlled are all differential unknowns but speeds that have a position (x' = v). A contact that starts
 or stops inside a step bends the motion there: the speed at the end of the step is then still right to
@@ -31,6 +32,7 @@ from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.known_rows import forget_rows
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
+from fairlead.integrate.missed_impulse import impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rows_between import prepare_rows
@@ -47,9 +49,9 @@ ROUGH = 4.0
 """Rows inside a step lie on a parabola where the motion is smooth, on the chord where its bend grows faster than this
 or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were."""
 LANDINGS = 4
-"""Tries to end a step where a law jumps."""
+"""Tries to end a step where a law jumps, or where a switch inside it makes an error that counts."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
-"""theta - 1/2 grows by this when the zones of a step cycle, and shrinks by this factor with every accepted one."""
+"""theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one."""
 
 
 @compiled
@@ -64,6 +66,7 @@ def attempt_stepping(m):
     h = propose(m)
     m.h = h
     m.skip_meters = 1
+    choose_theta(m)
     status = take_theta_step(m, h)
     m.skip_meters = 0
     if status == INACCURATE:
@@ -83,10 +86,10 @@ def attempt_stepping(m):
     m.error = error_of_step(m, h)
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject_error(m, h)
+    if m.adaptive == 1 and m.n_switched > 0 and m.retried < LANDINGS and impulse_is_missed(m, h):
+        return end_at_switch(m)
     m.failed = max(m.failed - 1, 0)
-    m.theta_now = m.least_theta + THETA_FALL * (m.theta_now - m.least_theta)
-    if m.theta_now < m.least_theta + 1e-3:
-        m.theta_now = m.least_theta
+    m.theta_raise = THETA_FALL * m.theta_raise if m.theta_raise > 1e-3 else 0.0
     accept(m, h, False)
     if m.on_grid == 1:
         prepare_rows(m)
@@ -107,6 +110,13 @@ def find_pivots(m, h):
         return repeat_shorter(m, h, SINGULAR)
     give_back_zones(m)
     return REPLAN
+
+
+@compiled
+def choose_theta(m):
+    """Theta of this step: 1/2 after a settlement, where no mean slope is known and stiff unknowns have any slope."""
+    m.look_back = m.least_theta - 0.5 if m.gap > 0.0 else 0.0
+    m.theta_now = min(0.5 + m.look_back + m.theta_raise, 1.0)
 
 
 @compiled
@@ -131,6 +141,17 @@ def reject_error(m, h):
     m.h_next = step_after_rejection(m, h)
     m.retried += 1
     return GO_ON if m.h_next >= smallest_step(m) else STEP_FLOOR
+
+
+@compiled
+def end_at_switch(m):
+    """Repeat a step up to `t_switch`."""
+    give_back_zones(m)
+    m.rejected_error += 1
+    indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
+    m.retried += 1
+    m.h_next = m.t_switch - m.t
+    return GO_ON
 
 
 @compiled
@@ -168,7 +189,7 @@ def repeat_shorter(m, h, status):
         return GO_ON
     m.failed += 2
     if status == CYCLES:
-        m.theta_now = min(m.theta_now + THETA_RISE, 1.0)
+        m.theta_raise = min(m.theta_raise + THETA_RISE, 0.5)
     m.h_next = 0.5 * h
     if m.h_next >= smallest_step(m):
         return GO_ON
@@ -186,7 +207,8 @@ def error_of_step(m, h):
     bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
     holds = indices(m.at_holds, n)
     near, far = m.gap + 0.5 * h, m.gap_before
-    per_step, per_near, per_far, third = 1.0 / h, 1.0 / near, 1.0 / far, h * h * h / 6.0 / (near + far)
+    per_step, per_near, per_far = 1.0 / h, 1.0 / near, 1.0 / far
+    third = (1.0 + 12.0 * m.look_back) * h * h * h / 6.0 / (near + far)
     weigh(m, m.at_y_end)
     for k in range(n):
         error[k] = 0.0

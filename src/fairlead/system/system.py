@@ -114,6 +114,11 @@ class System:
         named = s.guards[zone] if zone else next((g for g in s.guards.values() if slot < len(g)), [])
         return named[slot]["name"] if slot < len(named) else ""
 
+    @property
+    def samples(self) -> bool:
+        """True if controllers take samples of signals."""
+        return bool(len(self.memory["sampled"]))
+
     def record(self, patterns: Iterable[str]) -> list[OutputSignal]:
         """Choose what is recorded; always also the ledger and the creep of every contact, at the end."""
         wanted = [re.compile(glob(pattern)) for pattern in patterns]
