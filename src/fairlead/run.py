@@ -21,7 +21,7 @@ from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
 from fairlead.choice import choose
-from fairlead.errors import ModelError
+from fairlead.errors import ModelError, UsageError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
 from fairlead.integrate.sundials_solver import require_package
@@ -130,6 +130,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()
+    if settings.engine == "stepping" and system.uneven:
+        raise UsageError(_uneven(system.uneven))
     chosen = system.record(_patterns(netlist))
     limits = read_limits(netlist.limits, system.recorded)
     creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
@@ -178,8 +180,19 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     """The engine of a run and why, as run.json tells them."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
+    if system.uneven:
+        return "rodas", "auto: a contact holds between a node with mass and one without"
     smooth = system.linear and not _let_go_with_a_jump(system)
     return choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
+
+
+def _uneven(contacts: list[str]) -> str:
+    """Why `stepping` does not take these contacts."""
+    named = ", ".join(contacts[:3]) + (f" and {len(contacts) - 3} more" if len(contacts) > 3 else "")
+    return (
+        f"run.engine: stepping does not hold contacts between a node with mass and one without ({named}): of the "
+        "latter it knows the mean over a step. Give that node a mass, or take run.engine: rodas (or auto)."
+    )
 
 
 def _let_go_with_a_jump(system: System) -> bool:

@@ -34,8 +34,12 @@ def mass(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering)
 def _held(
     blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering
 ) -> tuple[Integers, Integers, Integers, Floats]:
-    """Row, column, partial and coefficient of every unknown speed in a hold row."""
+    """Row, column, partial and coefficient of every unknown speed in a hold row.
+
+    Not of a row in which one has inertia and one has none: that one follows at once, and the slip is zero as it stands.
+    """
     row, column, partial, coef = ([np.zeros(0, np.int64)] for _ in range(4))
+    inert = np.array([not u.differential for u in numbering.unknowns], dtype=bool)
     for block, share in zip(blocks, shares, strict=True):
         s, count = block.kernel.structure, np.arange(block.count)
         for e, (unknown, j) in enumerate(s.mass):
@@ -44,4 +48,6 @@ def _held(
             column.append(block.in_index[used, j])
             partial.append((share.mass + count * len(s.mass) + e)[used])
             coef.append(block.in_coef[used, j])
-    return np.concatenate(row), np.concatenate(column), np.concatenate(partial), np.concatenate(coef).astype(float)
+    rows, columns = np.concatenate(row), np.concatenate(column)
+    kept = ~np.isin(rows, np.intersect1d(rows[inert[columns]], rows[~inert[columns]]))
+    return rows[kept], columns[kept], np.concatenate(partial)[kept], np.concatenate(coef).astype(float)[kept]

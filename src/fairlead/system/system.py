@@ -115,6 +115,13 @@ class System:
         return named[slot]["name"] if slot < len(named) else ""
 
     @property
+    def uneven(self) -> list[str]:
+        """Contacts that hold between a node with inertia and one without, by name."""
+        in_mass = np.zeros(self.n, dtype=bool)
+        in_mass[self.mass_pattern.rows] = True
+        return sorted({self.machine_names[m] for m in self.holder[(self.holder >= 0) & ~in_mass]})
+
+    @property
     def samples(self) -> bool:
         """True if controllers take samples of signals."""
         return bool(len(self.memory["sampled"]))
