@@ -5,6 +5,9 @@ import math
 import numpy as np
 import pytest
 
+import fairlead
+from fairlead.integrate import Run, integrate
+
 REVERSED = """
 components:
   block: {type: Mass, mass: 1 kg, velocity: -0.1 m/s}
@@ -70,3 +73,10 @@ def test_a_controller_samples_the_force_of_that_instant(simulate):
     at = np.arange(0.075, 1.0, 0.05)
     told = result["gauge.signal"][np.searchsorted(result.t, at) - 1]
     np.testing.assert_allclose(told, 20 * (at - 0.025), atol=1e-9)
+
+
+def test_switches_at_the_start_of_a_step_do_not_hold_up_a_run():
+    """At 1.18 s of this run a step that ends at a switch is followed by one that meets another at once."""
+    system = fairlead.load("slack_start", set={"friction.method": "hold"}).system
+    outcome = integrate(system, Run(stop=1.25, every=0.01, engine="stepping", max_steps=10_000))
+    assert outcome.ok, outcome.sentence

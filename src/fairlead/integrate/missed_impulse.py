@@ -19,7 +19,9 @@ from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.jumps import share
 from fairlead.integrate.meters import inertia_of
 from fairlead.integrate.overload import error_of_speed, response_of
-from fairlead.integrate.trial import smallest_step
+
+AT_ONCE = 1e-2
+"""A switch within this share of a step happens at its start."""
 
 
 @compiled
@@ -65,12 +67,12 @@ def first_turned(m, h):
     """The share of the step after which a slip turned round, of the first whose error counts; 1 without one."""
     switched, after = indices(m.at_switched, m.n_zones), reals(m.at_switched_after, m.n_zones)
     rows, inertia = indices(m.at_hold_row, m.n_zones), reals(m.at_held_inertia, m.n_zones)
-    y, y_end, least = reals(m.at_y, m.n), reals(m.at_y_end, m.n), smallest_step(m) / h
+    y, y_end = reals(m.at_y, m.n), reals(m.at_y_end, m.n)
     first = 1.0
     for k in range(m.n_switched):
         z = switched[k]
         s = after[z]
-        if rows[z] < 0 or inertia[z] <= 0.0 or s >= first or s < least:
+        if rows[z] < 0 or inertia[z] <= 0.0 or s >= first or s < AT_ONCE:
             continue
         force, mean = y[rows[z]], y_end[rows[z]]
         missed = force * (2.0 * s - 1.0) - mean
@@ -84,10 +86,10 @@ def first_turned(m, h):
 def first_bent(m, h):
     """The share of the step after which a law without a force of its own first switched, if the error counts; or 1."""
     switched, after = indices(m.at_switched, m.n_zones), reals(m.at_switched_after, m.n_zones)
-    rows, first, last, least = indices(m.at_hold_row, m.n_zones), 1.0, 0.0, smallest_step(m) / h
+    rows, first, last = indices(m.at_hold_row, m.n_zones), 1.0, 0.0
     for k in range(m.n_switched):
         s = after[switched[k]]
-        if rows[switched[k]] < 0 and s >= least:
+        if rows[switched[k]] < 0 and s >= AT_ONCE:
             first, last = min(first, s), max(last, s)
     if first == 1.0:
         return 1.0
