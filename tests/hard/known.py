@@ -25,7 +25,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("normal force to zero and back, four times", "stepping", "hold", ROUNDED),
     ("slack to taut with a snap, into a tether of 1e8 N/m", "stepping", "hold", ROUNDED),
     ("core that goes slack", "stepping", "hold", ROUNDED),
-    ("block on a shaken table, *", "stepping", "hold", BETWEEN),
+    ("block on a shaken table, carried", "stepping", "hold", BETWEEN),
     ("two blocks on a belt that are shaken, 1e-[357]", "stepping", "hold", BETWEEN),
     ("steep falling curve, tustin *", "stepping", "hold", MIDPOINT),
     ("steep falling curve, stribeck over 1e-07 m/s", "stepping", "hold", MIDPOINT),

@@ -80,3 +80,79 @@ def test_switches_at_the_start_of_a_step_do_not_hold_up_a_run():
     system = fairlead.load("slack_start", set={"friction.method": "hold"}).system
     outcome = integrate(system, Run(stop=1.25, every=0.01, engine="stepping", max_steps=10_000))
     assert outcome.ok, outcome.sentence
+
+
+SNATCHED = """
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 5 kg}
+      pad: {type: Contact, normal_force: 50 N, curve: 0.25}
+      rope: {type: Tether, stiffness: 2e5 N/m, length: 0.1 m}
+      hand: {type: MotionSource, velocity: {sine: {amplitude: 1 m/s, frequency: FREQUENCY}}}
+    connections:
+      - [floor.flange, pad.a]
+      - [block.flange, pad.b, rope.a]
+      - [rope.b, hand.flange]
+    run: {stop: 0.6 s, engine: ENGINE, accuracy: ACCURACY}
+    record: {signals: [block.x, block.v, rope.tension]}
+"""
+
+
+@pytest.mark.parametrize("frequency", ["1.3 Hz", "1.225 Hz", "2.3 Hz"])
+def test_a_rope_that_is_snatched_while_all_else_rests_is_seen(simulate, frequency):
+    """A long step may begin and end with a slack rope; one in which it comes taut must not push."""
+    scene = SNATCHED.replace("FREQUENCY", frequency)
+    exact = simulate(scene.replace("ENGINE", "rodas").replace("ACCURACY", "1e-7"))
+    found = simulate(scene.replace("ENGINE", "stepping").replace("ACCURACY", "1e-4"))
+    assert found["block.x"][-1] == pytest.approx(exact["block.x"][-1], rel=2e-2)
+    assert found["block.v"].min() > -1e-6
+
+
+def test_time_events_apart_by_a_rounding_are_one(simulate):
+    """A ramp ends at 0.2 + 0.5 s, the sample 140 of 5 ms lies one unit in the last place after it."""
+    scene = """
+        components:
+          floor: {type: Ground}
+          block: {type: Mass, mass: 4 kg}
+          pad: {type: Contact, normal_force: 40 N, curve: 0.3}
+          spring: {type: Spring, stiffness: 2e4 N/m}
+          act: {type: TorqueActuator}
+          rack: {type: Rack, radius: 0.1 m}
+          ref: {type: SignalSource, value: {ramp: {to: 1, start: 0.2 s, over: 0.5 s}}}
+          c: {type: PiController, gain: 0.1, integral_time: 0.05 s, period: 5 ms}
+        connections:
+          - [floor.flange, pad.a, spring.a]
+          - [block.flange, pad.b, spring.b, rack.rack]
+          - [rack.pinion, act.shaft]
+          - [ref.signal, c.reference]
+          - [spring.tension, c.measured]
+          - [c.command, act.torque]
+        run: {stop: 1 s, engine: ENGINE}
+    """
+    for engine in ("rodas", "stepping"):
+        assert simulate(scene.replace("ENGINE", engine)).run["sentence"] == "Reached t = 1 s."
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+@pytest.mark.parametrize("frequency", [0.78, 1.0, 1.5])
+def test_a_normal_force_that_swings_lets_go_though_nothing_else_moves(simulate, engine, frequency):
+    """1 kg under 3 N, held by up to 0.3 N(t): it slides while N is below 10 N, and until it has come to rest again."""
+    result = simulate(f"""
+        components:
+          floor: {{type: Ground}}
+          block: {{type: Mass, mass: 1 kg}}
+          pad: {{type: Contact, normal_force: 0 N, curve: 0.3}}
+          press: {{type: SignalSource, value: {{sine: {{amplitude: 15, frequency: {frequency} Hz, offset: 20}}}}}}
+          pull: {{type: ForceSource, force: 3 N}}
+        connections:
+          - [floor.flange, pad.a]
+          - [block.flange, pad.b, pull.flange]
+          - [press.signal, pad.normal]
+        run: {{stop: 5 s, engine: {engine}}}
+    """)
+    x = v = 0.0
+    for k in range(500_000):
+        grip = 0.3 * (20 + 15 * math.sin(2 * math.pi * frequency * k * 1e-5))
+        v = max(v + (3 - grip) * 1e-5, 0.0)
+        x += v * 1e-5
+    assert result["block.x"][-1] == pytest.approx(x, abs=1e-3)

@@ -171,7 +171,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     }  # fmt: skip
     memory = Memory(lengths, given_arrays(problem, tableau, plan))
     write_numbers(memory, {**sizes, "n_outputs": n_outputs, "dense": int(plan.dense)})
-    write_numbers(memory, settings(run, tableau))
+    write_numbers(memory, {**settings(run, tableau), "max_step": _longest_step(run, problem)})
     if run.engine == "stepping":
         write_numbers(memory, stepping_settings(run, problem))
         memory.array["controlled"][:] = controlled(problem)
@@ -245,7 +245,6 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
         "every": run.every or 0.0,
         "on_chatter": REACTIONS[run.on_chatter],
         "start": run.start, "t": run.start, "stop": run.stop,
-        "max_step": run.max_step,
         "first_step": run.first_step or 0.0,
         "h_next": run.fixed_step or 0.0,
         "step_floor": run.step_floor if run.step_floor is not None else 1e-18 * span,
@@ -272,6 +271,11 @@ def watched(problem: Problem) -> Integers:
     """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
     stiff = np.asarray(getattr(problem, "stiff", np.zeros(len(problem.initial))), dtype=bool) | np.isfinite(problem.cap)
     return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
+
+
+def _longest_step(run: Run, problem: Problem) -> float:
+    """What was set, and what the problem says; a fixed step is as it is."""
+    return run.max_step if run.fixed_step is not None else min(run.max_step, getattr(problem, "longest_step", np.inf))
 
 
 def controlled(problem: Problem) -> Integers:

@@ -33,7 +33,8 @@ For `stepping` it may say whether it is `linear` as long as the zones are frozen
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
 that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `beyond_row`
 names the machines whose switch changes more rows of J and M than the one they hold: these are evaluated then. And
-whether `at_time` takes `samples` of the unknowns: they are then made consistent before.
+whether `at_time` takes `samples` of the unknowns: they are then made consistent before. Any engine heeds its
+`longest_step`, s: what swings in time alone shows in no unknown while all rests.
 And `narrowing`, which tells what moves and cuts it out as a problem of its own that records for all (parts.py):
 
     possible                     whether that may be asked

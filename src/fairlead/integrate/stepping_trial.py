@@ -18,8 +18,6 @@ from math import inf, isfinite
 
 from fairlead.integrate.codes import (
     GO_ON,
-    MAX_EVENTS,
-    MAX_STEPS,
     REPLAN,
     SETTLE,
     SINGULAR_MATRIX,
@@ -27,18 +25,18 @@ from fairlead.integrate.codes import (
     UNSETTLED,
     WIDEN,
 )
-from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.controller import IDLE_ERROR, NO_BEND, step_after_rejection, weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.known_rows import forget_rows
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
-from fairlead.integrate.missed_impulse import impulse_is_missed
+from fairlead.integrate.missed_impulse import guards_are_passed, impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rows_between import prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
-from fairlead.integrate.trial import accept, not_finite_here, propose, smallest_step
+from fairlead.integrate.trial import accept, is_instant, not_finite_here, over_budget, propose, smallest_step
 
 STILL, HOLD_SHARE = 1e-2, 0.025
 """Where no position changes by more than this share of its weight, this share of the bend of a holding force
@@ -57,13 +55,15 @@ THETA_RISE, THETA_FALL = 0.05, 0.9
 @compiled
 def attempt_stepping(m):
     """One trial step: repeated with a shorter one, or accepted to its end."""
-    if m.steps >= m.max_steps:
-        return MAX_STEPS
-    if m.total_events >= m.max_events:
-        return MAX_EVENTS
+    spent = over_budget(m)
+    if spent != GO_ON:
+        return spent
     if m.adaptive == 0 and m.failed == 0 and m.seeking == 0:
         m.h_next = m.fixed_step
     h = propose(m)
+    if is_instant(m, h):
+        m.passes = 0
+        return GO_ON
     m.h = h
     m.skip_meters = 1
     choose_theta(m)
@@ -86,7 +86,7 @@ def attempt_stepping(m):
     m.error = error_of_step(m, h)
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject_error(m, h)
-    if m.adaptive == 1 and m.n_switched > 0 and m.retried < LANDINGS and impulse_is_missed(m, h):
+    if goes_past_switch(m, h):
         return end_at_switch(m)
     m.failed = max(m.failed - 1, 0)
     m.theta_raise = THETA_FALL * m.theta_raise if m.theta_raise > 1e-3 else 0.0
@@ -141,6 +141,18 @@ def reject_error(m, h):
     m.h_next = step_after_rejection(m, h)
     m.retried += 1
     return GO_ON if m.h_next >= smallest_step(m) else STEP_FLOOR
+
+
+@compiled
+def goes_past_switch(m, h):
+    """True if the step has to end at `t_switch`; a fixed one never has."""
+    if m.adaptive == 0:
+        return False
+    if m.n_switched > 0 and impulse_is_missed(m, h):
+        if m.retried >= LANDINGS:
+            m.t_switch = m.t + 0.5 * h
+        return True
+    return m.passes == 0 and m.error < IDLE_ERROR and guards_are_passed(m, h)
 
 
 @compiled

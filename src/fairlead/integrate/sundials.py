@@ -59,7 +59,7 @@ class SundialsLoop:
         self.memory, self.run = memory, run
         self.go_on = machine_code.compiled_loop("rodas")
         self.kernels = machine_code.compiled_sundials()
-        self.max_step = min(run.max_step, run.stop - run.start)
+        self.max_step = min(float(memory.number["max_step"]), run.stop - run.start)
         self.least_step = run.step_floor or 0.0
         self.max_order = 3 if len(problem.zones) >= MANY_MACHINES else 5
         self.solver = Solver(memory, self.kernels)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf, isfinite
 
 from fairlead.integrate.codes import (
+    ARRIVE,
     GO_ON,
     MAX_EVENTS,
     MAX_STEPS,
@@ -36,6 +37,9 @@ DOUBT = 0.1
 settled, does not in the step: the interpolant of a long step is rough at its start. To settle there again
 would change nothing, and the next step be as long."""
 
+INSTANT = 1e-13
+"""Share of the time, or of the span, below which two time events are one: in a step as short matrices are rounding."""
+
 STUBBORN = 6
 """Rejections in a row that call for `mend_point`."""
 
@@ -43,11 +47,12 @@ STUBBORN = 6
 @compiled
 def attempt(m):
     """One trial step: rejected, given up for a settlement at its start, or accepted up to `t_piece`."""
-    if m.steps >= m.max_steps:
-        return MAX_STEPS
-    if m.total_events >= m.max_events:
-        return MAX_EVENTS
+    spent = over_budget(m)
+    if spent != GO_ON:
+        return spent
     h = propose(m)
+    if is_instant(m, h):
+        return GO_ON
     m.h = h
     status = take_step(m, h)
     if status == INACCURATE:
@@ -82,6 +87,14 @@ def attempt(m):
 
 
 @compiled
+def over_budget(m):
+    """GO_ON, or which budget is used up."""
+    if m.steps >= m.max_steps:
+        return MAX_STEPS
+    return MAX_EVENTS if m.total_events >= m.max_events else GO_ON
+
+
+@compiled
 def propose(m):
     """The next step size: what control wants, clipped to land on the next time event or the stop."""
     m.t_land = min(m.stop, min(m.t_next, m.t_release))
@@ -95,6 +108,20 @@ def propose(m):
     if m.adaptive == 1 and h > 0.5 * rest:
         return 0.5 * rest
     return h
+
+
+@compiled
+def is_instant(m, h):
+    """True if the next time event is this very instant but for rounding: nothing moves until then."""
+    if m.landing == 0 or m.t_land >= m.stop or h > INSTANT * max(abs(m.t), m.stop - m.start):
+        return False
+    m.crossed = 0
+    m.t_piece = m.t_land
+    copy(reals(m.at_y, m.n), reals(m.at_y_piece, m.n))
+    copy(reals(m.at_y, m.n), reals(m.at_y_end, m.n))
+    copy(reals(m.at_g, m.n_guards), reals(m.at_g_end, m.n_guards))
+    m.phase = ARRIVE
+    return True
 
 
 @compiled

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -120,6 +121,19 @@ class System:
         in_mass = np.zeros(self.n, dtype=bool)
         in_mass[self.mass_pattern.rows] = True
         return sorted({self.machine_names[m] for m in self.holder[(self.holder >= 0) & ~in_mass]})
+
+    @property
+    def longest_step(self) -> float:
+        """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it."""
+        fastest = 0.0
+        for block in self.blocks:
+            names = block.kernel.structure.parameters
+            for k, name in enumerate(names):
+                wave, _, part = name.partition(":")
+                if part == "omega":
+                    swings = block.parameters[:, names.index(f"{wave}:amplitude")] != 0
+                    fastest = max(fastest, np.abs(block.parameters[swings, k]).max(initial=0.0))
+        return math.pi / (4 * fastest) if fastest else math.inf
 
     @property
     def samples(self) -> bool:
