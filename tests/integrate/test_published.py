@@ -86,6 +86,15 @@ def test_the_error_falls_with_the_accuracy(name, engine):
     assert errors[2] < errors[0] / 100
 
 
+@steps_in_vain
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-5])
+def test_stepping_is_not_held_up_by_ringing(accuracy):
+    """By the midpoint rule Robertson's problem took 600 000 steps here, and missed."""
+    case = published.robertson(accuracy)
+    outcome = solve(case.problem, case.stop, "stepping", first_step=case.first_step, max_steps=20_000)
+    assert case.error(outcome.y) < 2 * LOST * accuracy
+
+
 TENTH = [("ida", 1e-4, LOST), ("stepping", 1e-5, 1e4), ("stepping", 1e-6, 1e4)]
 
 

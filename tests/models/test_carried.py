@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import parts
-from fairlead.system import carried, probing
+from tests.models.part_and_whole import on_the_grid
 
 SCENE = """
     components:
@@ -64,20 +64,6 @@ CLASSES = '''
             return 400.0 * missing + 2000.0 * self.sum - 150.0
 
 '''
-
-
-@pytest.fixture
-def brief(monkeypatch):
-    """Little margin, so that much is woken and left out again in a short run."""
-    monkeypatch.setattr(carried, "KEPT_FREE", 4)
-    monkeypatch.setattr(probing, "NEAR", 0.5)
-
-
-def on_the_grid(result, name):
-    """Values [k] of a signal where no event was."""
-    grid = np.flatnonzero(np.isclose(result.t / 0.05, np.round(result.t / 0.05), atol=1e-7))
-    first = np.unique(np.round(result.t[grid] / 0.05), return_index=True)[1]
-    return np.asarray(result[name])[grid[first]]
 
 
 @pytest.mark.usefixtures("brief")

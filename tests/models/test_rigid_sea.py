@@ -6,7 +6,7 @@ import pytest
 from fairlead.analysis.laid_route import laid_routes
 from fairlead.analysis.switches import switches
 from fairlead.integrate import parts
-from fairlead.system import carried, probing
+from tests.models.part_and_whole import on_the_grid
 from tests.reference.hanging_line import drag_per_length
 
 START, SHIP, TAIL = 4.0, 3.0, 300.0  # m, m/s, N
@@ -48,20 +48,6 @@ def text(form="rigid, margin: 2 m", line=ROPE, speed=THERE_AND_BACK, stop=9, len
 def drag(flow):
     """Drag per length of the lines above [N/m]."""
     return drag_per_length(1025, 0.003, 0.085, flow)
-
-
-@pytest.fixture
-def brief(monkeypatch):
-    """Little margin, so that much is woken and left out again in a short run."""
-    monkeypatch.setattr(carried, "KEPT_FREE", 4)
-    monkeypatch.setattr(probing, "NEAR", 0.5)
-
-
-def on_the_grid(result, name):
-    """Values [k] of a signal where no event was."""
-    grid = np.flatnonzero(np.isclose(result.t / 0.05, np.round(result.t / 0.05), atol=1e-7))
-    first = np.unique(np.round(result.t[grid] / 0.05), return_index=True)[1]
-    return np.asarray(result[name])[grid[first]]
 
 
 def where_the_sea_begins(result, k):

@@ -180,6 +180,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
             memory.point(name, values, np.int64)
             if f"n_{name}" in (LAYOUT.names or ()):
                 memory.number[f"n_{name}"] = len(values)
+        memory.number["n_free_guards"] = _free_guards(memory)
         for name, kept in known_rows(problem).items():
             memory.point(name, kept, kept.dtype)
         memory.number["n_own_slopes"] = len(memory.array["own_slopes"])
@@ -271,6 +272,12 @@ def watched(problem: Problem) -> Integers:
     """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
     stiff = np.asarray(getattr(problem, "stiff", np.zeros(len(problem.initial))), dtype=bool) | np.isfinite(problem.cap)
     return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
+
+
+def _free_guards(memory: Memory) -> int:
+    """How many guards are not of contacts that may hold."""
+    machine = memory.array["guard_machine"]
+    return int(np.count_nonzero(memory.array["hold_row"][machine[machine >= 0]] < 0))
 
 
 def _longest_step(run: Run, problem: Problem) -> float:

@@ -46,7 +46,7 @@ INTEGERS = (
     # stepping only (known_rows.py): whether zones may not be those of J and M, in how many machines they differ, if
     # only known rows were exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
     "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row", "limits_vary",
-    "n_own_slopes", "n_own_masses", "n_known", "n_switched",
+    "n_own_slopes", "n_own_masses", "n_known", "n_switched", "n_free_guards",
     # counters, in the order of counters.COUNTS
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
     "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans", "partial_steps",

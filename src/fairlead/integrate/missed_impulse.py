@@ -16,14 +16,10 @@ zero between the start and the end the step would have without a switch.
 from __future__ import annotations
 
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.jumps import share
 from fairlead.integrate.meters import inertia_of
 from fairlead.integrate.overload import error_of_speed, response_of
-from fairlead.integrate.trial import smallest_step
 
-PARTS = 8
-"""In how many parts a step that its error does not limit is searched for guards that rise in it and fall again."""
 AT_ONCE = 1e-2
 """A switch within this share of a step happens at its start."""
 
@@ -64,28 +60,6 @@ def impulse_is_missed(m, h):
     first = min(first_turned(m, h), first_bent(m, h))
     m.t_switch = m.t + first * h
     return first < 1.0
-
-
-@compiled
-def guards_are_passed(m, h):
-    """True if a guard that is not of a contact that holds rises inside a step and has fallen by its end; to `t_switch`.
-
-    In a step that its error does not limit nothing may move but what is given, as a rope's other end.
-    """
-    y, y_end, probe = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_y_probe, m.n)
-    g, tolerance = reals(m.at_g_probe, m.n_guards), reals(m.at_guard_tolerance, m.n_guards)
-    machine, rows = indices(m.at_guard_machine, m.n_guards), indices(m.at_hold_row, m.n_zones)
-    for part in range(1, PARTS):
-        s = part / PARTS
-        for k in range(m.n):
-            probe[k] = y[k] + s * (y_end[k] - y[k])
-        evaluate_guards(m, m.t + s * h, m.at_y_probe, m.at_g_probe)
-        for i in range(m.n_guards):
-            if g[i] > tolerance[i] and machine[i] >= 0 and rows[machine[i]] < 0:
-                m.t_switch = m.t + s * h
-                m.worst = 0
-                return s * h > smallest_step(m)
-    return False
 
 
 @compiled

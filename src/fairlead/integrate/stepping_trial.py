@@ -25,18 +25,19 @@ from fairlead.integrate.codes import (
     UNSETTLED,
     WIDEN,
 )
-from fairlead.integrate.controller import IDLE_ERROR, NO_BEND, step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.known_rows import forget_rows
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
-from fairlead.integrate.missed_impulse import guards_are_passed, impulse_is_missed
+from fairlead.integrate.missed_impulse import impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.rows_between import prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.trial import accept, is_instant, not_finite_here, over_budget, propose, smallest_step
+from fairlead.integrate.unseen_guards import guards_are_passed
 
 STILL, HOLD_SHARE = 1e-2, 0.025
 """Where no position changes by more than this share of its weight, this share of the bend of a holding force
@@ -152,7 +153,7 @@ def goes_past_switch(m, h):
         if m.retried >= LANDINGS:
             m.t_switch = m.t + 0.5 * h
         return True
-    return m.passes == 0 and m.error < IDLE_ERROR and guards_are_passed(m, h)
+    return guards_are_passed(m, h)
 
 
 @compiled
@@ -160,7 +161,8 @@ def end_at_switch(m):
     """Repeat a step up to `t_switch`."""
     give_back_zones(m)
     m.rejected_error += 1
-    indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
+    if m.worst >= 0:
+        indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
     m.retried += 1
     m.h_next = m.t_switch - m.t
     return GO_ON
