@@ -13,7 +13,7 @@ For every mode the text has one loop over instances and, inside, one branch per 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import sympy
@@ -22,6 +22,7 @@ from sympy.printing.pycode import PythonCodePrinter
 from fairlead.component.piecewise import DEGREE, STRIDE
 from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, read_in_python, symbol
 from fairlead.system import layout
+from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
 
 HEAD = """def kernel(mode, block, start, stop, z, zones, tables, out):
@@ -345,34 +346,6 @@ class KernelText:
     def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
         pairs = zip(self.targets, self._target_values(zone), strict=True)
         return {t: sorted(s.name for s in v.free_symbols if s.name in self.inputs) for t, v in pairs if v is not None}
-
-
-def held_pairs(zones: Iterable[TracedZone]) -> dict[str, tuple[dict[str, float], float]]:
-    """Per unknown that holds: port -> coefficient of its speed in the slip, and the sense of its force.
-
-    Only if both are numbers, the same in every zone that holds, and the force takes from every port in
-    proportion to that coefficient, so that its power is force times slip: then it is known how several of
-    them share a load (`sharing.py`).
-    """
-    found: dict[str, list[tuple[dict[str, float], float] | None]] = {}
-    for zone in zones:
-        for unknown, row in zone.holds.items():
-            found.setdefault(unknown, []).append(_held_pair(zone, unknown, row.rates))
-    return {u: all_[0] for u, all_ in found.items() if all_[0] is not None and all(one == all_[0] for one in all_)}
-
-
-def _held_pair(
-    zone: TracedZone, unknown: str, rates: Mapping[str, sympy.Expr]
-) -> tuple[dict[str, float], float] | None:
-    speeds = {key.split(":")[1]: rate for key, rate in rates.items()}
-    taken = {port: sympy.diff(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
-    taken = {port: value for port, value in taken.items() if value != 0}
-    if taken.keys() != speeds.keys() or not all(v.is_Number for v in (*taken.values(), *speeds.values())):
-        return None
-    senses = {taken[port] / speed for port, speed in speeds.items()}
-    if len(senses) != 1:
-        return None
-    return {port: float(speed) for port, speed in speeds.items()}, float(senses.pop())
 
 
 def _is_coefficient(symbol_: sympy.Symbol) -> bool:
