@@ -47,6 +47,18 @@ def test_elements_that_nobody_can_wait_for(scene):
     assert "Make them at least 0.001 m." in text
 
 
+def test_contacts_missed_for_a_mistake_in_a_station_are_not_told_as_well(scene):
+    """The signal of another component that no signal has is, though."""
+    wrong = scene_of([BEND.replace("radius: 1 m", "radius: 1 kg")])
+    with pytest.raises(ModelError) as caught:
+        scene(wrong + "record: {signals: ['rope.outer[*].slip', haul.forc]}\n").check()
+    text = str(caught.value)
+    assert "stations[0].radius = 1 kg is a mass, not a length" in text
+    assert "rope.outer" not in text
+    assert "record: no signal has the name haul.forc. Did you mean haul.force?" in text
+    assert len(caught.value.faults) == 2
+
+
 def test_two_devices_of_one_name(scene):
     later = "{name: bend, type: Guide, start: 6 m, length: 1 m, friction: 0.3}"
     assert "2 devices are called bend" in told(scene, [BEND.replace("{", "{name: bend, "), later])

@@ -57,7 +57,8 @@ def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
 def _excused(assembly: Assembly, pattern: str) -> bool:
     """True when the name may be one of a component that could not be made, or of its contacts with one."""
     first = re.split(r"[.\[]", pattern)[0]
-    routed = {path for one, two, _ in assembly.routings for path in (one, two)}
+    laid = [(one, two) for one, two, _ in assembly.routings if not {one, two} & assembly.stand_ins]
+    routed = {path for both in laid for path in both}
     if first in {path.split(".")[0] for path in assembly.lines if path not in routed}:
         return True
     return bool(assembly.broken) and (first in assembly.broken or any(c in first for c in "*?"))
