@@ -48,7 +48,7 @@ def test_what_is_paid_out_is_hauled_back(route):
 
 
 def test_every_joule_is_accounted_for(route):
-    assert route.run["energy"]["closure"] < 1e-6
+    assert route.run["energy"]["closure"] < 1e-5  # at accuracy 1e-3
 
 
 @pytest.fixture(scope="module")

@@ -35,7 +35,8 @@ def _framework() -> str:
     here = pathlib.Path(__file__).parent
     files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
     files += [
-        here.parent / "system" / n for n in ("kernels.py", "kernel_text.py", "lowering.py", "layout.py", "structure.py")
+        here.parent / "system" / n
+        for n in ("kernels.py", "kernel_text.py", "held_pairs.py", "lowering.py", "layout.py", "structure.py")
     ]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 

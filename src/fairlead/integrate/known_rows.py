@@ -134,10 +134,9 @@ def linear_part(m, z):
     y, y_end, differential = reals(m.at_y, m.n), reals(m.at_y_end, m.n), indices(m.at_differential, m.n)
     starts, entries = indices(m.at_own_slope_starts, m.n_zones + 1), indices(m.at_own_slopes, m.n_own_slopes)
     columns, values, total = indices(m.at_own_slope_columns, m.n_own_slopes), reals(m.at_jacobian, m.n_jacobian), 0.0
-    before, back = reals(m.at_slope_before, m.n), m.look_back * m.h
     for e in range(starts[z], starts[z + 1]):
         k = columns[e]
-        u = y_end[k] if differential[k] == 0 else y[k] + m.theta_now * (y_end[k] - y[k]) - back * before[k]
+        u = y_end[k] if differential[k] == 0 else y[k] + m.theta_now * (y_end[k] - y[k])
         total += values[entries[e]] * u
     return total
 

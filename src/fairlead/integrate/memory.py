@@ -38,7 +38,7 @@ INTEGERS = (
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
-    "n_quadratures", "rows_slip", "samples",
+    "n_quadratures", "rows_slip", "samples", "block_steps",
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that
     "searched", "midway", "replanned",
@@ -60,10 +60,10 @@ NUMBERS = (
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
     "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
-    # stepping only: theta asked for, its rise when zones cycle, theta in force and how far its point leans on the step
-    # before, the step asked for, distances of the slopes remembered
-    "least_theta", "theta_raise", "theta_now", "look_back", "factored_theta", "fixed_step", "gap", "gap_before",
-    "t_jump", "t_switch",
+    # stepping only: theta asked for, its rise when zones cycle, theta in force, the step asked for, distances of the
+    # slopes remembered, what was allowed in the last steps (steady_steps.py)
+    "least_theta", "theta_raise", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
+    "t_jump", "t_switch", "allowed", "allowed_before",
 )  # fmt: skip
 """Real numbers of the struct."""
 

@@ -188,8 +188,8 @@ class Run:
     by SUNDIALS, every switch located (sundials.py), which needs scikit-sundae."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
     """Of `rodas`."""
-    theta: float = 0.51
-    """Of `stepping`, from 1/2 (the midpoint rule, no damping) to 1; 9/16 damps what is stiff for a step the most."""
+    theta: float = 0.5
+    """Of `stepping`: 1/2, of order three (third_order.py); above it, up to 1, the theta rule alone, of order one."""
     first_step: float | None = None
     max_step: float = np.inf
     fixed_step: float | None = None

@@ -6,6 +6,7 @@ from math import isfinite
 
 from fairlead.integrate.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.linear import add_mass_times
+from fairlead.integrate.third_order import MIDDLE
 
 PASSED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved."""
@@ -15,10 +16,9 @@ PASSED = 1e-3
 def theta_point(m):
     """Into `u`: where the laws are evaluated."""
     y, y_end, u = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_u, m.n)
-    before, back = reals(m.at_slope_before, m.n), m.look_back * m.h
     differential, theta = indices(m.at_differential, m.n), m.theta_now
     for k in range(m.n):
-        u[k] = y[k] + theta * (y_end[k] - y[k]) - back * before[k] if differential[k] == 1 else y_end[k]
+        u[k] = y[k] + theta * (y_end[k] - y[k]) if differential[k] == 1 else y_end[k]
 
 
 @compiled
@@ -30,10 +30,10 @@ def residual_of_step(m, h, may_be_last):
     """
     n = m.n
     theta_point(m)
-    if may_be_last and m.n_quadratures > 0:
-        field_at(m.call_rhs, (m.context, m.t + (m.theta_now - m.look_back) * h, m.at_u, m.at_f))
+    if may_be_last and m.n_quadratures > 0 and m.theta_now != MIDDLE:
+        field_at(m.call_rhs, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
     else:
-        field_at(m.call_forces, (m.context, m.t + (m.theta_now - m.look_back) * h, m.at_u, m.at_f))
+        field_at(m.call_forces, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
     m.rhs += 1
     y, y_end, v, b, f = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_v, n), reals(m.at_b, n), reals(m.at_f, n)
     differential, holds = indices(m.at_differential, n), indices(m.at_holds, n)

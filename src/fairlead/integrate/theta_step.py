@@ -1,15 +1,12 @@
 """One step of nonsmooth time stepping: the zones are unknowns of the step (after Moreau 1988).
 
-    rows with mass     M (y1 - y0)/h = f(t0 + h/2, u, a)
-    algebraic rows                 0 = f(t0 + h/2, u, a)        u = y0 + theta (y1 - y0) - beta h y0'
-    held contacts                  0 = slip(t0 + h, y1)         beta = theta - 1/2
+    rows with mass     M (y1 - y0)/h = f(t0 + theta h, u, a)
+    algebraic rows                 0 = f(t0 + theta h, u, a)        u = y0 + theta (y1 - y0)
+    held contacts                  0 = slip(t0 + h, y1)
 
-y are the differential unknowns, y0' the mean slope of the step before, a the algebraic unknowns: forces of contacts,
-means over the step. theta = 1/2 is the implicit midpoint rule, which leaves modes that are stiff for the step
-ringing from step to step for ever. Above it they die away, by the larger |z| of theta z^2 + (3/2 - 2 theta) z + beta
-= 0 in every step (0.92 with theta = 0.51; 1/3, the least there is, with 9/16), at the same order 2: u is a mean of
-three ends about the middle of the step (after Ascher, Ruuth and Wetton, SIAM J. Numer. Anal. 32:797, 1995, here with
-one evaluation and steps that vary). Its error is 1 + 12 beta times that of the midpoint rule. A guard reads what its
+y are the differential unknowns, a the algebraic ones: forces of contacts, means over the step. theta = 1/2 is the
+implicit midpoint rule, of order two, which third_order.py makes one of order three that damps what is stiff;
+theta above 1/2, of order one, is taken where zones cycle. A guard reads what its
 law reads: slips at the end of the step, forces and their limits at the point u. So a contact that holds and one
 that slides are the two branches of |force| <= limit, slip at the end = 0 or against the force: a complementarity
 problem. It is solved by an active set (active_set.py): solve with the zones frozen, switch those whose guards are
@@ -35,6 +32,7 @@ from fairlead.integrate.line_search import GIVEN_UP, MOST_SEARCHED, SEARCHED, re
 from fairlead.integrate.linear import DONE, INACCURATE, factorise_step, solve
 from fairlead.integrate.missed_impulse import forget_switches, note_switches
 from fairlead.integrate.step_residual import PASSED, move_end, residual_of_step, scaled_residual, theta_point
+from fairlead.integrate.third_order import MIDDLE
 
 CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
 SLOW = 0.01
@@ -208,7 +206,7 @@ def evaluate_slopes(m, h):
     """M and J of the zones in force, at the theta point."""
     mass_at(m.call_mass, (m.context, m.at_mass))
     theta_point(m)
-    jacobian_at(m.call_slopes, (m.context, m.t + (m.theta_now - m.look_back) * h, m.at_u, m.at_jacobian, m.at_ft))
+    jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
     m.jacobians += 1
     find_holds(m)
     if m.dense == 0:
@@ -262,7 +260,7 @@ def guards_of_step(m, h):
     if m.has_limits == 0 or (constant and m.one_by_one == 0 and (m.passes > 0 or m.steps % LOOK_AT_LIMITS != 0)):
         return
     theta_point(m)
-    evaluate_guards(m, m.t + (m.theta_now - m.look_back) * h, m.at_u, m.at_g_probe)
+    evaluate_guards(m, m.t + m.theta_now * h, m.at_u, m.at_g_probe)
     g, at_theta, is_limit = (
         reals(m.at_g_end, m.n_guards), reals(m.at_g_probe, m.n_guards), indices(m.at_limit_guard, m.n_guards),
     )  # fmt: skip
@@ -277,9 +275,9 @@ def guards_of_step(m, h):
 @compiled
 def add_quadratures(m, h):
     """The rise of the quadratures over the step that was taken; the iteration leaves them out."""
-    if m.n_quadratures > 0:
+    if m.n_quadratures > 0 and m.theta_now != MIDDLE:
         theta_point(m)
-        field_at(m.call_rhs, (m.context, m.t + (m.theta_now - m.look_back) * h, m.at_u, m.at_f))
+        field_at(m.call_rhs, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
         m.rhs += 1
         move_quadratures(m, h)
 

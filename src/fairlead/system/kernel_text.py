@@ -6,14 +6,14 @@ For every mode the text has one loop over instances and, inside, one branch per 
         for i in range(start, stop):
             zone = zones[ms[i*1]]
             if zone == 1:
-                u0 = zc[i*4+0]*z[zi[i*4+0]] + zo[i*4+0]
+                u0 = zc[i*cs+0]*z[zi[i*4+0]] + zo[i*os+0]
                 ...
-                out[fi[i*2+0]] += fc[i*2+0]*(-p0*(u2 - u0))
+                out[fi[i*2+0]] += fc[i*fs+0]*(-p0*(u2 - u0))
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import sympy
@@ -22,13 +22,17 @@ from sympy.printing.pycode import PythonCodePrinter
 from fairlead.component.piecewise import DEGREE, STRIDE
 from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, read_in_python, symbol
 from fairlead.system import layout
+from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
 
 HEAD = """def kernel(mode, block, start, stop, z, zones, tables, out):
     par = f8(block[{PAR}]); zi = i8(block[{IN_INDEX}]); zc = f8(block[{IN_COEF}]); zo = f8(block[{IN_OFFSET}])
     ms = i8(block[{MACHINES}]); tb = i8(block[{TABLE_BASE}]); si = i8(block[{SIG_INDEX}])
     fi = i8(block[{FLOW_INDEX}]); fc = f8(block[{FLOW_COEF}]); li = i8(block[{LEDGER_INDEX}])
+    cs = block[{IN_COEF_STEP}]; os = block[{IN_OFFSET_STEP}]; fs = block[{FLOW_COEF_STEP}]
 """
+WORTH = 2
+"""Inputs that need not be read where a table is zero, from which on that is looked at."""
 COEFFICIENT = {"left": 0, "right": 1, **{str(k): k + 2 for k in range(DEGREE + 2)}}
 
 Statement = tuple[str, sympy.Expr]  # text with {} for the value
@@ -106,7 +110,7 @@ class KernelText:
     def _flows(self, zone: TracedZone) -> list[Statement]:
         f = len(self.targets)
         return [
-            (f"out[fi[i*{f}+{k}]] += fc[i*{f}+{k}]*({{}})", value)
+            (f"out[fi[i*{f}+{k}]] += fc[i*fs+{k}]*({{}})", value)
             for k, value in enumerate(self._target_values(zone))
             if value is not None and value != 0
         ]
@@ -208,8 +212,32 @@ class KernelText:
             if many:
                 lines.append(f"            if zone == {number}:")
             pad = " " * (16 if many else 12)
-            lines += [pad + line for line in self._body(body)]
+            lines += [pad + line for line in self._branches(body)]
         return "\n".join(lines) + "\n"
+
+    def _branches(self, statements: list[Statement]) -> list[str]:
+        """The body of one zone; and, for a table that is zero in this piece, one without all that it multiplies.
+
+        So a node of a line outside its device costs no more than the look at its window.
+        """
+        factors = {s for _, e in statements for s in e.free_symbols if _is_coefficient(s)}
+        rest = [(place, e.xreplace(dict.fromkeys(factors, sympy.S.Zero))) for place, e in statements]
+        if len(self.traced.tables) != 1 or self._count_inputs(statements) < self._count_inputs(rest) + WORTH:
+            return self._body(statements)
+        rows = [f"tables[{self._piece(0)} + {COEFFICIENT[str(k)]}] == 0" for k in range(1, DEGREE + 2)]
+        return [
+            "full = 1", f"if {' and '.join(rows)}:", "    full = 0",
+            "if full == 0:", *("    " + line for line in self._body(rest)),
+            "if full == 1:", *("    " + line for line in self._body(statements)),
+        ]  # fmt: skip
+
+    def _count_inputs(self, statements: list[Statement]) -> int:
+        return len({s for _, e in statements for s in e.free_symbols if s.name in self.inputs})
+
+    def _piece(self, table: int) -> str:
+        """Where in `tables` the piece of a table begins that is in force."""
+        machine = self.machines - len(self.traced.tables) + table
+        return f"tb[i*{len(self.traced.tables)}+{table}] + {STRIDE}*zones[ms[i*{self.machines}+{machine}]]"
 
     def _body(self, statements: list[Statement]) -> list[str]:
         """Loads, shared subexpressions and stores of one zone."""
@@ -238,21 +266,19 @@ class KernelText:
         return names
 
     def _loads(self, names: dict[sympy.Symbol, sympy.Symbol]) -> list[str]:
-        inputs, parameters, tables = len(self.inputs), len(self.parameters), self.traced.tables
+        inputs, parameters = len(self.inputs), len(self.parameters)
         lines, opened = [], set()
         for name in (n.name for n in names.values()):
             number = name[1:]
             if name[0] == "u":
-                lines.append(f"{name} = zc[i*{inputs}+{number}]*z[zi[i*{inputs}+{number}]] + zo[i*{inputs}+{number}]")
+                lines.append(f"{name} = zc[i*cs+{number}]*z[zi[i*{inputs}+{number}]] + zo[i*os+{number}]")
             elif name[0] == "p":
                 lines.append(f"{name} = par[i*{parameters}+{number}]")
             else:
                 table, what = number.split("_")
                 if table not in opened:
                     opened.add(table)
-                    machine = self.machines - len(tables) + int(table)
-                    piece = f"zones[ms[i*{self.machines}+{machine}]]"
-                    lines.append(f"b{table} = tb[i*{len(tables)}+{table}] + {STRIDE}*{piece}")
+                    lines.append(f"b{table} = {self._piece(int(table))}")
                 lines.append(f"{name} = tables[b{table} + {COEFFICIENT[what]}]")
         return lines
 
@@ -322,32 +348,10 @@ class KernelText:
         return {t: sorted(s.name for s in v.free_symbols if s.name in self.inputs) for t, v in pairs if v is not None}
 
 
-def held_pairs(zones: Iterable[TracedZone]) -> dict[str, tuple[dict[str, float], float]]:
-    """Per unknown that holds: port -> coefficient of its speed in the slip, and the sense of its force.
-
-    Only if both are numbers, the same in every zone that holds, and the force takes from every port in
-    proportion to that coefficient, so that its power is force times slip: then it is known how several of
-    them share a load (`sharing.py`).
-    """
-    found: dict[str, list[tuple[dict[str, float], float] | None]] = {}
-    for zone in zones:
-        for unknown, row in zone.holds.items():
-            found.setdefault(unknown, []).append(_held_pair(zone, unknown, row.rates))
-    return {u: all_[0] for u, all_ in found.items() if all_[0] is not None and all(one == all_[0] for one in all_)}
-
-
-def _held_pair(
-    zone: TracedZone, unknown: str, rates: Mapping[str, sympy.Expr]
-) -> tuple[dict[str, float], float] | None:
-    speeds = {key.split(":")[1]: rate for key, rate in rates.items()}
-    taken = {port: sympy.diff(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
-    taken = {port: value for port, value in taken.items() if value != 0}
-    if taken.keys() != speeds.keys() or not all(v.is_Number for v in (*taken.values(), *speeds.values())):
-        return None
-    senses = {taken[port] / speed for port, speed in speeds.items()}
-    if len(senses) != 1:
-        return None
-    return {port: float(speed) for port, speed in speeds.items()}, float(senses.pop())
+def _is_coefficient(symbol_: sympy.Symbol) -> bool:
+    """True for what multiplies the powers in a piece of a table."""
+    kind, _, what = symbol_.name.rpartition(":")
+    return kind.startswith("T:") and what.isdigit() and int(what) > 0
 
 
 def _is_late(value: Any) -> bool:

@@ -32,7 +32,10 @@ D_LEDGER = 12
 D_MASS = 13
 GUARDS = 14  # offset into the guard vector
 OUTPUTS = 15  # offset into the vector of all outputs
-BLOCK = 16
+IN_COEF_STEP = 16  # numbers from one instance to the next in IN_COEF: NI, or 0 where all have those of the first
+IN_OFFSET_STEP = 17  # the same in IN_OFFSET
+FLOW_COEF_STEP = 18  # the same in FLOW_COEF
+BLOCK = 19
 
 # What a kernel is asked to do. `out` is z for SIGNALS, w for FLOWS, LEDGER, SLIP and DRIFT, else the vector named.
 # Partial derivatives that are one number in all zones, whatever the inputs, are asked for once: FIXED_.

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fairlead.system import layout
-from fairlead.system.blocks import Block, Memory
+from fairlead.system.blocks import Block, Floats, Memory
 
 FIRST_PARTIAL = 1  # the vector of partial derivatives begins with a constant 1
 
@@ -46,4 +46,10 @@ def rows(blocks: Sequence[Block], shares_: Sequence[Share], end: Share) -> Memor
                   block.sig_index, block.flow_index, block.flow_coef, block.ledger_index)  # fmt: skip
         row[: len(arrays)] = [array.ctypes.data for array in arrays]
         row[layout.D_SIGNALS : layout.D_SIGNALS + len(share)] = share
+        row[layout.IN_COEF_STEP :] = [_step(a) for a in (block.in_coef, block.in_offset, block.flow_coef)]
     return {"blocks": table, "partials": np.ones(end.mass), "outputs_all": np.zeros(end.outputs)}
+
+
+def _step(table: Floats) -> int:
+    """Numbers from one instance to the next; 0 where all have the same: the kernel then reads those of the first."""
+    return 0 if bool((table == table[:1]).all()) else int(table.shape[1])
