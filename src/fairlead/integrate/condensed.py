@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from fairlead.integrate.condensing import FROM_JACOBIAN, FROM_MASS
 from fairlead.integrate.foreign import compiled, copy, indices, reals
-from fairlead.integrate.sparse import backward_error, factorise_columns, mark_users, scale_rows, substitute
+from fairlead.integrate.perturbed_pivots import factorise_columns, substitute
+from fairlead.integrate.sparse import backward_error, mark_users, scale_rows
 
 REFILL = 0.3
 """With more than this share of the columns changed, all are done."""

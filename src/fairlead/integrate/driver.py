@@ -14,6 +14,7 @@ from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
 from fairlead.integrate.neighbours import held_entries, known_rows, neighbours, what_is_held
 from fairlead.integrate.parts import NEVER_LOOK, Scope
+from fairlead.integrate.perturbed_pivots import MOST_PERTURBED
 from fairlead.integrate.protocol import (
     CALLBACKS,
     Block,
@@ -152,6 +153,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
     n, ng, nz = len(problem.initial), len(problem.guard_machine), len(problem.zones)
     n_outputs = problem.n_outputs if problem.callbacks.get("outputs") else n
     plan = ordering.plan(problem)
+    most_perturbed = MOST_PERTURBED if run.engine == "stepping" and not plan.dense else 0
     rows = max(64, min(65536, BLOCK_NUMBERS // max(n_outputs, 1)))
     events = max(4096, 4 * (nz + ng))
     s = tableau.stages
@@ -166,11 +168,13 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
         "passes": passes_allowed(run, nz) + 1, "n_zones_plus_1": nz + 1,
         "n_neighbours": 0, "n_hold_mass": 0, "n_hold_slope": 0, "n_hold_share": 0,
         "n_own_slopes": 0, "n_own_masses": 0, "no_own": 0,
+        "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
+        "perturbed_core": most_perturbed * plan.lengths["n_core"],
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
     memory = Memory(lengths, given_arrays(problem, tableau, plan))
-    write_numbers(memory, {**sizes, "n_outputs": n_outputs, "dense": int(plan.dense)})
+    write_numbers(memory, {**sizes, "n_outputs": n_outputs, "dense": int(plan.dense), "most_perturbed": most_perturbed})
     write_numbers(memory, {**settings(run, tableau), "max_step": _longest_step(run, problem)})
     if run.engine == "stepping":
         write_numbers(memory, stepping_settings(run, problem))

@@ -12,7 +12,7 @@ from __future__ import annotations
 from fairlead.integrate.condensed import factorise_marked, mark
 from fairlead.integrate.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.known_rows import CONSTANT, forget_rows, residual_of_row, row_holds, row_of, take_row
-from fairlead.integrate.sparse import substitute
+from fairlead.integrate.perturbed_pivots import substitute
 
 ROUNDING = 1e-14
 """A slip that may be left of two speeds of one m/s."""

@@ -31,7 +31,7 @@ INTEGERS = (
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # the core of W: which matrix is factored there, whether its factors are good, columns of the last factorisation
-    "core_kind", "core_valid", "skip_meters", "n_redone",
+    "core_kind", "core_valid", "skip_meters", "n_redone", "n_perturbed", "most_perturbed",
     # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
     # part, whether its rim has changed
     "narrow_at", "narrowed", "woken",
@@ -77,6 +77,8 @@ VECTORS = {
     # stepping only: mean slopes of this step, of the one before and of the one before that
     "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "move": "n", "patterns_met": "passes",
     "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
+    "perturbation": "n_core", "perturbed_columns": "perturbed_core", "capacitance": "perturbed_square",
+    "handed": "most_perturbed",
     "pivot": "n_core", "jacobian_used": "n_jacobian", "mass_used": "n_mass", "core_x": "n_core", "core_b": "n_core",
     "core_residual": "n_core", "position_ratio": "n_positions", "position_share": "n_positions",
     "meter_share": "n_meters",
@@ -127,7 +129,7 @@ INDICES = {
     "row_order": "n_core", "column_order": "n_core", "matrix_starts": "n_core_plus_1", "matrix_rows": "n_matrix",
     "lower_starts": "n_core_plus_1", "lower_rows": "n_lower", "upper_starts": "n_core_plus_1", "upper_rows": "n_upper",
     "using_starts": "n_core_plus_1", "using_columns": "n_upper", "row_place": "n", "waiting": "n_core",
-    "pivot_rows": "n", "dirty": "n_core",
+    "pivot_rows": "n", "dirty": "n_core", "perturbed": "most_perturbed", "capacitance_order": "most_perturbed",
     # what J and M put into each column of the core, and what follows from the core
     "entry_starts": "n_core_plus_1", "entry_source": "n_entries", "entry_place": "n_entries", "entry_kind": "n_entries",
     "jacobian_column": "n_jacobian", "mass_column": "n_mass",

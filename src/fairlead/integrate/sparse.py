@@ -7,6 +7,8 @@ patterns of L and U known, as KLU does when it refactorises (Davis, Palamadai Na
 
 from __future__ import annotations
 
+from math import isfinite
+
 from fairlead.integrate.foreign import compiled, indices, reals
 
 GROWTH_LIMIT = 1e8
@@ -21,8 +23,11 @@ solution would count as an error (a chain that came to rest once ended a run as 
 
 
 @compiled
-def factorise_columns(m):
-    """Refactorise the columns marked `dirty`, `n_redone`, and unmark them; 0 done, 2 a pivot is not to be trusted."""
+def factorise_planned(m):
+    """Refactorise the columns marked `dirty`, `n_redone`, and unmark them; 0 done, 2 a pivot is not to be trusted.
+
+    Up to `most_perturbed` pivots are perturbed instead (perturbed_pivots.py).
+    """
     n = m.n_core
     starts, rows = indices(m.at_matrix_starts, n + 1), indices(m.at_matrix_rows, m.n_matrix)
     values = reals(m.at_matrix, m.n_matrix)
@@ -31,13 +36,16 @@ def factorise_columns(m):
     lower_rows, upper_rows = indices(m.at_lower_rows, n_lower), indices(m.at_upper_rows, n_upper)
     lower, upper = reals(m.at_lower, n_lower), reals(m.at_upper, n_upper)
     pivot, x = reals(m.at_pivot, n), reals(m.at_factor_work, n)
-    dirty, scale = indices(m.at_dirty, n), reals(m.at_row_scale, n)
+    dirty, scale, added = indices(m.at_dirty, n), reals(m.at_row_scale, n), reals(m.at_perturbation, n)
     m.n_redone = 0
     for k in range(n):
         if dirty[k] == 0:
             continue
         dirty[k] = 0
         m.n_redone += 1
+        if added[k] != 0.0:
+            added[k] = 0.0
+            m.n_perturbed -= 1
         first, last = upper_starts[k], upper_starts[k + 1]
         for p in range(first, last):
             x[upper_rows[p]] = 0.0
@@ -58,8 +66,14 @@ def factorise_columns(m):
         for p in range(below, end):
             largest = max(largest, abs(x[lower_rows[p]]) * scale[lower_rows[p]])
         if not (abs(x[k]) > 0.0 and largest <= GROWTH_LIMIT * abs(x[k]) * scale[k]):
-            m.culprit = indices(m.at_column_order, n)[k]
-            return 2
+            unknown = indices(m.at_column_order, n)[k]
+            if m.n_perturbed >= m.most_perturbed or not (isfinite(x[k]) and isfinite(largest)):
+                m.culprit = unknown
+                return 2
+            added[k] = max(largest, 1.0 / reals(m.at_column_scale, m.n)[unknown]) / scale[k]
+            added[k] = -added[k] if x[k] < 0.0 else added[k]
+            x[k] += added[k]
+            m.n_perturbed += 1
         inverse = 1.0 / x[k]
         pivot[k] = inverse
         for p in range(below, end):
@@ -101,7 +115,7 @@ def scale_rows(m):
 
 
 @compiled
-def substitute(m, at_x):
+def substitute_planned(m, at_x):
     """Overwrite the right side at `at_x`, in pivot order, with the solution, by the factors."""
     n = m.n_core
     lower_starts, upper_starts = indices(m.at_lower_starts, n + 1), indices(m.at_upper_starts, n + 1)
