@@ -27,7 +27,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("two blocks on a belt that are shaken, 1e-9", "stepping", "hold", METERED),
     ("unit rescaled, lengths x 1e-2", "stepping", "hold", METERED),
     ("steep falling curve, tustin *", "stepping", "hold", MIDPOINT),
-    ("steep falling curve, stribeck over 1e-07 m/s", "stepping", "hold", MIDPOINT),
+    ("steep falling curve, stribeck over 1e-0[57] m/s", "stepping", "hold", MIDPOINT),
     ("mirrored blocks stay mirrored, falling curve", "stepping", "hold", MIDPOINT),
     ("time constants over ten decades", "stepping", "hold", MIDPOINT),
     ("steep falling curve, tustin over 1e-0[57] m/s", "ida", "[hb]*", CAUSE),

@@ -13,6 +13,8 @@ from __future__ import annotations
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals, switch_at
 from fairlead.integrate.guards import evaluate_guards
 
+SMOOTH, JUMPS_SOMEWHERE = 1, 2
+"""What `kind_is_smooth` says of a kind of contact, but for 0: nothing was seen of it yet."""
 LOCATING = 6
 """Evaluations spent on the place where a guard comes to zero (Illinois rule)."""
 
@@ -48,11 +50,24 @@ def law_jumps(m, h):
     for k in range(count):
         i = suspects[k]
         if may_jump[i] == 1 and (machine[i] < 0 or known[i] != zones[machine[i]] + 1):
-            if jumps_at_guard(m, h, i):
+            jumps = jumps_at_guard(m, h, i)
+            note_kind(m, machine[i], jumps)
+            if jumps:
                 return True
             if machine[i] >= 0:
                 known[i] = zones[machine[i]] + 1
     return False
+
+
+@compiled
+def note_kind(m, z, jumps):
+    """Remember of the kind of machine z whether its laws are continuous where seen; one that jumps speaks for all."""
+    if z >= 0:
+        smooth, kind = indices(m.at_kind_is_smooth, m.n_zones), indices(m.at_own_kind, m.n_zones)[z]
+        if jumps:
+            smooth[kind] = JUMPS_SOMEWHERE
+        elif smooth[kind] != JUMPS_SOMEWHERE:
+            smooth[kind] = SMOOTH
 
 
 @compiled

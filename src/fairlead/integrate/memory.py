@@ -107,7 +107,7 @@ INDICES = {
     "controlled": "n", "position_of": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
     "held_position": "n_zones", "held_speed": "n_zones",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",
-    "may_jump": "n_guards", "suspects": "n_guards",
+    "may_jump": "n_guards", "suspects": "n_guards", "kind_is_smooth": "n_zones",
     "zones_probed": "n_zones", "first_guard": "n_zones", "met": "n_zones",
     "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones", "switched": "n_zones",
     "neighbour_starts": "n_zones_plus_1", "neighbours": "n_neighbours",

@@ -44,9 +44,6 @@ from fairlead.integrate.unseen_guards import guards_are_passed
 STILL, HOLD_SHARE = 1e-2, 0.025
 """Where no position changes by more than this share of its weight, this share of the bend of a holding force
 counts as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
-ONCE = 10.0
-"""Weights that what one contact hides may come to: it does so when it lets go, where a step's own error comes in every
-step. With one weight a chain of 100 took 1.4 times the steps at accuracy 1e-5, to the same error."""
 ROUGH = 4.0
 """Rows inside a step lie on a parabola where the motion is smooth, on the chord where its bend grows faster than this
 or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were."""
@@ -246,7 +243,7 @@ def error_of_step(m, h):
                 error[k] = third * (curve - curve_before)
         else:
             slope[k] = (y_end[k] - y[k]) * per_near
-    size = max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h) / ONCE)
+    size = max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
     if m.passes > 0:
         size = max(size, unseen_force(m, h))
     if m.passes > 0 or moves(m):
