@@ -82,11 +82,12 @@ def mechanical_network(rng, bodies, contacts):
     return problem, matrices
 
 
-def memory_for(problem, plan):
-    n = len(problem.initial)
+def memory_for(problem, plan, perturbed=0):
+    n, core = len(problem.initial), plan.lengths["n_core"]
     lengths = dict.fromkeys([*VECTORS.values(), *INDICES.values()], 1) | {
         "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows), **plan.lengths,
-        "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
+        "n_core_plus_1": core + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
+        "most_perturbed": perturbed, "perturbed_square": perturbed**2, "perturbed_core": perturbed * core,
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_lower": len(plan.arrays.get("lower_rows", ())),
         "n_upper": len(plan.arrays.get("upper_rows", ())),
@@ -99,7 +100,7 @@ def memory_for(problem, plan):
         "quadrature": problem.quadrature.astype(np.int64), **plan.arrays,
     }  # fmt: skip
     memory = Memory(lengths, given)
-    for name in ("n", "n_jacobian", "n_mass", "n_matrix", *plan.lengths):
+    for name in ("n", "n_jacobian", "n_mass", "n_matrix", "most_perturbed", *plan.lengths):
         memory.number[name] = lengths[name]
     memory.number["dense"] = int(plan.dense)
     return memory
@@ -191,6 +192,39 @@ def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
     status, x = solve_with(fresh, problem, J, M, 1e3, b)
     assert status == FACTORED
     np.testing.assert_allclose(x, np.linalg.solve(1e3 * M - J, b), rtol=1e-8)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_pivots_that_vanish_are_perturbed_and_the_solution_is_that_of_the_matrix_without(seed):
+    """In the worst order the multipliers that hold have none; which do, changes from one matrix to the next."""
+    rng = np.random.default_rng(200 + seed)
+    problem, matrices = mechanical_network(rng, bodies=20, contacts=6)
+    memory, solved = memory_for(problem, planned(problem, backwards=True), perturbed=6), 0
+    for _ in range(30):
+        zones, scale = rng.integers(0, 2, 6), 10.0 ** rng.uniform(0, 4)
+        J, M = matrices(zones, 10.0 ** rng.uniform(0, 4))
+        W, b = scale * M - J, rng.standard_normal(len(J))
+        if np.linalg.cond(W / np.abs(W).max(axis=1, keepdims=True)) > 1e10:
+            continue
+        status, x = solve_with(memory, problem, J, M, scale, b)
+        assert status == FACTORED
+        assert memory.number["n_perturbed"] >= np.count_nonzero(zones == 0)
+        size = np.abs(W) @ np.abs(x) + np.abs(b)
+        assert np.max(np.abs(W @ x - b)) < 1e-9 * np.max(size)
+        solved += 1
+    assert solved > 5
+
+
+def test_with_more_of_them_than_may_be_other_pivots_are_asked_for_and_a_singular_matrix_is_told():
+    rng = np.random.default_rng(7)
+    problem, matrices = mechanical_network(rng, bodies=20, contacts=4)
+    plan = planned(problem, backwards=True)
+    J, M = matrices(np.zeros(4), 1e3)
+    b = rng.standard_normal(len(J))
+    assert solve_with(memory_for(problem, plan, perturbed=3), problem, J, M, 1e3, b)[0] == INACCURATE
+    assert solve_with(memory_for(problem, plan, perturbed=4), problem, J, M, 1e3, b)[0] == FACTORED
+    J[:, -2], M[:, -2] = 0.0, 0.0  # nothing depends on the last force
+    assert solve_with(memory_for(problem, plan, perturbed=8), problem, J, M, 1e3, b)[0] == INACCURATE
 
 
 def test_an_order_eliminates_multipliers_after_the_speeds_they_act_on():

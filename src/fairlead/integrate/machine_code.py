@@ -13,8 +13,8 @@ import fairlead.native as native
 
 SOURCES = (
     "memory.py", "foreign.py", "condensing.py", "condensed.py", "linear.py", "sparse.py", "perturbed_pivots.py",
-    "rosenbrock.py", "interpolant.py", "meters.py", "controller.py", "guards.py", "crossing.py", "rows_between.py", "record.py",
-    "start.py", "settling.py", "growth.py", "codes.py", "trial.py", "arrival.py", "loop.py",
+    "rosenbrock.py", "interpolant.py", "meters.py", "controller.py", "guards.py", "crossing.py", "rows_between.py",
+    "record.py", "start.py", "settling.py", "growth.py", "codes.py", "trial.py", "arrival.py", "loop.py",
 )  # fmt: skip
 """Every file of this folder whose text the machine code depends on."""
 

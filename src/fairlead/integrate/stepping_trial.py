@@ -47,6 +47,9 @@ counts as its error: what is recorded of a force that swings while nothing moves
 ROUGH = 4.0
 """Rows inside a step lie on a parabola where the motion is smooth, on the chord where its bend grows faster than this
 or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were."""
+HALVINGS = 3
+"""Halvings of a step whose iteration met a matrix without good pivots, before others are asked for: mostly it had
+gone astray, and pivots good for such a matrix fail for those that are met otherwise."""
 LANDINGS = 4
 """Tries to end a step where a law jumps, or where a switch inside it makes an error that counts."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
@@ -114,8 +117,8 @@ def accept_step(m, h):
 
 @compiled
 def find_pivots(m, h):
-    """Have other pivots found; where that did not help for a matrix met midway, a shorter step may not meet it."""
-    if m.replanned == 1 and m.midway == 1:
+    """Repeat a step that met such a matrix midway with a shorter one; have other pivots found where none will do."""
+    if m.midway == 1 and (m.replanned == 1 or m.retried < HALVINGS):
         m.replanned = 0
         return repeat_shorter(m, h, SINGULAR)
     give_back_zones(m)
