@@ -15,3 +15,6 @@ CHATTER, MAX_STEPS, MAX_EVENTS = 6, 7, 8
 
 KNOWN_ZONES = 8
 """Rows of a machine are remembered for so many zones (exchange.py); those of more are not."""
+
+MOST_PERTURBED = 16
+"""Pivots that `stepping` may perturb at once (perturbed_pivots.py). With more, other pivots are the better way."""

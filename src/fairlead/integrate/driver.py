@@ -8,13 +8,13 @@ from collections.abc import Callable
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
+from fairlead.integrate.codes import MOST_PERTURBED
 from fairlead.integrate.condensing import lay_out
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
 from fairlead.integrate.neighbours import held_entries, known_rows, neighbours, what_is_held
 from fairlead.integrate.parts import NEVER_LOOK, Scope
-from fairlead.integrate.perturbed_pivots import MOST_PERTURBED
 from fairlead.integrate.protocol import (
     CALLBACKS,
     Block,

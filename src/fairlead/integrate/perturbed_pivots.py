@@ -19,8 +19,6 @@ from math import isfinite
 from fairlead.integrate.foreign import compiled, indices, reals
 from fairlead.integrate.sparse import factorise_planned, substitute_planned
 
-MOST_PERTURBED = 16
-"""Pivots that may be perturbed at once. With more, other pivots are the better way (replan.py)."""
 SINGULAR_BELOW = 1e-13
 """A pivot of I - D E^T Z, whose numbers are of order one, that means a singular matrix."""
 
