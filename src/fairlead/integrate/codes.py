@@ -1,6 +1,6 @@
-"""Numbers by which compiled code says where a run is: phases of the loop, and statuses.
+"""What compiled code and Python both know: phases of the loop, statuses, limits.
 
-The statuses are those of protocol.Status, spelled out because compiled code knows no enumerations.
+Phases and statuses are numbers, the latter those of protocol.Status: compiled code knows no enumerations.
 """
 
 from __future__ import annotations
@@ -18,3 +18,6 @@ KNOWN_ZONES = 8
 
 MOST_PERTURBED = 16
 """Pivots that `stepping` may perturb at once (perturbed_pivots.py). With more, other pivots are the better way."""
+
+CHECK = "FAIRLEAD_CHECK_INDICES"
+"""Set in the environment, the loop is compiled to trap where an index lies outside its array (foreign.py)."""

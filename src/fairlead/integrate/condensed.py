@@ -135,8 +135,9 @@ def solve_core(m, at_b, refine_above):
     row_order, column_order = indices(m.at_row_order, n), indices(m.at_column_order, n)
     pass_positions_on(m, at_b)
     for k in range(n):
-        right[k] = b[row_order[k]]
-    copy(right, x)
+        x[k] = b[row_order[k]]
+    if refine_above > 0.0:
+        copy(x, right)
     substitute(m, m.at_core_x)
     error = 0.0
     if refine_above > 0.0:
@@ -155,7 +156,7 @@ def solve_core(m, at_b, refine_above):
 
 @compiled
 def pass_positions_on(m, at_b):
-    """Add to b what the right sides of the positions do to other rows."""
+    """Add to b what the right sides of the positions do to other rows; quadratures have no use for it."""
     if m.core_kind == 1:
         return
     b = reals(at_b, m.n)
@@ -165,7 +166,12 @@ def pass_positions_on(m, at_b):
     for k in range(m.n_positions):
         x = position[k]
         shift = b[x] * part[k]
-        if shift != 0.0:
+        if shift == 0.0:
+            continue
+        if m.skip_meters == 1:
+            for p in range(starts[x], starts[x + 1]):
+                b[rows[p]] += jacobian[p] * shift
+        else:
             for p in range(starts[x], starts[x + 1]):
                 if quadrature[rows[p]] == 0:
                     b[rows[p]] += jacobian[p] * shift

@@ -9,7 +9,7 @@ import numpy as np
 
 import fairlead.integrate.ordering as ordering
 from fairlead.integrate.codes import MOST_PERTURBED
-from fairlead.integrate.condensing import lay_out
+from fairlead.integrate.condensing import columns_of, lay_out
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.memory import LAYOUT, Memory
@@ -234,6 +234,7 @@ def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dic
         "quadrature": np.asarray(problem.quadrature, np.int64),
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
         "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
+        "mass_columns": columns_of(problem.mass_pattern),
         **plan.arrays,
     }  # fmt: skip
 

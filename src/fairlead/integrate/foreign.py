@@ -5,15 +5,18 @@ Imported only when the loop is compiled (it needs numba).
 
 from __future__ import annotations
 
+import operator
+import os
 from typing import Any
 
 import numba
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
+from numba.extending import intrinsic, lower_builtin, models, register_model
 from numba.np import arrayobj
 
+from fairlead.integrate.codes import CHECK
 from fairlead.integrate.memory import LAYOUT
 
 compiled = numba.njit(error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)
@@ -22,9 +25,51 @@ compiled = numba.njit(error_model="numpy", _nrt=False, no_cpython_wrapper=True, 
 MEMORY = numba.from_dtype(LAYOUT)
 
 
+
+
+class View(types.Array):  # type: ignore[misc]
+    """Values at an address, for indices that are never negative.
+
+    numba asks of every index of its own arrays whether it counts from the end. The loop never does that, and where an
+    index is read from an array, as in all that is sparse, the question took up to 40 % of the time. With
+    FAIRLEAD_CHECK_INDICES set the loop is compiled to trap where an index lies outside.
+    """
+
+    def __init__(self, kind: types.Type) -> None:
+        super().__init__(kind, 1, "C", name=f"view({kind})")
+
+
+register_model(View)(models.ArrayModel)
+
+
+def _place(context: Any, builder: Any, view: types.Type, value: Any, index: Any) -> Any:
+    """Pointer to the value at `index`."""
+    made = arrayobj.make_array(view)(context, builder, value)
+    if os.environ.get(CHECK):
+        outside = builder.icmp_unsigned(">=", index, builder.extract_value(made.shape, 0))
+        with builder.if_then(outside, likely=False):
+            builder.call(builder.module.declare_intrinsic("llvm.trap", (), ir.FunctionType(ir.VoidType(), [])), [])
+            builder.unreachable()
+    return builder.gep(made.data, [index], inbounds=True)
+
+
+@lower_builtin(operator.getitem, View, types.Integer)
+def _read(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    view, _ = signature.args
+    return builder.load(_place(context, builder, view, *arguments))
+
+
+@lower_builtin(operator.setitem, View, types.Integer, types.Number)
+def _write(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    view, _, kind = signature.args
+    value, index, given = arguments
+    builder.store(context.cast(builder, given, kind, view.dtype), _place(context, builder, view, value, index))
+    return context.get_dummy_value()
+
+
 def _array_of(kind: types.Type) -> Any:
     """An intrinsic that views `length` values of type `kind` at an address; numba's carray, inlined."""
-    array = types.Array(kind, 1, "C")
+    array = View(kind)
 
     @intrinsic
     def view(_context: Any, address: types.Type, length: types.Type) -> Any:

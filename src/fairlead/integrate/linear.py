@@ -167,8 +167,7 @@ def solve_dense(m, at_b):
 @compiled
 def add_mass_times(m, at_v, at_b):
     """Add M v to b, for the n doubles at the two addresses."""
-    starts, rows = indices(m.at_mass_starts, m.n + 1), indices(m.at_mass_rows, m.n_mass)
+    rows, columns = indices(m.at_mass_rows, m.n_mass), indices(m.at_mass_columns, m.n_mass)
     values, v, b = reals(m.at_mass, m.n_mass), reals(at_v, m.n), reals(at_b, m.n)
-    for j in range(m.n):
-        for p in range(starts[j], starts[j + 1]):
-            b[rows[p]] += values[p] * v[j]
+    for p in range(m.n_mass):
+        b[rows[p]] += values[p] * v[columns[p]]

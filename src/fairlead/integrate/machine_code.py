@@ -6,10 +6,12 @@ import ctypes
 import functools
 import importlib
 import importlib.resources
+import os
 from collections.abc import Callable
 from typing import Any
 
 import fairlead.native as native
+from fairlead.integrate.codes import CHECK
 
 SOURCES = (
     "memory.py", "foreign.py", "condensing.py", "condensed.py", "linear.py", "sparse.py", "perturbed_pivots.py",
@@ -33,13 +35,18 @@ def compiled_loop(engine: str = "rodas") -> Callable[[int, int], int]:
 
     Each engine is an entry of its own in the cache, so that only what is used gets compiled.
     """
-    folder = importlib.resources.files("fairlead.integrate")
     names = SOURCES if engine == "rodas" else SOURCES + STEPPING_SOURCES
-    key = native.digest("integrate", *(folder.joinpath(name).read_text("utf-8") for name in names))
-    code = native.load_or_compile(key, _build if engine == "rodas" else _build_stepping)
+    code = native.load_or_compile(_key(names), _build if engine == "rodas" else _build_stepping)
     call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(code.address["advance"])
     call.keep_alive = code  # type: ignore[attr-defined]
     return call
+
+
+def _key(names: tuple[str, ...]) -> str:
+    """Hash of what the machine code of these files depends on."""
+    folder = importlib.resources.files("fairlead.integrate")
+    texts = (folder.joinpath(name).read_text("utf-8") for name in names)
+    return native.digest("integrate", os.environ.get(CHECK, ""), *texts)
 
 
 def _build() -> native.Build:
@@ -66,10 +73,8 @@ SUNDIALS_KERNELS = {
 @functools.cache
 def compiled_sundials() -> dict[str, Callable[..., int]]:
     """The functions of sundials_kernels.py by name."""
-    folder = importlib.resources.files("fairlead.integrate")
     names = SOURCES + SUNDIALS_SOURCES
-    key = native.digest("integrate", *(folder.joinpath(name).read_text("utf-8") for name in names))
-    code = native.load_or_compile(key, _build_sundials)
+    code = native.load_or_compile(_key(names), _build_sundials)
     kinds: dict[str, Any] = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
     calls: dict[str, Callable[..., int]] = {}
     for name, types in SUNDIALS_KERNELS.items():

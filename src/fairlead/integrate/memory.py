@@ -100,7 +100,7 @@ VECTORS = {
 
 INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
-    "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_place": "n_mass",
+    "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_columns": "n_mass", "mass_place": "n_mass",
     "differential": "n", "quadrature": "n", "watched": "n",
     # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
     # zones at the start of the step; machines that switched in the trial (missed_impulse.py)

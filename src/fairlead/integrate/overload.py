@@ -44,12 +44,14 @@ def unseen_slip(m, h):
     tolerance = reals(m.at_guard_tolerance, m.n_guards)
     smooth, kind = indices(m.at_kind_is_smooth, m.n_zones), indices(m.at_own_kind, m.n_zones)
     largest = 0.0
+    near, between = m.gap + 0.5 * h, 0.5 * (m.gap + 0.5 * h + m.gap_before)
+    per_near, per_before, per_between = 1.0 / near, 1.0 / m.gap_before, 1.0 / between
     for i in range(m.n_guards):
         z = machine[i]
         if is_limit[i] == 0 or z < 0 or rows[z] < 0 or rested[rows[z]] < SEEN:
             continue
         k = rows[z]
-        rate, curve = course_of_force(m, h, i, k)
+        rate, curve = course_of_force(m, h, i, k, per_near, per_before, per_between)
         error = 0.0
         if holds[k] == 1:
             peak = max(g[i], g_end[i]) + BEYOND * h * h * curve
@@ -106,22 +108,22 @@ def unseen_force(m, h):
 
 
 @compiled
-def course_of_force(m, h, i, k):
+def course_of_force(m, h, i, k, per_near, per_before, per_between):
     """Rate of the distance from limit i, which row k comes to, and the size of its second derivative.
 
     By the middles of the last three steps; right after a settlement by the slope of the force there. A contact that
-    has just let go has no force of its own any more: the rate is that before.
+    has just let go has no force of its own any more: the rate is that before. The last three arguments are one over
+    the distances of these middles, and over their mean.
     """
     slope, before, holds = reals(m.at_mean_slope, m.n), reals(m.at_slope_before, m.n), indices(m.at_holds, m.n)
     early, g, g_end = reals(m.at_g_early, m.n_guards), reals(m.at_g, m.n_guards), reals(m.at_g_end, m.n_guards)
-    near = m.gap + 0.5 * h
     if m.gap == 0.0:
         return abs(before[k]), abs(slope[k] - before[k]) / h
-    earlier = (g[i] - early[i]) / m.gap_before
+    earlier = (g[i] - early[i]) * per_before
     if holds[k] == 0:
         return earlier, 0.0
-    rate, between = (g_end[i] - g[i]) / near, 0.5 * (near + m.gap_before)
-    return rate, max(abs(slope[k] - before[k]), abs(rate - earlier)) / between
+    rate = (g_end[i] - g[i]) * per_near
+    return rate, max(abs(slope[k] - before[k]), abs(rate - earlier)) * per_between
 
 
 @compiled
