@@ -4,7 +4,7 @@
     consistent point  C = the columns of M where y_i is differential, of -J where it is algebraic
 
 Both live in `matrix`, along one fixed pattern. Below DENSE_LIMIT unknowns it is a full matrix, by
-rows, factored here with partial pivoting; above, the core of it (condensing.py) along a plan, see
+columns, factored here with partial pivoting; above, the core of it (condensing.py) along a plan, see
 sparse.py. Unknowns are scaled by their error weight before rows are compared, so that the choice of
 pivots does not depend on units.
 """
@@ -98,7 +98,7 @@ def assemble_consistent(m):
 
 @compiled
 def factorise_dense(m):
-    """LU with partial pivoting of the scaled full matrix, by rows, pivots stored as reciprocals."""
+    """LU with partial pivoting of the scaled full matrix, by columns, pivots stored as reciprocals."""
     n = m.n
     a = reals(m.at_matrix, n * n)
     row_scale, column_scale = reals(m.at_row_scale, n), reals(m.at_column_scale, n)
@@ -106,36 +106,35 @@ def factorise_dense(m):
     for i in range(n):
         largest = 0.0
         for j in range(n):
-            a[i * n + j] *= column_scale[j]
-            largest = max(largest, abs(a[i * n + j]))
+            a[j * n + i] *= column_scale[j]
+            largest = max(largest, abs(a[j * n + i]))
         if not (largest > 0.0 and largest < 1e300):
             m.culprit = i
             return SINGULAR
         row_scale[i] = 1.0 / largest
         for j in range(n):
-            a[i * n + j] *= row_scale[i]
+            a[j * n + i] *= row_scale[i]
     for k in range(n):
         pivot_row = k
         for i in range(k + 1, n):
-            if abs(a[i * n + k]) > abs(a[pivot_row * n + k]):
+            if abs(a[k * n + i]) > abs(a[k * n + pivot_row]):
                 pivot_row = i
         order[k] = pivot_row
         if pivot_row != k:
             for j in range(n):
-                a[k * n + j], a[pivot_row * n + j] = a[pivot_row * n + j], a[k * n + j]
+                a[j * n + k], a[j * n + pivot_row] = a[j * n + pivot_row], a[j * n + k]
         if not abs(a[k * n + k]) > 1e-15:
             m.culprit = k
             return SINGULAR
         inverse = 1.0 / a[k * n + k]
         a[k * n + k] = inverse
-        pivot_rest = a[k * n + k + 1 : (k + 1) * n]
         for i in range(k + 1, n):
-            if a[i * n + k] != 0.0:
-                factor = a[i * n + k] * inverse
-                a[i * n + k] = factor
-                rest = a[i * n + k + 1 : (i + 1) * n]
-                for j in range(len(rest)):
-                    rest[j] -= factor * pivot_rest[j]
+            a[k * n + i] *= inverse
+        for j in range(k + 1, n):
+            value = a[j * n + k]
+            if value != 0.0:
+                for i in range(k + 1, n):
+                    a[j * n + i] -= a[k * n + i] * value
     return DONE
 
 
@@ -150,16 +149,17 @@ def solve_dense(m, at_b):
         b[i] *= row_scale[i]
     for k in range(n):
         b[k], b[order[k]] = b[order[k]], b[k]
-    for i in range(1, n):
-        total = b[i]
-        for j in range(i):
-            total -= a[i * n + j] * b[j]
-        b[i] = total
-    for i in range(n - 1, -1, -1):
-        total = b[i]
-        for j in range(i + 1, n):
-            total -= a[i * n + j] * b[j]
-        b[i] = total * a[i * n + i]
+    for k in range(n):
+        value = b[k]
+        if value != 0.0:
+            for i in range(k + 1, n):
+                b[i] -= a[k * n + i] * value
+    for k in range(n - 1, -1, -1):
+        value = b[k] * a[k * n + k]
+        b[k] = value
+        if value != 0.0:
+            for i in range(k):
+                b[i] -= a[k * n + i] * value
     for i in range(n):
         b[i] *= column_scale[i]
 

@@ -84,12 +84,12 @@ def operations(plan: Plan) -> int:
 
 
 def dense_plan(problem: Problem) -> Plan:
-    """A full matrix by rows."""
+    """A full matrix by columns."""
     n = len(problem.initial)
     pattern, mass_pattern = problem.pattern, problem.mass_pattern
     places = {
-        "jacobian_place": pattern.rows * n + columns_of(pattern),
-        "mass_place": mass_pattern.rows * n + columns_of(mass_pattern),
+        "jacobian_place": columns_of(pattern) * n + pattern.rows,
+        "mass_place": columns_of(mass_pattern) * n + mass_pattern.rows,
     }
     return Plan(dense=True, size=n * n, arrays=places)
 

@@ -116,8 +116,7 @@ class KernelText:
         ]
 
     def _ledger_lines(self, zone: TracedZone) -> list[Statement]:
-        lines = (layout.DISSIPATED, layout.SUPPLIED)
-        return [(f"out[li[{lines.index(n)}]] += {{}}", zone.ledger[n]) for n in self.ledger if zone.ledger.get(n)]
+        return [(f"{n} += {{}}", zone.ledger[n]) for n in self.ledger if zone.ledger.get(n)]
 
     def _partials(self, kind: int, zone: TracedZone, *, fixed: bool) -> list[Statement]:
         base, pairs, values = self.kinds[kind]
@@ -202,7 +201,9 @@ class KernelText:
         """One loop over the instances, with a branch per zone unless told otherwise."""
         if not any(bodies):
             return ""
-        lines = [f"    if mode == {mode}:", "        for i in range(start, stop):"]
+        summed = self.ledger if mode == layout.LEDGER else ()
+        lines = [f"    if mode == {mode}:", *(f"        {n} = 0.0" for n in summed)]
+        lines.append("        for i in range(start, stop):")
         many = zoned and len(self.zones) > 1
         if many:
             lines.append(f"            zone = zones[ms[i*{self.machines}]]")
@@ -213,6 +214,8 @@ class KernelText:
                 lines.append(f"            if zone == {number}:")
             pad = " " * (16 if many else 12)
             lines += [pad + line for line in self._branches(body)]
+        ledger = (layout.DISSIPATED, layout.SUPPLIED)
+        lines += [f"        out[li[{ledger.index(n)}]] += {n}" for n in summed]
         return "\n".join(lines) + "\n"
 
     def _branches(self, statements: list[Statement]) -> list[str]:
