@@ -100,20 +100,9 @@ def assemble_consistent(m):
 def factorise_dense(m):
     """LU with partial pivoting of the scaled full matrix, by columns, pivots stored as reciprocals."""
     n = m.n
-    a = reals(m.at_matrix, n * n)
-    row_scale, column_scale = reals(m.at_row_scale, n), reals(m.at_column_scale, n)
-    order = indices(m.at_pivot_rows, n)
-    for i in range(n):
-        largest = 0.0
-        for j in range(n):
-            a[j * n + i] *= column_scale[j]
-            largest = max(largest, abs(a[j * n + i]))
-        if not (largest > 0.0 and largest < 1e300):
-            m.culprit = i
-            return SINGULAR
-        row_scale[i] = 1.0 / largest
-        for j in range(n):
-            a[j * n + i] *= row_scale[i]
+    a, order = reals(m.at_matrix, n * n), indices(m.at_pivot_rows, n)
+    if not scale_dense(m):
+        return SINGULAR
     for k in range(n):
         pivot_row = k
         for i in range(k + 1, n):
@@ -136,6 +125,26 @@ def factorise_dense(m):
                 for i in range(k + 1, n):
                     a[j * n + i] -= a[k * n + i] * value
     return DONE
+
+
+@compiled
+def scale_dense(m):
+    """Unknowns in units of their weight, rows by their largest entry; False where one is zero or not finite."""
+    n = m.n
+    a = reals(m.at_matrix, n * n)
+    row_scale, column_scale = reals(m.at_row_scale, n), reals(m.at_column_scale, n)
+    for i in range(n):
+        largest = 0.0
+        for j in range(n):
+            a[j * n + i] *= column_scale[j]
+            largest = max(largest, abs(a[j * n + i]))
+        if not (largest > 0.0 and largest < 1e300):
+            m.culprit = i
+            return False
+        row_scale[i] = 1.0 / largest
+        for j in range(n):
+            a[j * n + i] *= row_scale[i]
+    return True
 
 
 @compiled

@@ -51,8 +51,8 @@ def build(
     slots, switches = guards(blocks)
     start = flat.assembly.netlist.run.start
     memory |= switches | rows(blocks, shared, end) | samplers(blocks, start) | {"stored": stored(blocks, shared)}
-    memory["shown_counts"], late = what_to_ask(blocks, shared, np.zeros(0, dtype=np.int64))
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
+    memory["counts"][layout.OUTPUT], late = what_to_ask(blocks, shared, np.zeros(0, dtype=np.int64))
     memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])}
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
     controllers = called_controllers(blocks, numbering, memory)

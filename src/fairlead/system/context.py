@@ -21,12 +21,11 @@ ADDRESSES = (
     "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
     "SAMPLE_COUNT", "SAMPLE_START", "SAMPLE_KERNELS", "OUTPUTS_ALL", "CIRCLE_PAIRS", "CIRCLE_COEF", "CIRCLE_ZONES",
     "CIRCLE_SEEN", "CIRCLE_STILL", "CIRCLE_BODIES", "CIRCLE_PINS", "CIRCLE_NODES", "CIRCLE_RATIO", "GUARD_INERTIA",
-    "TAU", "FIXED", "FIXED_COEF", "MOVING", "MOVING_BASE", "F_REST", "GUARD_COUNTS",
-    "SHOWN_COUNTS",
+    "TAU", "FIXED", "FIXED_COEF", "MOVING", "MOVING_BASE", "F_REST",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
-    "N_REACTIONS": "reaction_mass", "N_BLOCKS": "counts", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
+    "N_REACTIONS": "reaction_mass", "N_BLOCKS": "kernels", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
     "N_HOLDS": "holds", "N_TIME": "time_place", "N_SELECTED": "selected", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
@@ -44,8 +43,7 @@ def working_arrays(
         "f_rest": np.zeros(numbering.w_dump + 1),
         "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
         "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
-        "counts": np.array([b.count if b.acts else 0 for b in blocks], dtype=np.int64),
-        "guard_counts": np.array([b.count for b in blocks], dtype=np.int64), "schedule": _schedule(blocks, numbering),
+        "counts": _counts(blocks), "schedule": _schedule(blocks, numbering),
         "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2),
         "inverse_mass": _inverse_mass(flat, numbering),
         "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
@@ -89,6 +87,16 @@ def _inverse_mass(flat: FlatModel, numbering: Numbering) -> Floats:
         if flat.groups[index].mass > 0:
             inverse[row] = 1 / flat.groups[index].mass
     return inverse
+
+
+def _counts(blocks: Sequence[Block]) -> Integers:
+    """How many instances of every block to ask, by mode; none whose kernel has no answer. Outputs: see `shown.py`."""
+    counts = np.zeros((layout.MODES, len(blocks)), dtype=np.int64)
+    for k, block in enumerate(blocks):
+        for mode in block.kernel.structure.modes:
+            if mode != layout.OUTPUT and (block.acts or mode == layout.GUARD):
+                counts[mode, k] = block.count
+    return counts
 
 
 def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:

@@ -54,16 +54,23 @@ def look(ctx, t, y):
         call_kernel(kernels[b], SIGNALS, block, start, stop, z, zones, tables, z)
 
 
+def ask(ctx, mode, out):
+    """Have every kernel that has an answer to `mode` write it to `out`."""
+    kernels, blocks, total = i8(ctx[KERNELS]), ctx[BLOCKS], ctx[N_BLOCKS]
+    z, zones, tables, counts = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), i8(ctx[COUNTS])
+    for b in range(0, total):
+        count = counts[total * mode + b]
+        if count > 0:
+            call_kernel(kernels[b], mode, i8(blocks + WORD * BLOCK * b), 0, count, z, zones, tables, out)
+
+
 def evaluate(ctx, t, y):
     """Signals, flows and reactions at (t, y): fills z and w, without the ledger."""
     look(ctx, t, y)
-    n, z, w, zones, tables = ctx[N], f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
-    rest = f8(ctx[F_REST])
+    n, z, w, rest = ctx[N], f8(ctx[Z]), f8(ctx[W]), f8(ctx[F_REST])
     for i in range(0, n + ctx[N_REACTIONS] + 1):
         w[i] = rest[i]
-    for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], FLOWS, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
+    ask(ctx, FLOWS, w)
     if ctx[N_CIRCLES] > 0:
         add_shares(ctx, t, y)
     mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
@@ -85,12 +92,9 @@ def accelerate(ctx, t, y):
 def slips(ctx, t, y, mode, r):
     """Ask the held contacts for their slip at (t, y)."""
     look(ctx, t, y)
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
-    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
     for i in range(0, ctx[N]):
         r[i] = 0.0
-    for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], mode, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, r)
+    ask(ctx, mode, r)
 
 
 def take_samples(ctx, t, y):
@@ -109,10 +113,8 @@ def take_samples(ctx, t, y):
 def rhs(ctx, t, y, f):
     """f(t, y) in the zones in force."""
     evaluate(ctx, t, y)
-    z, w, zones, tables = f8(ctx[Z]), f8(ctx[W]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
-    for b in range(0, ctx[N_BLOCKS]):
-        call_kernel(kernels[b], LEDGER, i8(blocks + WORD * BLOCK * b), 0, counts[b], z, zones, tables, w)
+    w = f8(ctx[W])
+    ask(ctx, LEDGER, w)
     for i in range(0, ctx[N]):
         f[i] = w[i]
 
@@ -132,7 +134,7 @@ def assemble(ctx, t, y, ledger, values, ft):
     if ctx[REACTIONS_READ] > 0:
         evaluate(ctx, t, y)
     z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
+    kernels, blocks = i8(ctx[KERNELS]), ctx[BLOCKS]
     if ctx[FIXED_DONE] == 0:
         fix(ctx, t, y)
     schedule = i8(ctx[SCHEDULE])
@@ -140,11 +142,9 @@ def assemble(ctx, t, y, ledger, values, ft):
         b = schedule[3 * s]
         start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], PARTIALS_SIGNALS, block, start, stop, z, zones, tables, partials)
-    for b in range(0, ctx[N_BLOCKS]):
-        block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], PARTIALS_FLOWS, block, 0, counts[b], z, zones, tables, partials)
-        if ledger > 0:
-            call_kernel(kernels[b], PARTIALS_LEDGER, block, 0, counts[b], z, zones, tables, partials)
+    ask(ctx, PARTIALS_FLOWS, partials)
+    if ledger > 0:
+        ask(ctx, PARTIALS_LEDGER, partials)
     work, program, coefficient = f8(ctx[WORK]), i8(ctx[PROGRAM]), f8(ctx[PROGRAM_COEF])
     moving, base = i8(ctx[MOVING]), f8(ctx[MOVING_BASE])
     places, steps = ctx[N_MOVING], ctx[N_PROGRAM]
@@ -173,13 +173,10 @@ def slopes(ctx, t, y, values, ft):
 
 def fix(ctx, t, y):
     """What never changes in the Jacobian, done once: fixed partial derivatives, and multiply-adds of them alone."""
-    z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
-    for b in range(0, ctx[N_BLOCKS]):
-        block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], FIXED_SIGNALS, block, 0, counts[b], z, zones, tables, partials)
-        call_kernel(kernels[b], FIXED_FLOWS, block, 0, counts[b], z, zones, tables, partials)
-        call_kernel(kernels[b], FIXED_LEDGER, block, 0, counts[b], z, zones, tables, partials)
+    partials = f8(ctx[PARTIALS])
+    ask(ctx, FIXED_SIGNALS, partials)
+    ask(ctx, FIXED_FLOWS, partials)
+    ask(ctx, FIXED_LEDGER, partials)
     work, program, coefficient = f8(ctx[WORK]), i8(ctx[FIXED]), f8(ctx[FIXED_COEF])
     for i in range(1, ctx[N_WORK]):
         work[i] = 0.0
@@ -193,11 +190,8 @@ def fix(ctx, t, y):
 
 def mass(ctx, values):
     """M along its pattern: inertias, and the rows of held contacts."""
-    zones, partials, static = i8(ctx[ZONES]), f8(ctx[PARTIALS]), f8(ctx[MASS_STATIC])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[COUNTS])
-    for b in range(0, ctx[N_BLOCKS]):
-        block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], MASS, block, 0, counts[b], f8(ctx[Z]), zones, f8(ctx[TABLES]), partials)
+    partials, static = f8(ctx[PARTIALS]), f8(ctx[MASS_STATIC])
+    ask(ctx, MASS, partials)
     for i in range(0, ctx[N_MASS]):
         values[i] = static[i]
     program, coefficient = i8(ctx[MASS_PROGRAM]), f8(ctx[MASS_COEF])
@@ -211,10 +205,7 @@ def guards(ctx, t, y, g):
         look(ctx, t, y)
     if ctx[GUARDS_READ] > 0:
         accelerate(ctx, t, y)
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[GUARD_COUNTS])
-    for b in range(0, ctx[N_BLOCKS]):
-        block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], GUARD, block, 0, counts[b], f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), g)
+    ask(ctx, GUARD, g)
     if ctx[N_CIRCLES] > 0:
         guard_shares(ctx, t, y, g)
 
@@ -327,10 +318,7 @@ def show(ctx, t, y, out):
     if ctx[RATES_SHOWN] > 0:
         accelerate(ctx, t, y)
     z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
-    kernels, blocks, counts = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SHOWN_COUNTS])
-    for b in range(0, ctx[N_BLOCKS]):
-        block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], OUTPUT, block, 0, counts[b], z, i8(ctx[ZONES]), f8(ctx[TABLES]), everything)
+    ask(ctx, OUTPUT, everything)
     total = ctx[N_SELECTED]
     for k in range(0, total):
         source = selected[k]
@@ -361,8 +349,8 @@ def outputs(ctx, t, y, out):
 
 
 SHARED = (
-    unite, look_around, regroup, add_shares, guard_shares, look, evaluate, accelerate, slips, take_samples, fix,
-    assemble, expand, let_slip, show,
+    unite, look_around, regroup, add_shares, guard_shares, look, ask, evaluate, accelerate, slips, take_samples,
+    fix, assemble, expand, let_slip, show,
 )  # fmt: skip
 
 

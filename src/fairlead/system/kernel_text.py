@@ -97,10 +97,11 @@ class KernelText:
             layout.OUTPUT: self._all_outputs,
             layout.SAMPLE: self._sample,
         }
-        loops = [self._loop(mode, [statements(zone) for zone in self.zones]) for mode, statements in modes.items()]
+        loops = {mode: self._loop(mode, [what(zone) for zone in self.zones]) for mode, what in modes.items()}
         for kind, mode in enumerate((layout.FIXED_SIGNALS, layout.FIXED_FLOWS, layout.FIXED_LEDGER)):
-            loops.append(self._loop(mode, [self._partials(kind, self.zones[0], fixed=True)], zoned=False))
-        return HEAD.format(**fields) + "".join(loops), self._structure()
+            loops[mode] = self._loop(mode, [self._partials(kind, self.zones[0], fixed=True)], zoned=False)
+        answered = sorted(mode for mode, text in loops.items() if text)
+        return HEAD.format(**fields) + "".join(loops.values()), self._structure(answered)
 
 
     def _signals(self, zone: TracedZone) -> list[Statement]:
@@ -326,7 +327,7 @@ class KernelText:
                     found |= {(k, j) for j, key in enumerate(self.inputs) if key in used}
         return sorted(found)
 
-    def _structure(self) -> Structure:
+    def _structure(self, modes: list[int]) -> Structure:
         t, paired = self.traced, held_pairs(self.zones)
         has = t.variant.type.declaration
         return Structure(
@@ -341,6 +342,7 @@ class KernelText:
             linear=not self._curved(self.d_flows, self._target_values),
             curved=self._curved(self.d_signals, self._fit_outputs), guards_read=self._guards_read(),
             late=self._late(), stores=any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones),
+            modes=modes,
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},

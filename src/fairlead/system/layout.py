@@ -41,6 +41,7 @@ BLOCK = 19
 # Partial derivatives that are one number in all zones, whatever the inputs, are asked for once: FIXED_.
 SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
 FIXED_SIGNALS, FIXED_FLOWS, FIXED_LEDGER, DRIFT = range(11, 15)
+MODES = 15
 
 DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
 OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance
@@ -74,7 +75,7 @@ ZONES = 22
 TABLES = 23
 KERNELS = 24  # int64 (blocks,)       addresses of kernels
 BLOCKS = 25  # int64 (blocks, BLOCK)
-COUNTS = 26  # int64 (blocks,)       instances that act
+COUNTS = 26  # int64 (MODES, blocks) instances to ask, by what they are asked
 SCHEDULE = 27  # int64 (schedule, 3)   block, first instance, one past the last
 PAIRS = 28  # int64 (pairs, 2)       unknown x, unknown v
 INVERSE_MASS = 29  # float64 (n,)          1/M of rows with mass, else 0
@@ -139,10 +140,8 @@ CARRIED_COEF = 87  # float64 (carried, 5)  ratio of positions, offset, ratio of 
 N_CARRIED = 88
 WHOLE_ZONES = 89  # those of the whole
 WHOLE_W = 90
-GUARD_COUNTS = 91  # int64 (blocks,)       instances whose guards are asked for
-SLIP_SHOWN = 92  # 1 if an output may follow the slip of what is carried
-SHOWN_COUNTS = 93  # int64 (blocks,)       instances whose outputs are asked for
-RATES_SHOWN = 94  # 1 if an output that is shown reads an acceleration or a reaction
-CONTEXT = 95
+SLIP_SHOWN = 91  # 1 if an output may follow the slip of what is carried
+RATES_SHOWN = 92  # 1 if an output that is shown reads an acceleration or a reaction
+CONTEXT = 93
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

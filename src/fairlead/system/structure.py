@@ -41,6 +41,7 @@ class Structure:
     guards_read: bool  # a guard reads an acceleration or a reaction
     late: list[int]  # places in all outputs of those that read one
     stores: bool  # an instance may have stored energy
+    modes: list[int]  # what it has an answer to, of what a kernel may be asked (layout.py)
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 
     @property

@@ -152,7 +152,7 @@ class System:
         context[layout.N_SELECTED] = len(self.recorded)
         context[layout.SELECTED] = self.memory["selected"].ctypes.data
         counts, late = what_to_ask(self.blocks, shares(self.blocks)[0], self.memory["selected"])
-        self.memory["shown_counts"][:] = counts
+        self.memory["counts"][layout.OUTPUT] = counts
         context[layout.RATES_SHOWN] = int(late)
         return chosen
 
