@@ -185,6 +185,7 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
             if f"n_{name}" in (LAYOUT.names or ()):
                 memory.number[f"n_{name}"] = len(values)
         memory.number["n_free_guards"] = _free_guards(memory)
+        memory.number["massless"] = int(np.any(memory.array["differential"][memory.array["hold_mass_column"]] == 0))
         for name, kept in known_rows(problem).items():
             memory.point(name, kept, kept.dtype)
         memory.number["n_own_slopes"] = len(memory.array["own_slopes"])

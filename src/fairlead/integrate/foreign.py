@@ -27,7 +27,7 @@ MEMORY = numba.from_dtype(LAYOUT)
 
 
 
-class View(types.Array):  # type: ignore[misc]
+class View(types.Array):
     """Values at an address, for indices that are never negative.
 
     numba asks of every index of its own arrays whether it counts from the end. The loop never does that, and where an

@@ -144,7 +144,7 @@ def linear_part(m, z):
 @compiled
 def rows_tell(m):
     """True if f is linear, and the residual of the rows just exchanged known without it."""
-    if m.linear == 0 or (m.distrusted & CONSTANT) != 0 or m.driven == 1:
+    if m.linear == 0 or (m.distrusted & CONSTANT) != 0 or m.driven == 1 or m.massless == 1:
         return False
     changed, zones = indices(m.at_exchanged_machines, m.n_zones), indices(m.at_zones, m.n_zones)
     known, own = indices(m.at_known, m.n_known), indices(m.at_own_row, m.n_zones)

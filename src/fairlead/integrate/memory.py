@@ -37,7 +37,8 @@ INTEGERS = (
     "narrow_at", "narrowed", "woken",
     # stepping only: whether J and M are those of the zones in force, whether
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
-    "linearised", "driven", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting", "has_limits",
+    "linearised", "driven", "massless", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting",
+    "has_limits",
     "n_quadratures", "rows_slip", "samples", "block_steps",
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that

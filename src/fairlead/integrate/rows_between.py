@@ -66,6 +66,7 @@ def remove_slip(m, at_v):
         return
     solve(m, m.at_b)
     v, speeds = reals(at_v, m.n), indices(m.at_hold_mass_column, m.n_hold_mass)
+    differential = indices(m.at_differential, m.n)
     for e in range(m.n_hold_mass):
-        v[speeds[e]] += b[speeds[e]]
+        v[speeds[e]] += b[speeds[e]] if differential[speeds[e]] == 1 else m.factored_theta * b[speeds[e]]
         b[speeds[e]] = 0.0

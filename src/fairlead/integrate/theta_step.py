@@ -15,7 +15,7 @@ the residual passes. Where f is linear as long as the zones are frozen one solve
 is looked at once per factorisation.
 
 The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of
-pivots serves both engines; the row of a held contact is M/(h theta) alone.
+pivots serves both engines; the row of a held contact is M/(h theta) alone, M/h for the speeds of nodes without mass.
 """
 
 from __future__ import annotations
@@ -208,11 +208,26 @@ def evaluate_slopes(m, h):
     theta_point(m)
     jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
     m.jacobians += 1
+    if m.massless == 1:
+        weigh_massless(m)
     find_holds(m)
     if m.dense == 0:
         learn_rows(m)
     m.linearised = 1
     m.factored_h = 0.0
+
+
+@compiled
+def weigh_massless(m):
+    """Weigh speeds of nodes without mass in the rows of contacts that hold, so that one solve takes their slip away.
+
+    Of what has a rate the unknown of W is theta times its change, of all else the change itself.
+    """
+    entry, column = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_column, m.n_hold_mass)
+    values, differential = reals(m.at_mass, m.n_mass), indices(m.at_differential, m.n)
+    for e in range(m.n_hold_mass):
+        if differential[column[e]] == 0:
+            values[entry[e]] *= m.theta_now
 
 
 @compiled
