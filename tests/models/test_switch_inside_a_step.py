@@ -31,6 +31,21 @@ connections:
 run: {stop: 0.2 s, engine: stepping}
 record: {every: 1 ms, signals: [block.x, block.v]}
 """
+BETWEEN_STOPS = """
+components:
+  floor: {type: Ground}
+  block: {type: Mass, mass: 1 kg, velocity: 1.2 m/s}
+  load: {type: Mass, mass: 0.3 kg}
+  stops: {type: EndStop, lower: -50 mm, upper: 100 mm, stiffness: 2e5 N/m, damping: 0.3 s/m}
+  under: {type: Contact, normal_force: 10 N, curve: 0.05, method: hold}
+  upon: {type: Contact, normal_force: 3 N, curve: 0.4, method: hold}
+connections:
+  - [floor.flange, under.a, stops.a]
+  - [under.b, block.flange, stops.b, upon.a]
+  - [upon.b, load.flange]
+run: {stop: 2 s, engine: stepping}
+record: {every: 10 ms, signals: [block.x]}
+"""
 MEASURED = """
 components:
   block: {type: Mass, mass: 1 kg}
@@ -156,3 +171,15 @@ def test_a_normal_force_that_swings_lets_go_though_nothing_else_moves(simulate, 
         v = max(v + (3 - grip) * 1e-5, 0.0)
         x += v * 1e-5
     assert result["block.x"][-1] == pytest.approx(x, abs=1e-3)
+
+
+@pytest.mark.parametrize("accuracy", ["1e-4", "1e-5"])
+def test_a_stop_is_met_without_going_to_and_fro(tmp_path, accuracy):
+    """A step that ended at the very place of the stop found no zones, and tried a hundred patterns of them."""
+    (tmp_path / "between.yaml").write_text(f"schema: 1{BETWEEN_STOPS}", encoding="utf-8")
+    system = fairlead.load(tmp_path / "between.yaml", set={"run.accuracy": accuracy}).system
+    outcome = integrate(system, Run(stop=2.0, engine="stepping"))
+    assert outcome.ok, outcome.sentence
+    assert outcome.counters.switches > 10
+    assert outcome.counters.settling_passes < 6 * outcome.counters.switches
+    assert outcome.counters.rejected_nan == 0

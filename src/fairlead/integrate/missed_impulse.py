@@ -22,6 +22,8 @@ from fairlead.integrate.overload import error_of_speed, response_of
 
 AT_ONCE = 1e-2
 """A switch within this share of a step happens at its start."""
+SHORT_OF = 1e-3
+"""Share of a step by which it ends short of a stop or a rope: right there no zone is the right one, and they cycle."""
 
 
 @compiled
@@ -113,6 +115,6 @@ def first_bent(m, h):
             error = 0.5 * last * h * abs(old[v] - new[v]) / inertia
             if min(error / weight[v], error * response_of(m, x, v, inertia) / weight[x]) > 1.0:
                 m.worst = v
-                return first
+                return (1.0 - SHORT_OF) * first
     return 1.0
 
