@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-STEPPING_FROM: tuple[tuple[float, int], ...] = ((1e-6, 200),)
+STEPPING_FROM: tuple[tuple[float, int], ...] = ((1e-6, 100),)
 """(accuracy, contacts): at this accuracy and looser ones `stepping` keeps what is asked and is the faster engine from
-so many contacts on. Measured and printed by `benchmarks/engine_choice.py` on the belt and the chains."""
+so many contacts on. Measured by `benchmarks/engine_choice.py` on the belt and the chains, which allow ten contacts from
+1e-4 on; there what is gained are milliseconds, and what is lost the instants of the switches."""
 
 
 def choose(contacts: int, linear: bool, accuracy: float) -> tuple[Literal["rodas", "stepping"], str]:
