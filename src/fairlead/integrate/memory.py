@@ -105,7 +105,8 @@ INDICES = {
     "differential": "n", "quadrature": "n", "watched": "n",
     # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
     # zones at the start of the step; machines that switched in the trial (missed_impulse.py)
-    "controlled": "n", "position_of": "n", "holds": "n", "caught": "n", "rested": "n", "zones_at_start": "n_zones",
+    "controlled": "n", "position_of": "n", "holds": "n", "of_massless": "n", "caught": "n", "rested": "n",
+    "zones_at_start": "n_zones",
     "held_position": "n_zones", "held_speed": "n_zones",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",
     "may_jump": "n_guards", "suspects": "n_guards", "kind_is_smooth": "n_zones",

@@ -30,7 +30,7 @@ def prepare_rows(m):
             any_caught = any_caught or caught[row[e]] == 1
     if not any_holds:
         return
-    if m.driven == 1:
+    if m.driven == 1 or m.massless == 1:
         m.rows_slip = 1
         return
     if any_caught:
@@ -52,6 +52,31 @@ def take_slip_away(m, t, at_y):
 
 
 @compiled
+def end_massless(m, h):
+    """Give nodes without mass that are held the speed they have at the end of a step, for their mean over it."""
+    row, column = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_hold_mass_column, m.n_hold_mass)
+    holds, of_massless, differential = (
+        indices(m.at_holds, m.n), indices(m.at_of_massless, m.n), indices(m.at_differential, m.n),
+    )  # fmt: skip
+    field_at(m.call_drift, (m.context, m.t + h, m.at_y_end, m.at_residual))
+    slip, b, y_end, found = reals(m.at_residual, m.n), reals(m.at_b, m.n), reals(m.at_y_end, m.n), False
+    for k in range(m.n):
+        b[k] = 0.0
+    for e in range(m.n_hold_mass):
+        k = row[e]
+        if holds[k] == 1 and of_massless[k] == 1 and slip[k] != 0.0:
+            b[k] = slip[k] / (m.factored_h * m.factored_theta)
+            found = True
+    if not found:
+        return
+    solve(m, m.at_b)
+    for e in range(m.n_hold_mass):
+        if differential[column[e]] == 0:
+            y_end[column[e]] += b[column[e]]
+            b[column[e]] = 0.0
+
+
+@compiled
 def remove_slip(m, at_v):
     """Add to the speeds in v what takes away the slip whose negative is in `residual`, in rows that hold."""
     row, holds = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_holds, m.n)
@@ -66,7 +91,6 @@ def remove_slip(m, at_v):
         return
     solve(m, m.at_b)
     v, speeds = reals(at_v, m.n), indices(m.at_hold_mass_column, m.n_hold_mass)
-    differential = indices(m.at_differential, m.n)
     for e in range(m.n_hold_mass):
-        v[speeds[e]] += b[speeds[e]] if differential[speeds[e]] == 1 else m.factored_theta * b[speeds[e]]
+        v[speeds[e]] += b[speeds[e]]
         b[speeds[e]] = 0.0

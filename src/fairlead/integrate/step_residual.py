@@ -26,10 +26,10 @@ def residual_of_step(m, h, may_be_last):
     """Set b = f - M (y1 - y0)/h, and -slip/h at the end of the step in the rows of held contacts.
 
     What M (y1 - y0)/h says there is just that for a contact that held at the start, on a surface of constant
-    speed, between what has mass. For one caught in the step, or on a surface that is accelerated, the law tells the
-    slip, as where the speed of a node without mass is among the unknowns without a rate.
+    speed. For one caught in the step, or on a surface that is accelerated, the law tells the slip; on a node without
+    mass it tells that at the theta point, where the speed of such a node is.
     """
-    n, told = m.n, m.driven == 1 or m.massless == 1
+    n = m.n
     theta_point(m)
     if may_be_last and m.n_quadratures > 0 and m.theta_now != MIDDLE:
         field_at(m.call_rhs, (m.context, m.t + m.theta_now * h, m.at_u, m.at_f))
@@ -45,15 +45,17 @@ def residual_of_step(m, h, may_be_last):
     add_mass_times(m, m.at_v, m.at_b)
     row = indices(m.at_hold_mass_row, m.n_hold_mass)
     caught, slip = indices(m.at_caught, n), reals(m.at_residual, n)
-    if m.newly_held == 1 or told:
+    if m.newly_held == 1 or m.driven == 1:
         field_at(m.call_drift, (m.context, m.t + h, m.at_y_end, m.at_residual))
         for e in range(m.n_hold_mass):
-            if holds[row[e]] == 1 and (told or caught[row[e]] == 1):
+            if holds[row[e]] == 1 and (m.driven == 1 or caught[row[e]] == 1):
                 b[row[e]] = slip[row[e]] / h
     else:
         for e in range(m.n_hold_mass):
             if holds[row[e]] == 1 and caught[row[e]] == 1:
                 b[row[e]] = 0.0
+    if m.massless == 1:
+        slip_without_mass(m, h)
     entry, row, column = (
         indices(m.at_hold_share, m.n_hold_share), indices(m.at_hold_share_row, m.n_hold_share),
         indices(m.at_hold_share_column, m.n_hold_share),
@@ -62,6 +64,18 @@ def residual_of_step(m, h, may_be_last):
     for e in range(m.n_hold_share):
         if holds[row[e]] == 1:
             b[row[e]] += slopes[entry[e]] * y_end[column[e]]
+
+
+@compiled
+def slip_without_mass(m, h):
+    """Set -slip/(theta h) at the theta point in the rows of contacts that hold nodes without mass."""
+    row, of_massless = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_of_massless, m.n)
+    holds, b, slip = indices(m.at_holds, m.n), reals(m.at_b, m.n), reals(m.at_error_vector, m.n)
+    field_at(m.call_drift, (m.context, m.t + m.theta_now * h, m.at_u, m.at_error_vector))
+    for e in range(m.n_hold_mass):
+        k = row[e]
+        if holds[k] == 1 and of_massless[k] == 1:
+            b[k] = slip[k] / (m.theta_now * h)
 
 
 @compiled

@@ -33,7 +33,7 @@ from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.missed_impulse import impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
-from fairlead.integrate.rows_between import prepare_rows
+from fairlead.integrate.rows_between import end_massless, prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.steady_steps import forget_steps, keep_step, note_rejection
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
@@ -94,6 +94,8 @@ def attempt_stepping(m):
         return reject_error(m, h)
     if goes_past_switch(m, h):
         return end_at_switch(m)
+    if m.massless == 1:
+        end_massless(m, h)
     accept_step(m, h)
     return GO_ON
 

@@ -15,7 +15,8 @@ the residual passes. Where f is linear as long as the zones are frozen one solve
 is looked at once per factorisation.
 
 The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of
-pivots serves both engines; the row of a held contact is M/(h theta) alone, M/h for the speeds of nodes without mass.
+pivots serves both engines; the row of a held contact is M/(h theta) alone. The speed of a node without mass is
+algebraic, a mean over the step like a force: a contact on such a node holds that, its slip is zero at the point u.
 """
 
 from __future__ import annotations
@@ -208,26 +209,11 @@ def evaluate_slopes(m, h):
     theta_point(m)
     jacobian_at(m.call_slopes, (m.context, m.t + m.theta_now * h, m.at_u, m.at_jacobian, m.at_ft))
     m.jacobians += 1
-    if m.massless == 1:
-        weigh_massless(m)
     find_holds(m)
     if m.dense == 0:
         learn_rows(m)
     m.linearised = 1
     m.factored_h = 0.0
-
-
-@compiled
-def weigh_massless(m):
-    """Weigh speeds of nodes without mass in the rows of contacts that hold, so that one solve takes their slip away.
-
-    Of what has a rate the unknown of W is theta times its change, of all else the change itself.
-    """
-    entry, column = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_column, m.n_hold_mass)
-    values, differential = reals(m.at_mass, m.n_mass), indices(m.at_differential, m.n)
-    for e in range(m.n_hold_mass):
-        if differential[column[e]] == 0:
-            values[entry[e]] *= m.theta_now
 
 
 @compiled
@@ -264,7 +250,9 @@ def find_holds(m):
 
 @compiled
 def guards_of_step(m, h):
-    """Into `g_end` every guard where its law is read: limits of forces at the theta point, all others at the end.
+    """Into `g_end` every guard where its law is read: limits of forces at the theta point, others at the end.
+
+    Of contacts on nodes without mass all are read at the theta point.
 
     A limit that varies (a normal force that follows a tension) would else let a contact go that, sliding, is
     held back by more than it was let go for. Where f is linear no limit varies with the unknowns; whether one varies
@@ -272,7 +260,8 @@ def guards_of_step(m, h):
     """
     evaluate_guards(m, m.t + h, m.at_y_end, m.at_g_end)
     constant = m.linear == 1 and m.limits_vary == 0
-    if m.has_limits == 0 or (constant and m.one_by_one == 0 and (m.passes > 0 or m.steps % LOOK_AT_LIMITS != 0)):
+    seldom = constant and m.one_by_one == 0 and (m.passes > 0 or m.steps % LOOK_AT_LIMITS != 0)
+    if m.massless == 0 and (m.has_limits == 0 or seldom):
         return
     theta_point(m)
     evaluate_guards(m, m.t + m.theta_now * h, m.at_u, m.at_g_probe)
@@ -285,6 +274,12 @@ def guards_of_step(m, h):
             if abs(g[i] - at_theta[i]) > tolerance[i]:
                 m.limits_vary = 1
             g[i] = at_theta[i]
+    if m.massless == 1:
+        machine, rows = indices(m.at_guard_machine, m.n_guards), indices(m.at_hold_row, m.n_zones)
+        of_massless = indices(m.at_of_massless, m.n)
+        for i in range(m.n_guards):
+            if machine[i] >= 0 and rows[machine[i]] >= 0 and of_massless[rows[machine[i]]] == 1:
+                g[i] = at_theta[i]
 
 
 @compiled
