@@ -6,7 +6,7 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith(("n_", "call_"))), "n", "stages", "context", "dense", "linear",
-    "massless", "most_perturbed", "has_limits", "weighs_guards", "samples", "max_passes", "gamma", "error_exponent",
+    "most_perturbed", "has_limits", "weighs_guards", "samples", "max_passes", "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "on_chatter", "start", "stop",
@@ -19,7 +19,8 @@ OF_A_SETTLEMENT = {
     "worst",
 }  # fmt: skip
 OF_A_STEP = {
-    "jacobian_fresh", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters", "core_kind",
+    "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
+    "core_kind",
     "core_valid", "core_scale", "factored_h", "factored_theta", "zones_differ", "rows_alone", "guessed", "distrusted",
     "caught_by_row", "limits_vary", "searched", "midway", "replanned", "t_switch", "theta_now",
 }  # fmt: skip

@@ -185,9 +185,6 @@ def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
             if f"n_{name}" in (LAYOUT.names or ()):
                 memory.number[f"n_{name}"] = len(values)
         memory.number["n_free_guards"] = _free_guards(memory)
-        massless = memory.array["differential"][memory.array["hold_mass_column"]] == 0
-        memory.array["of_massless"][memory.array["hold_mass_row"][massless]] = 1
-        memory.number["massless"] = int(massless.any())
         for name, kept in known_rows(problem).items():
             memory.point(name, kept, kept.dtype)
         memory.number["n_own_slopes"] = len(memory.array["own_slopes"])

@@ -96,13 +96,17 @@ def take_row(m, z):
 
 @compiled
 def row_holds(m, z):
-    """1 if the row of machine z has an entry in M."""
+    """1 if the row of machine z has an entry in M; also marks it if that is of a node without mass."""
     starts, entries = indices(m.at_own_mass_starts, m.n_zones + 1), indices(m.at_own_masses, m.n_own_masses)
-    values = reals(m.at_mass, m.n_mass)
+    values, columns = reals(m.at_mass, m.n_mass), indices(m.at_own_mass_columns, m.n_own_masses)
+    differential, found = indices(m.at_differential, m.n), 0
     for e in range(starts[z], starts[z + 1]):
         if values[entries[e]] != 0.0:
-            return 1
-    return 0
+            found = 1
+            if differential[columns[e]] == 0:
+                indices(m.at_of_massless, m.n)[indices(m.at_own_row, m.n_zones)[z]] = 1
+                m.massless = 1
+    return found
 
 
 @compiled

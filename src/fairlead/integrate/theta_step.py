@@ -227,9 +227,14 @@ def find_holds(m):
     holds, slopes, ft = indices(m.at_holds, m.n), reals(m.at_jacobian, m.n_jacobian), reals(m.at_ft, m.n)
     entry, row = indices(m.at_hold_mass, m.n_hold_mass), indices(m.at_hold_mass_row, m.n_hold_mass)
     values = reals(m.at_mass, m.n_mass)
+    column, differential = indices(m.at_hold_mass_column, m.n_hold_mass), indices(m.at_differential, m.n)
+    of_massless = indices(m.at_of_massless, m.n)
     for e in range(m.n_hold_mass):
         if holds[row[e]] == 1:
             holds[row[e]] = 2
+        if values[entry[e]] != 0.0 and differential[column[e]] == 0:
+            of_massless[row[e]] = 1
+            m.massless = 1
     m.driven = 0
     for e in range(m.n_hold_mass):
         if values[entry[e]] != 0.0:
