@@ -40,12 +40,12 @@ def run(elements: int, engine: str, accuracy: float) -> tuple[Any, np.ndarray]:
 
     settings = {"element": f"{15.0 / elements!r} m", "friction.method": "hold", "run.accuracy": str(accuracy)}
     system = fairlead.load("single_bend", set=settings).system
-    system.record(["line.hose_node[*].x", "line.core_node[*].x"])
+    signals = ["line.hose_node[*].x", "line.core_node[*].x"]
     places = [
-        k for layer in ("hose", "core") for k, signal in enumerate(system.recorded)
+        k for layer in ("hose", "core") for k, signal in enumerate(system.recording(signals).recorded)
         if signal.name.startswith(f"line.{layer}_node") and signal.name.endswith(".x")
     ]  # fmt: skip
-    outcome = integrate(system, Run(stop=STOP, every=0.1, engine=engine, max_wall=LIMIT))
+    outcome = integrate(system, Run(stop=STOP, every=0.1, engine=engine, max_wall=LIMIT, record=signals))
     return outcome, outcome.values[outcome.sides == 0][:, places]
 
 

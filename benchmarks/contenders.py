@@ -144,10 +144,12 @@ def fairlead(case: Case, law: str, method: str, accuracy: float, creep: float | 
 
     times = sample_times(case)
     system = compiled(case, law, accuracy, creep)
-    chosen = system.record(["block.x" if isinstance(case, Belt) else "rod.block[*].x"])
+    signals = ["block.x" if isinstance(case, Belt) else "rod.block[*].x"]
+    chosen = system.recording(signals).chosen
     engine = {"method": method} if method.startswith("rodas") else {"engine": method}
+    run = Run(stop=case.stop, every=case.stop / (times.size - 1), max_wall=2 * limit, record=signals, **engine)
     cpu, wall = time.process_time(), time.perf_counter()
-    outcome = integrate(system, Run(stop=case.stop, every=case.stop / (times.size - 1), max_wall=2 * limit, **engine))
+    outcome = integrate(system, run)
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
     if not outcome.ok:
         raise RuntimeError(outcome.sentence)

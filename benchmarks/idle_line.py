@@ -63,11 +63,10 @@ def loop_time(kind: str, idle: float, stop: float) -> tuple[float, int, int]:
     modules = max(round(length / MODULE), 1)
     given = {"line.length": f"{length} m", "line.start": f"{inboard} m", "line.modules": str(modules), **more}
     system = fairlead.load("long_deployment", set=given).system
-    system.record(["belts.force"])
     least = parts.LEAST
     parts.LEAST = 10**9 if whole else least
     try:
-        outcome = integrate(system, Run(stop=stop, every=0.5, engine="stepping"))
+        outcome = integrate(system, Run(stop=stop, every=0.5, engine="stepping", record=["belts.force"]))
     finally:
         parts.LEAST = least
     assert outcome.ok, outcome.sentence

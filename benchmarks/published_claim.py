@@ -92,9 +92,9 @@ def simulate(scene: Scene, law: dict[str, str], accuracy: float, creep: float | 
     if creep is not None:
         settings["friction.creep"] = f"{creep!r} m/s"
     model = load(scene.netlist, settings)
-    count = len(model.system.record([scene.positions]))
+    count = len(model.system.recording([scene.positions]).chosen)
     steps = budget([instance.type for instance in model.flat.instances], "max_steps", None)
-    run = Run(stop=scene.stop, every=scene.every, max_wall=MOST_WALL, max_steps=steps)
+    run = Run(stop=scene.stop, every=scene.every, max_wall=MOST_WALL, max_steps=steps, record=[scene.positions])
     outcomes: list[Outcome] = []
     spent = timed(lambda: outcomes.append(integrate(model.system, run)))
     return spent.cpu, outcomes[0], count

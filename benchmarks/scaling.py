@@ -51,9 +51,8 @@ def _stepping(blocks: int, most: int) -> tuple[float, int]:
     from fairlead.integrate import Run, integrate
 
     system = compiled(Chain(blocks), "hold", 1e-3)
-    system.record([])
     begun = time.process_time()
-    outcome = integrate(system, Run(stop=3.0, method="rodas5p", max_steps=most))
+    outcome = integrate(system, Run(stop=3.0, method="rodas5p", max_steps=most, record=[]))
     cpu = time.process_time() - begun
     return cpu, outcome.counters.steps + outcome.counters.rejected
 

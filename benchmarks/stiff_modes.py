@@ -52,10 +52,9 @@ def bend(elements: int, theta: float) -> str:
 def force(path: str, engine: str, accuracy: str, theta: float = 0.5) -> np.ndarray:
     """The force of the given motion, every millisecond."""
     system = fairlead.load(path, set={"run.accuracy": accuracy}).system
-    names = [signal.name for signal in system.record(["drum.force"])]
-    outcome = integrate(system, Run(stop=8.0, every=1e-3, engine=engine, theta=theta))
+    outcome = integrate(system, Run(stop=8.0, every=1e-3, engine=engine, theta=theta, record=["drum.force"]))
     assert outcome.ok, outcome.sentence
-    return outcome.values[outcome.sides == 0][:, names.index("drum.force")]
+    return outcome.values[outcome.sides == 0][:, 0]
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ class Called:
     """The callbacks of a system, matrices dense."""
 
     def __init__(self, system):
-        self.system, self.n = system, system.n
+        self.system, self.n = system.instance(), system.n
 
     def _call(self, name, *arguments):
         kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_void_p for a in arguments]

@@ -31,7 +31,8 @@ from fairlead.netlist.settings import RunSettings
 from fairlead.results import Result, RunDirectory, Signal
 
 if TYPE_CHECKING:
-    from fairlead.system.system import OutputSignal, System
+    from fairlead.system.recording import OutputSignal, Recording
+    from fairlead.system.system import System
 
 BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
 SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
@@ -46,7 +47,7 @@ class Watch:
 
     system: System
     directory: RunDirectory
-    chosen: int
+    recording: Recording
     ledger: Ledger
     creep: WorstCreep
     limits: Limits
@@ -62,10 +63,15 @@ class Watch:
 
     def __post_init__(self) -> None:
         """Find the columns."""
-        columns = {signal.name: k for k, signal in enumerate(self.system.recorded)}
+        columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
         self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
         if "energy.supplied" in columns:
             self.metered = np.array([columns["energy.dissipated"], columns["energy.supplied"], -1])
+
+    @property
+    def chosen(self) -> int:
+        """How many of the recorded signals were asked for: the first ones."""
+        return len(self.recording.chosen)
 
     def __call__(self, block: Block) -> None:
         """Take one block. Raises KeyboardInterrupt when it is written, if that was asked for meanwhile."""
@@ -82,7 +88,7 @@ class Watch:
             rows, jumped = worth_keeping(values, block.side, self.least_jump * (self.largest + LITTLE))
             self.kept_jumps += len(jumped)
             for k in np.flatnonzero(counts := jumped.sum(axis=0)):
-                self.jumps[self.system.recorded[k].name] += int(counts[k])
+                self.jumps[self.recording.recorded[k].name] += int(counts[k])
         self.directory.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
         self.directory.events(_named(self.system, row) for row in block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
@@ -132,33 +138,34 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         require_package()
     if settings.engine == "stepping" and system.uneven:
         raise UsageError(_uneven(system.uneven))
-    chosen = system.record(_patterns(netlist))
-    limits = read_limits(netlist.limits, system.recorded)
-    creeping = [signal.name for signal in system.recorded if signal.name.endswith(".creep_rate")]
+    patterns = _patterns(netlist)
+    recording = system.recording(patterns)
+    limits = read_limits(netlist.limits, recording.recorded)
+    creeping = [signal.name for signal in recording.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system), "limits": limits.plain()}
     with (
         Interruption() as interruption,
-        RunDirectory.create(path, _signals(chosen), header, force=force) as directory,
+        RunDirectory.create(path, _signals(recording.chosen), header, force=force) as directory,
     ):
         on_grid = netlist.record.every is not None
-        watch = Watch(system, directory, len(chosen), Ledger(), WorstCreep(creeping), limits, progress, on_grid,
-                      interruption, least_jumps(system, chosen, settings.accuracy))  # fmt: skip
-        outcome = integrate(system, _engine_settings(netlist, settings, system), watch)
+        watch = Watch(system, directory, recording, Ledger(), WorstCreep(creeping), limits, progress, on_grid,
+                      interruption, least_jumps(system, recording.chosen, settings.accuracy))  # fmt: skip
+        outcome = integrate(system, _engine_settings(netlist, settings, system, patterns), watch)
         interruption.between_blocks = False
-        outcome = _explained(outcome, system)
+        outcome = _explained(outcome)
         if outcome.status == Status.INTERRUPTED and interruption.terminated:
             outcome = dataclasses.replace(outcome, sentence=outcome.sentence.replace("interrupted", "ended by SIGTERM"))
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
-            summary["profile"] = _profile(system, outcome, compiled, time.perf_counter() - begun)
+            summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         directory.finish(_status(outcome), summary)
     return Result.open(path)
 
 
-def _explained(outcome: Outcome, system: System) -> Outcome:
+def _explained(outcome: Outcome) -> Outcome:
     """A run in which a controller in plain Python failed says so; it ended because nothing followed from that."""
-    for controller in system.controllers:
+    for controller in outcome.problem.controllers:
         if isinstance(controller.failure, KeyboardInterrupt | SystemExit):
             raise controller.failure
         if controller.failure is not None:
@@ -206,11 +213,12 @@ def _let_go_with_a_jump(system: System) -> bool:
     return False
 
 
-def _engine_settings(netlist: Netlist, settings: RunSettings, system: System) -> Run:
+def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str]) -> Run:
     method = "rodas5p" if settings.method == "auto" else settings.method
     types = [instance.type for instance in system.flat.instances]
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
+        accuracy=settings.accuracy, record=patterns,
         engine=engine_of(settings, system)[0],
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
@@ -266,7 +274,7 @@ def _named(system: System, row: Any) -> tuple[float, str, str, str, str]:
     return float(row["t"]), system.machine_names[machine], zones[before], zones[after], guard
 
 
-def _profile(system: System, outcome: Outcome, compiled: float, wall: float) -> str:
+def _profile(outcome: Outcome, compiled: float, wall: float) -> str:
     from fairlead.analysis.profile import Times, profile
 
-    return profile(system, outcome.counters, Times(compiled, outcome.loop_wall, wall))
+    return profile(outcome.problem, outcome.counters, Times(compiled, outcome.loop_wall, wall))

@@ -81,7 +81,7 @@ class Model:
         """The compiled model."""
         from fairlead.system.compile import compile
 
-        return compile(self.flat, self.netlist.run.accuracy)
+        return compile(self.flat)
 
     def check(self) -> list[Fault]:
         """Go through all stages without running; returns warnings, raises ModelError for mistakes.
@@ -148,18 +148,14 @@ class Model:
             profile: bool = False, **settings: Any) -> Result:  # fmt: skip
         """Simulate; results go to the directory `out` (default results/NAME) as the run goes.
 
-        `settings` replace those of the netlist's `run` block (stop, accuracy, ...), in SI.
+        `settings` replace those of the netlist's `run` block (stop, accuracy, ...), in SI. The model is compiled once,
+        whatever they are and however often it is run.
         """
         from fairlead.run import run
 
         begun = time.perf_counter()
         netlist = self.netlist.run.model_copy(update=settings)
         system = self.system
-        if netlist.accuracy != self.netlist.run.accuracy or getattr(self, "_used", False):
-            from fairlead.system.compile import compile
-
-            system = compile(self.flat, netlist.accuracy)
-        self._used = True
         directory = pathlib.Path(out) if out is not None else pathlib.Path("results") / self.netlist.name
         return run(
             self.netlist, netlist, system, directory, force=force, progress=progress, profile=profile, begun=begun

@@ -24,7 +24,7 @@ TOO_LONG = {"long_deployment", "slack_start", "weak_clamp", "guidance_route_idea
 
 @pytest.fixture(scope="module", params=sorted(set(bundled_models()) - TOO_LONG))
 def system(request):
-    return fairlead.load(request.param).system
+    return fairlead.load(request.param).system.instance()
 
 
 def random_points(system, count):

@@ -21,7 +21,6 @@ import pytest
 
 import fairlead
 from fairlead.integrate import Run, integrate
-from fairlead.system.compile import compile
 
 LOOSE, TIGHT = 1e-4, 1e-6
 FALL, POSITION = 1 / 5, 1e-2  # of errors from LOOSE to TIGHT; m, the size a position's accuracy refers to
@@ -41,6 +40,9 @@ class Unknowns:
         self.system = system
         self.callbacks = {name: address for name, address in system.callbacks.items() if name != "outputs"}
 
+    def instance(self, *run):
+        return Unknowns(self.system.instance(*run))
+
     def __getattr__(self, name):
         return getattr(self.system, name)
 
@@ -49,10 +51,11 @@ class Unknowns:
 def states(name, engine, accuracy):
     """[51, states] at equal distances in time, in metres; POSITION is the nominal size of other states."""
     model, span = fairlead.load(name), SPAN.get(name, SHORT)
-    system = compile(model.flat, accuracy)
     start = model.netlist.run.start
-    outcome = integrate(Unknowns(system), Run(start=start, stop=start + span, every=span / 50, engine=engine))
+    run = Run(start=start, stop=start + span, every=span / 50, engine=engine, accuracy=accuracy)
+    outcome = integrate(Unknowns(model.system), run)
     assert outcome.ok, outcome.sentence
+    system = outcome.problem
     state = system.differential & ~system.quadrature
     # Positions are what is solved to an absolute accuracy; a row after an event repeats the one before it.
     position = state & (system.relative == 0.0)

@@ -19,7 +19,8 @@ ROUNDING = 1e-7
 def settled(scene: Scene, network: Network, engine: str = "rodas"):
     """System and outcome at the start, settled."""
     system = scene(network.netlist(engine=engine)).system
-    return system, integrate(system, Run(stop=1.0, max_steps=0, engine=engine))
+    outcome = integrate(system, Run(stop=1.0, max_steps=0, engine=engine))
+    return outcome.problem, outcome
 
 
 def forces_and_directions(system, outcome, contacts: int) -> tuple[np.ndarray, np.ndarray]:

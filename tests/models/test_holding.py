@@ -29,8 +29,8 @@ def swinging(network, stop, engine, slowly):
 
 def run(system, engine, stop, every, *what):
     """The outcome, and for each name pattern every recorded row [rows, signals]."""
-    chosen = [signal.name for signal in system.record(what)]
-    outcome = integrate(system, Run(stop=stop, every=every, engine=engine))
+    chosen = [signal.name for signal in system.recording(what).chosen]
+    outcome = integrate(system, Run(stop=stop, every=every, engine=engine, record=what))
     assert outcome.ok, outcome.sentence
     tables = []
     for pattern in what:

@@ -39,10 +39,10 @@ def blocks_in_a_row(table, force, press):
 def run(path, engine, accuracy):
     """What was recorded on a grid, by signal, [rows, BLOCKS]; and the counters."""
     system = fairlead.load(path, set={"run.accuracy": accuracy}).system
-    system.record(["block*.x", "pad*.slip", "pad*.bound"])
-    outcome = integrate(system, Run(stop=2.0, every=0.01, engine=engine))
+    signals = ["block*.x", "pad*.slip", "pad*.bound"]
+    outcome = integrate(system, Run(stop=2.0, every=0.01, engine=engine, record=signals))
     assert outcome.ok, outcome.sentence
-    rows, names = outcome.values[outcome.sides == 0], [signal.name for signal in system.recorded]
+    rows, names = outcome.values[outcome.sides == 0], [signal.name for signal in outcome.problem.recorded]
     found = {
         kind: rows[:, [names.index(f"{part}{k}.{kind}") for k in range(BLOCKS)]]
         for part, kind in (("block", "x"), ("pad", "slip"), ("pad", "bound"))

@@ -26,9 +26,9 @@ def run(scene, method, accuracy, **settings):
     """Both positions [rows, 2], and the counters."""
     friction = f"    friction: {{method: {method}, creep: 1e-5 m/s}}\n"
     system = scene(f"{BLOCKS}{friction}    run: {{stop: 2 s, accuracy: {accuracy}}}\n").system
-    names = [signal.name for signal in system.record(["one.x", "two.x"])]
-    outcome = integrate(system, Run(stop=2.0, every=0.01, **settings))
+    outcome = integrate(system, Run(stop=2.0, every=0.01, record=["one.x", "two.x"], **settings))
     assert outcome.ok, outcome.sentence
+    names = [signal.name for signal in outcome.problem.recorded]
     places = [names.index("one.x"), names.index("two.x")]
     return outcome.values[outcome.sides == 0][:, places], outcome.counters
 

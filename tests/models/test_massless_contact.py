@@ -56,10 +56,9 @@ run: {stop: 3 s}
 def run(tmp_path, text, engine, accuracy):
     (tmp_path / "scene.yaml").write_text(text, encoding="utf-8")
     system = fairlead.load(tmp_path / "scene.yaml", set={"run.accuracy": accuracy}).system
-    system.record(["pad.slip", "pad.friction"])
-    outcome = integrate(system, Run(stop=3.0, engine=engine))
+    outcome = integrate(system, Run(stop=3.0, engine=engine, record=["pad.slip", "pad.friction"]))
     assert outcome.ok, outcome.sentence
-    return system, outcome
+    return outcome.problem, outcome
 
 
 @pytest.mark.parametrize("scene", [ELEMENT, BESIDE_A_BLOCK], ids=["element", "beside_a_block"])

@@ -46,8 +46,7 @@ SWING = """
 def test_a_contact_that_lets_go_inside_a_step_loses_none_of_its_speed(scene: Scene, engine: str, accuracy) -> None:
     """The load 5 t passes 4 N at 0.8 s; from there on x = 5 (t - 0.8)^3/6. Before, nothing bends and steps are long."""
     system = scene(LET_GO, **{"run.accuracy": accuracy}).system
-    system.record(["block.x"])
-    outcome = integrate(system, Run(stop=1.5, engine=engine))
+    outcome = integrate(system, Run(stop=1.5, engine=engine, record=["block.x"]))
     assert outcome.values[-1][0] == pytest.approx(5 * 0.7**3 / 6, abs=20 * accuracy * 0.1)
 
 

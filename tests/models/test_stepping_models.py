@@ -13,8 +13,8 @@ SCALE = 0.1  # m, what errors of the chain are referred to
 
 def chain(blocks=BLOCKS, accuracy=1e-4, **settings):
     model = fairlead.load("hundred_blocks", set={"blocks": str(blocks), "run.accuracy": str(accuracy)})
-    model.system.record(["rod.block[*].x", "rod.guide[*].slip", "rod.guide[*].bound"])
-    outcome = integrate(model.system, Run(stop=1.5, every=0.01, **settings))
+    signals = ["rod.block[*].x", "rod.guide[*].slip", "rod.guide[*].bound"]
+    outcome = integrate(model.system, Run(stop=1.5, every=0.01, record=signals, **settings))
     assert outcome.ok, outcome.sentence
     return outcome
 
@@ -74,8 +74,7 @@ def test_a_chain_that_is_pulled_and_holds_stands_still_for_an_hour(tmp_path):
     path = tmp_path / "pulled.yaml"
     path.write_text(PULLED, encoding="utf-8")
     system = fairlead.load(path).system
-    system.record(["rod.block[*].x"])
-    outcome = integrate(system, Run(stop=3600.0, every=60.0, engine="stepping"))
+    outcome = integrate(system, Run(stop=3600.0, every=60.0, engine="stepping", record=["rod.block[*].x"]))
     assert outcome.ok, outcome.sentence
     assert outcome.values[-1, 19] > 1e-3  # it moved before it held
     held = outcome.values[outcome.times > 59, :20]
@@ -92,8 +91,7 @@ def test_a_line_whose_normal_force_follows_its_tension_agrees_with_rodas(model, 
     ends = []
     for engine in ("rodas", "stepping"):
         system = fairlead.load(model, set={"friction.method": "hold", "run.accuracy": "1e-4"}).system
-        system.record([signal])
-        outcome = integrate(system, Run(stop=2.0, every=0.1, engine=engine))
+        outcome = integrate(system, Run(stop=2.0, every=0.1, engine=engine, record=[signal]))
         assert outcome.ok, outcome.sentence
         ends.append(outcome.values[-1, 0])
     assert ends[1] == pytest.approx(ends[0], abs=1e-3)  # m, of some metres hauled

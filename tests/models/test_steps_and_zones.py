@@ -37,10 +37,13 @@ class Watched:
     notes: list[tuple[str, float, bytes, bytes]] = field(default_factory=list)
     at_rows: list[np.ndarray] = field(default_factory=list)  # all guards, at every recorded row
 
-    def __post_init__(self) -> None:
+    def instance(self, *run: Any) -> Watched:
+        """Take notes of this run."""
+        self.system = self.system.instance(*run)
         self.made = {name: self._wrap(name, kind) for name, kind in KINDS.items()}  # kept alive
         wrapped = {name: ctypes.cast(made, POINTER).value for name, made in self.made.items()}
         self.callbacks = {**self.system.callbacks, **wrapped}
+        return self
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.system, name)

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.system.cutting import call
+from fairlead.integrate import Run
+from fairlead.system.asking import call
 
 MODELS = {"winch_drive": "*.torque", "single_bend": "line.core[3].tension", "torsion": "*.slip", "sandwich": "*"}
 
 
 def shown(system, patterns, y):
     """Recorded values at y by name, and the stored energy."""
-    system.record(patterns)
+    system = system.instance(Run(stop=1.0, record=patterns))
     out = np.full(system.n_outputs, np.nan)
     call(system, "outputs", 0.1, y, out)
     return {signal.name: value for signal, value in zip(system.recorded, out[:-1], strict=True)}, out[-1]

@@ -22,7 +22,7 @@ PAIR = """
 @pytest.mark.parametrize(("ratio", "answering"), [(None, True), (0.5, True), (1.0, False)])
 def test_a_spring_whose_ends_move_alike_answers_to_nothing(scene, ratio, answering):
     """Its ends are `ratio` times as far from where they were; None: each by itself."""
-    system = scene(PAIR).system
+    system = scene(PAIR).system.instance()
     found = influence(system)
     call(system, "jacobian", 0.0, np.zeros(system.n), np.zeros(len(system.pattern.rows)), np.zeros(system.n))
     a, b = (system.unknown_names.index(name) for name in ("a.x", "b.x"))
@@ -45,6 +45,7 @@ def wound(scene, library, monkeypatch):
         text = SCENE.format(**CONTROLLED).replace("length: 40 m", f"length: {length} m")
         system = scene(text.replace("start: -34 m", f"start: {6 - length} m"), (library(CLASSES),)).system
         outcome = integrate(system, Run(stop=0.1))
+        system = outcome.problem
         moving = system.narrowing.moving(outcome.t, outcome.y, 12, 0.5)
         return system, outcome.t, outcome.y, system.narrowing.part(outcome.t, outcome.y, moving)
 

@@ -35,27 +35,27 @@ def resting(system, *held):
 
 def test_a_stack_rests_while_both_of_its_contacts_hold(scene):
     """The upper block's contact carries the swinging load, and the lower one's both: their forces vary."""
-    still, _ = resting(scene(STACK).system, "under", "between")
+    still, _ = resting(scene(STACK).system.instance(), "under", "between")
     assert still == {"low.x", "low.v", "high.x", "high.v"}
 
 
 def test_nothing_rests_on_what_slides(scene):
     """The upper block holds on the lower one; if that slides, both move."""
-    assert resting(scene(STACK).system, "between")[0] == set()
-    assert resting(scene(STACK).system, "under")[0] == {"low.x", "low.v"}
+    assert resting(scene(STACK).system.instance(), "between")[0] == set()
+    assert resting(scene(STACK).system.instance(), "under")[0] == {"low.x", "low.v"}
 
 
 def test_without_the_swinging_load_the_forces_rest_too(scene):
     """Then every contact carries what it carries."""
     text = STACK.replace(", spring.a]\n      - [spring.b, free.flange]", "]")
     text = text.replace("      spring: {type: Spring, stiffness: 100 N/m}\n      free: {type: Mass, mass: 1 kg}\n", "")
-    still, _ = resting(scene(text).system, "under", "between")
+    still, _ = resting(scene(text).system.instance(), "under", "between")
     assert still >= {"low.x", "low.v", "high.x", "high.v", "under.force", "between.force"}
 
 
 def test_what_a_block_at_rest_leans_on_is_all_that_holds_it(scene):
     """The upper block rests on both contacts, the lower one on its own alone."""
-    system = scene(STACK).system
+    system = scene(STACK).system.instance()
     _, found = resting(system, "under", "between")
     for name, contacts in (("high.v", {"under", "between"}), ("high.x", {"under", "between"}), ("low.x", {"under"})):
         which = np.array([unknown == name for unknown in system.unknown_names])
@@ -79,12 +79,12 @@ def test_a_block_carried_along_does_not_rest(scene, belt, rests):
         friction: {{method: hold}}
         run: {{stop: 1 s}}
     """
-    assert ("block.v" in resting(scene(text).system, "pad")[0]) == rests
+    assert ("block.v" in resting(scene(text).system.instance(), "pad")[0]) == rests
 
 
 def test_a_speed_that_is_not_zero_does_not_rest(scene):
     """A contact that has just caught a block with a slip left over proves nothing."""
-    system = scene(STACK).system
+    system = scene(STACK).system.instance()
     resting(system, "under", "between")
     y = np.zeros(system.n)
     y[system.unknown_names.index("low.v")] = 1e-3

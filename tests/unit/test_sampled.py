@@ -133,7 +133,7 @@ def test_the_first_sample_is_at_the_start_of_the_run(simulate, library):
 def test_a_hundred_thousand_sample_times_are_exact(scene, library, start, period):
     """Sample k is at start + k T, computed afresh: a sum of periods would be off by a hundred thousand roundings."""
     settings = {"fast.period": f"{period} s", "slow.period": "1e9 s", "run.start": f"{start} s", "run.stop": "1e6 s"}
-    system = scene(TWO_CLOCKS, libraries=(library(COUNTER),), **settings).system
+    system = scene(TWO_CLOCKS, libraries=(library(COUNTER),), **settings).system.instance()
     number, pointer = ctypes.c_double, ctypes.c_void_p
     next_time = ctypes.CFUNCTYPE(number, pointer, number)(system.callbacks["next_time"])
     at_time = ctypes.CFUNCTYPE(ctypes.c_int64, pointer, number, pointer)(system.callbacks["at_time"])

@@ -48,7 +48,7 @@ def test_a_sensor_and_a_source_that_nobody_reads_add_no_unknown_no_term_and_no_z
     with_them, alone = scene(SCENE).system, scene(ALONE).system
     assert with_them.unknown_names == alone.unknown_names
     assert len(with_them.pattern.rows) == len(alone.pattern.rows)
-    assert len(with_them.guard_tolerance) == len(alone.guard_tolerance)
+    assert with_them.n_guards == alone.n_guards
     assert with_them.memory["context"][layout.N_PROGRAM] == alone.memory["context"][layout.N_PROGRAM]
 
 

@@ -30,7 +30,7 @@ def outputs(model: Any, patterns: Sequence[str]) -> tuple[list[str], list[str], 
 
 def recorded(model: Any) -> list[str]:
     """What the netlist records, without the creep, which is an error measure itself."""
-    found = model.system.record(model.netlist.record.signals)
+    found = model.system.recording(model.netlist.record.signals).chosen
     return [signal.name for signal in found if not signal.name.endswith(".creep_rate")]
 
 

@@ -28,9 +28,7 @@ class Size:
     @classmethod
     def of(cls, system: Any) -> Size:
         """Count a System. Each unknown has one equation."""
-        return cls(
-            system.n, len(system.pattern.rows), len(system.zones), len(system.guard_tolerance), len(system.blocks)
-        )
+        return cls(system.n, len(system.pattern.rows), len(system.zones), system.n_guards, len(system.blocks))
 
 
 @dataclass(frozen=True)

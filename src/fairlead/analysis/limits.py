@@ -15,7 +15,7 @@ from fairlead.analysis.suggestion import suggest
 from fairlead.errors import Fault, ModelError, did_you_mean, listing
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import QuantityError, si
-from fairlead.system.system import OutputSignal, glob
+from fairlead.system.recording import OutputSignal, glob
 
 SENSES = {"above": -1.0, "below": +1.0}
 

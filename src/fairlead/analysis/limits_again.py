@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.results import Result
-from fairlead.system.system import glob
+from fairlead.system.recording import glob
 
 
 @dataclass(frozen=True)

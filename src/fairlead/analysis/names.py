@@ -10,7 +10,7 @@ from fairlead.analysis.suggestion import suggest
 from fairlead.component.instantiate import Assembly
 from fairlead.errors import Fault, ModelError
 from fairlead.netlist.netlist import Value
-from fairlead.system.system import OutputSignal, glob
+from fairlead.system.recording import OutputSignal, glob
 from fairlead.system.unknowns import LEDGER
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from fairlead.system import layout
 from fairlead.system.blocks import Block
-from fairlead.system.system import System
+from fairlead.system.system import Instance
 
 MOST_NAMED = 8
 CALLS, BATCHES = 10, 7  # per kernel and mode; the quickest batch counts, since others share the machine
@@ -42,7 +42,7 @@ class Times:
         return max(self.wall - self.compiling - self.stepping, 0.0)
 
 
-def profile(system: System, counters: Any, times: Times) -> str:
+def profile(system: Instance, counters: Any, times: Times) -> str:
     """The text of a profile; `counters` are those of the engine."""
     switches = Counter(_by_name(system.machine_names, counters.switches_by_machine))
     rejections = Counter(_by_name(system.unknown_names, counters.rejections_by_unknown))
@@ -105,7 +105,7 @@ def suggestion(counters: Any, times: Times, switches: Mapping[str, int], rejecti
     )
 
 
-def kernel_seconds(system: System, counters: Any) -> Counter[str]:
+def kernel_seconds(system: Instance, counters: Any) -> Counter[str]:
     """Seconds that the laws of each class took: time of one call times number of calls."""
     evaluations = counters.rhs + counters.jacobians + counters.guards
     calls = dict.fromkeys(EVALUATION, evaluations) | dict.fromkeys(PARTIALS, counters.jacobians)
@@ -117,7 +117,7 @@ def kernel_seconds(system: System, counters: Any) -> Counter[str]:
     return found
 
 
-def _seconds(system: System, number: int, block: Block, mode: int) -> float:
+def _seconds(system: Instance, number: int, block: Block, mode: int) -> float:
     """Seconds of one call of a kernel for all its instances, less those of a call for none."""
     memory = system.memory
     kernel = KERNEL(block.kernel.address)
@@ -136,7 +136,7 @@ def _seconds(system: System, number: int, block: Block, mode: int) -> float:
     return max(spent[1] - spent[0], 0.0) / CALLS
 
 
-def _scratch(system: System, mode: int) -> np.ndarray:
+def _scratch(system: Instance, mode: int) -> np.ndarray:
     """Somewhere a kernel may write: as long as what it writes to in a run."""
     if mode == layout.GUARD:
         return np.zeros(len(system.guard_tolerance) + 1)
@@ -152,7 +152,7 @@ def _by_name(names: Any, counts: Any) -> dict[str, int]:
     return found
 
 
-def _by_class(system: System, switches: Mapping[str, int]) -> Counter[str]:
+def _by_class(system: Instance, switches: Mapping[str, int]) -> Counter[str]:
     labels = {instance.path: instance.variant.label for instance in system.flat.instances}
     found: Counter[str] = Counter()
     for name, count in switches.items():

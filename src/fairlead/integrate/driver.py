@@ -18,6 +18,7 @@ from fairlead.integrate.parts import NEVER_LOOK, Scope
 from fairlead.integrate.protocol import (
     CALLBACKS,
     Block,
+    Instance,
     Integers,
     OnBlock,
     Outcome,
@@ -45,14 +46,16 @@ REACTIONS = {"warn": 0, "hold": 1, "stop": 2}
 def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Outcome:
     """Integrate `problem` over `run`; hand each `Block` to `on_block`, or keep them in the outcome.
 
+    The problem is not changed: it may be run again, and by several threads at once.
     Never raises for what happens in the run: the outcome says how it ended and keeps all that was
     computed, after Ctrl-C too. Raises ValueError for settings or arrays that do not fit together.
     """
     begun = time.perf_counter()
     tableau = TABLEAUS[run.method]
-    check(problem, run)
-    scope = Scope(problem, lambda some: prepare(some, run, tableau), engine=run.engine)
-    advance = loop_of(problem, run, scope.memory)
+    own = problem.instance(run)
+    check(own, run)
+    scope = Scope(own, lambda some: prepare(some, run, tableau), engine=run.engine)
+    advance = loop_of(own, run, scope.memory)
     blocks: list[Block] = []
     take = on_block if on_block is not None else blocks.append
     status, inside, worked, attempts, replanned_at = Status.PAUSED, 0.0, 0.0, FIRST_ATTEMPTS, -1
@@ -96,16 +99,17 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         t=float(memory.number["t"]),
         y=memory.array["y"].copy(),
         culprits=culprits,
-        chattering=tuple(problem.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),
+        chattering=tuple(own.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),
         counters=count(memory),
         wall=time.perf_counter() - begun,
         loop_wall=inside,
         loop_cpu=worked,
+        problem=own,
         blocks=tuple(blocks),
     )
 
 
-def loop_of(problem: Problem, run: Run, memory: Memory) -> Callable[[int, int], int]:
+def loop_of(problem: Instance, run: Run, memory: Memory) -> Callable[[int, int], int]:
     """The loop of the engine: advance(address of the struct, attempts) -> status."""
     if run.engine == "ida":
         from fairlead.integrate.sundials import SundialsLoop
@@ -120,7 +124,7 @@ def next_attempts(attempts: int, spent: float) -> int:
     return max(1, int(attempts * min(max(factor, 0.1), 8.0)))
 
 
-def check(problem: Problem, run: Run) -> None:
+def check(problem: Instance, run: Run) -> None:
     """Refuse what does not fit together, with both numbers."""
     if not run.stop > run.start:
         raise ValueError(f"stop = {run.stop:g} s must be after start = {run.start:g} s.")
@@ -148,7 +152,7 @@ def check(problem: Problem, run: Run) -> None:
         raise ValueError("zones must be a contiguous array of int64, because the callbacks write to it.")
 
 
-def prepare(problem: Problem, run: Run, tableau: Tableau) -> Memory:
+def prepare(problem: Instance, run: Run, tableau: Tableau) -> Memory:
     """The memory of the run: everything the loop needs, at the start."""
     n, ng, nz = len(problem.initial), len(problem.guard_machine), len(problem.zones)
     n_outputs = problem.n_outputs if problem.callbacks.get("outputs") else n
@@ -218,7 +222,7 @@ def passes_allowed(run: Run, machines: int) -> int:
     return min(LEAST_PASSES + 4 * machines, max(LEAST_PASSES, PATTERN_NUMBERS // max(machines, 1)))
 
 
-def given_arrays(problem: Problem, tableau: Tableau, plan: ordering.Plan) -> dict[str, np.ndarray]:
+def given_arrays(problem: Instance, tableau: Tableau, plan: ordering.Plan) -> dict[str, np.ndarray]:
     """Arrays the loop takes as they are; `zones` stays the live memory of the problem, y is a copy."""
     nominal = np.minimum(problem.absolute + problem.relative * np.abs(problem.initial), problem.cap)
     return {
@@ -262,7 +266,7 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
     }  # fmt: skip
 
 
-def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
+def stepping_settings(run: Run, problem: Instance) -> dict[str, float]:
     """What the stepping engine sets differently, or alone."""
     return {
         "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
@@ -273,7 +277,7 @@ def stepping_settings(run: Run, problem: Problem) -> dict[str, float]:
     }  # fmt: skip
 
 
-def watched(problem: Problem) -> Integers:
+def watched(problem: Instance) -> Integers:
     """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
     stiff = np.asarray(getattr(problem, "stiff", np.zeros(len(problem.initial))), dtype=bool) | np.isfinite(problem.cap)
     return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
@@ -285,7 +289,7 @@ def _free_guards(memory: Memory) -> int:
     return int(np.count_nonzero(memory.array["hold_row"][machine[machine >= 0]] < 0))
 
 
-def _longest_step(run: Run, problem: Problem) -> float:
+def _longest_step(run: Run, problem: Instance) -> float:
     """What was set, and what the problem says; a fixed step is as it is."""
     return run.max_step if run.fixed_step is not None else min(run.max_step, getattr(problem, "longest_step", np.inf))
 

@@ -8,13 +8,13 @@ import numpy as np
 
 from fairlead.integrate.codes import KNOWN_ZONES
 from fairlead.integrate.condensing import columns_of, core_entries, lay_out
-from fairlead.integrate.protocol import Floats, Integers, Problem
+from fairlead.integrate.protocol import Floats, Instance, Integers
 
 MOST = 8
 """A machine with more neighbours than this hands nothing on: a big body that many contacts act on."""
 
 
-def held_entries(problem: Problem) -> dict[str, Integers]:
+def held_entries(problem: Instance) -> dict[str, Integers]:
     """Entries of M and of J in rows that may hold, by their names in memory.py.
 
     Those of J are slopes to what moves, which `stepping` takes out, or to other forces: contacts that close a
@@ -45,7 +45,7 @@ def held_entries(problem: Problem) -> dict[str, Integers]:
     }  # fmt: skip
 
 
-def neighbours(problem: Problem) -> dict[str, Integers]:
+def neighbours(problem: Instance) -> dict[str, Integers]:
     """Neighbours of every machine, its first guard, and the guards that limit a held force.
 
     Two machines are neighbours when a speed that one holds is a speed the other holds, or acts on one. A problem
@@ -70,7 +70,7 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
     }  # fmt: skip
 
 
-def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
+def known_rows(problem: Instance) -> dict[str, Floats | Integers]:
     """Entries of J and M in the row each machine holds, and room for what they are in every zone.
 
     A machine that holds no row, or more than one, has none; nor has one whose switch changes other rows too, as that of
@@ -106,7 +106,7 @@ def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
     return found
 
 
-def only_kinks(problem: Problem) -> Integers:
+def only_kinks(problem: Instance) -> Integers:
     """1 for machines that hold nothing and lead only from one piece of a continuous table to the next."""
     ng, nz = len(problem.guard_machine), len(problem.zones)
     machine = np.asarray(problem.guard_machine)
@@ -116,7 +116,7 @@ def only_kinks(problem: Problem) -> Integers:
     return ((guards > 0) & (guards == kinks)).astype(np.int64)
 
 
-def what_is_held(problem: Problem) -> dict[str, Floats | Integers]:
+def what_is_held(problem: Instance) -> dict[str, Floats | Integers]:
     """Per machine that may hold: the inertia that resists its force (0: not known), the speed and position it holds.
 
     Of several bodies the one whose position is known best, by its weight at the start; -1 where there is none.
@@ -136,7 +136,7 @@ def what_is_held(problem: Problem) -> dict[str, Floats | Integers]:
     return {"held_inertia": inertia, "held_speed": speed, "held_position": position}
 
 
-def _found(problem: Problem, holder: Integers) -> list[list[int]]:
+def _found(problem: Instance, holder: Integers) -> list[list[int]]:
     """Neighbours of every machine, ascending."""
     rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
     held = holder[rows] >= 0

@@ -17,7 +17,7 @@ import numpy as np
 from fairlead.integrate.codes import TRY, WAKE
 from fairlead.integrate.counters import COUNTS
 from fairlead.integrate.memory import Memory
-from fairlead.integrate.protocol import EVENT, Problem
+from fairlead.integrate.protocol import EVENT, Instance
 
 LEAST = 400
 """Unknowns of a problem that is worth looking at."""
@@ -56,7 +56,7 @@ BY_MACHINE = (
 class Scope:
     """The problem and the memory the loop works on, and the whole that they stand for."""
 
-    def __init__(self, problem: Problem, prepare: Callable[[Problem], Memory], *, engine: str) -> None:
+    def __init__(self, problem: Instance, prepare: Callable[[Instance], Memory], *, engine: str) -> None:
         """Begin with the whole; `prepare` makes the memory of a problem."""
         self.problem, self.whole_problem, self._prepare = problem, problem, prepare
         self.memory = self.whole = prepare(problem)

@@ -9,6 +9,10 @@ accepted points, when a guard rises through zero. A problem fits `Problem` by sh
 import this module. All callbacks are addresses of C functions, so that the loop is compiled once
 for all problems; `context` is passed through untouched.
 
+A `Problem` is frozen: any number of runs, in any number of threads, use it. For each run it makes an `Instance`: what
+the callbacks change, the zones first of all, is the instance's own, and so are the error weights, which follow the
+accuracy that the run asks for, and the choice of what is recorded.
+
     rhs       void   (ctx, t, y, f)               f[n]
     jacobian  void   (ctx, t, y, values, ft)      df/dy along `pattern`; ft[n] = partial f / partial t
     mass      void   (ctx, values)                M along `mass_pattern`, for the zones in force
@@ -23,7 +27,7 @@ for all problems; `context` is passed through untouched.
     drift     void   (ctx, t, y, r)               as slip, where slip answers only for a slip that an
                                                   impulse takes away
 
-A problem may also have `stiff` [n]: differential unknowns that may follow what drives them within a step, so that
+An instance may also have `stiff` [n]: differential unknowns that may follow what drives them within a step, so that
 `rodas` looks at them inside its steps too, as it does at algebraic ones and those with a cap. And `guard_inertia`
 [ng], live memory if the callbacks write to it: for a guard on the slip of a contact that may hold, the inertia that
 resists its force; 0 for others. Settling then knows which of two wrong zones is the more so, a force beyond its
@@ -55,7 +59,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Literal, NamedTuple, Protocol
+from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,10 +112,6 @@ class Problem(Protocol):
         """Addresses of C functions by the names in CALLBACKS."""
 
     @property
-    def context(self) -> int:
-        """What every callback gets first; passed through untouched."""
-
-    @property
     def initial(self) -> Floats:
         """[n]: y at the start; algebraic entries are a first guess."""
 
@@ -125,7 +125,7 @@ class Problem(Protocol):
 
     @property
     def zones(self) -> Integers:
-        """[nz]: live memory that the callbacks read and `switch` writes, the zone of each machine."""
+        """[nz]: the zone of each machine at the start."""
 
     @property
     def differential(self) -> Booleans:
@@ -134,6 +134,40 @@ class Problem(Protocol):
     @property
     def quadrature(self) -> Booleans:
         """[n]; True: nothing depends on y_i and it has no weight in the error norm."""
+
+    @property
+    def guard_machine(self) -> Integers:
+        """[ng]; the machine each guard belongs to, -1 for none."""
+
+    @property
+    def unknown_names(self) -> Sequence[str]:
+        """[n]."""
+
+    @property
+    def machine_names(self) -> Sequence[str]:
+        """[nz]."""
+
+    @property
+    def guard_names(self) -> Sequence[str]:
+        """[ng]."""
+
+    def zone_names(self, machine: int) -> Sequence[str]:
+        """Names of the zones of one machine, by the numbers in `zones`."""
+
+    def instance(self, run: Run) -> Instance:
+        """The problem in one run."""
+
+
+class Instance(Problem, Protocol):
+    """A problem in one run: what the callbacks work on, and what the run chooses."""
+
+    @property
+    def context(self) -> int:
+        """What every callback gets first; passed through untouched."""
+
+    @property
+    def zones(self) -> Integers:
+        """[nz]: live memory that the callbacks read and `switch` writes, the zone of each machine."""
 
     @property
     def absolute(self) -> Floats:
@@ -152,27 +186,8 @@ class Problem(Protocol):
         """[ng]; at an accepted point no guard may be above this."""
 
     @property
-    def guard_machine(self) -> Integers:
-        """[ng]; the machine each guard belongs to, -1 for none."""
-
-    @property
     def n_outputs(self) -> int:
         """How many numbers `outputs` writes."""
-
-    @property
-    def unknown_names(self) -> Sequence[str]:
-        """[n]."""
-
-    @property
-    def machine_names(self) -> Sequence[str]:
-        """[nz]."""
-
-    @property
-    def guard_names(self) -> Sequence[str]:
-        """[ng]."""
-
-    def zone_names(self, machine: int) -> Sequence[str]:
-        """Names of the zones of one machine, by the numbers in `zones`."""
 
 
 @dataclass(frozen=True)
@@ -181,6 +196,10 @@ class Run:
 
     stop: float
     start: float = 0.0
+    accuracy: float | None = None
+    """From which the problem has its error weights; None: those that it states itself."""
+    record: Sequence[str] | None = None
+    """Names of the outputs to record, with * and ?, of a problem that has names for them; None: all."""
     every: float | None = None
     """Record on this grid (and both sides of each event); None: every accepted step."""
     engine: Literal["rodas", "stepping", "ida"] = "rodas"
@@ -276,6 +295,8 @@ class Outcome:
     """Seconds spent inside the compiled loop, and on cutting out what moves."""
     loop_cpu: float
     """The same in seconds of processor time, which other programs on the machine do not disturb."""
+    problem: Any = field(repr=False)
+    """The instance that the run worked on, as it left it: zones, and what else the callbacks change."""
     blocks: tuple[Block, ...] = field(default=(), repr=False)
     """What was recorded, when no `on_block` took it."""
 

@@ -30,7 +30,7 @@ import numpy as np
 
 import fairlead.integrate.machine_code as machine_code
 from fairlead.integrate.memory import Memory
-from fairlead.integrate.protocol import Floats, Problem, Run, Status
+from fairlead.integrate.protocol import Floats, Instance, Run, Status
 from fairlead.integrate.sundials_solver import Refused, Solver
 
 CAUTION = 0.1
@@ -54,7 +54,7 @@ LEAST_STEP = 1e-14
 class SundialsLoop:
     """Like the compiled loops: called with the address of the struct and a number of steps, returns a status."""
 
-    def __init__(self, problem: Problem, run: Run, memory: Memory) -> None:
+    def __init__(self, problem: Instance, run: Run, memory: Memory) -> None:
         """Nothing is started yet; raises UsageError when scikit-sundae is missing."""
         self.memory, self.run = memory, run
         self.go_on = machine_code.compiled_loop("rodas")
@@ -147,7 +147,7 @@ class SundialsLoop:
 class Weights:
     """Error weights of a problem in the form that IDA takes."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Instance) -> None:
         """Choose the form: one relative tolerance for all, or weights that are frozen at restarts."""
         self.absolute = np.asarray(problem.absolute, dtype=np.float64)
         self.relative = np.asarray(problem.relative, dtype=np.float64)

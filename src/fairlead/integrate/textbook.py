@@ -19,13 +19,14 @@ used, slowly, and an exception in one of them is raised by `TextbookProblem.rais
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from fairlead.integrate.protocol import Booleans, Floats, Integers, Pattern
+from fairlead.integrate.protocol import Booleans, Floats, Integers, Pattern, Run
 
 Law = Callable[..., Any]
 
@@ -35,11 +36,11 @@ class TextbookProblem:
     """A `Problem` whose callbacks came from plain functions; see the module docstring."""
 
     callbacks: Mapping[str, int]
-    context: int
     initial: Floats
     pattern: Pattern
     mass_pattern: Pattern
     zones: Integers
+    """At the start; of an instance live memory, and `context` its address."""
     differential: Booleans
     quadrature: Booleans
     absolute: Floats
@@ -54,6 +55,12 @@ class TextbookProblem:
     names_of_zones: Mapping[int, Sequence[str]]
     failures: list[BaseException] = field(default_factory=list)
     keep_alive: Any = field(default=None, repr=False)
+    context: int = 0
+
+    def instance(self, run: Run) -> TextbookProblem:
+        """The problem with zones of its own; the weights are those that were given, whatever accuracy is asked for."""
+        live = self.zones.copy()
+        return dataclasses.replace(self, zones=live, context=int(live.ctypes.data))
 
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine."""
@@ -108,7 +115,6 @@ def textbook(
     of a square array.
     """
     n, ng, nz = len(initial), len(guard_machine), len(zones)
-    live = np.array(zones, dtype=np.int64)
     differential = np.ones(n, dtype=bool)
     differential[list(algebraic)] = False
     depends = np.zeros(n, dtype=bool)
@@ -130,18 +136,17 @@ def textbook(
 
         keep, addresses = compile_laws(given, sizes)
     else:
-        keep, addresses = _python_callbacks(given, sizes, live, failures)
+        keep, addresses = _python_callbacks(given, sizes, failures)
 
     def each(value: float | Sequence[float], length: int) -> Floats:
         return np.broadcast_to(np.asarray(value, dtype=np.float64), (length,)).copy()
 
     return TextbookProblem(
         callbacks=addresses,
-        context=int(live.ctypes.data),
         initial=np.array(initial, dtype=np.float64),
         pattern=pattern or full_pattern(n),
         mass_pattern=mass_pattern or full_pattern(n),
-        zones=live,
+        zones=np.array(zones, dtype=np.int64),
         differential=differential,
         quadrature=depends,
         absolute=each(absolute, n),
@@ -189,7 +194,7 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
 
 
 def _python_callbacks(
-    laws: Mapping[str, Law], sizes: _Sizes, zones: Integers, failures: list[BaseException]
+    laws: Mapping[str, Law], sizes: _Sizes, failures: list[BaseException]
 ) -> tuple[Any, dict[str, int]]:
     """C callbacks into Python; a failure leaves nan behind, so that the loop stops, and is kept."""
     n = sizes.n
@@ -199,26 +204,31 @@ def _python_callbacks(
             return np.zeros(0)
         return np.ctypeslib.as_array(pointer, (length,))
 
+    def live(context: Any) -> Integers:
+        """The zones of the run, whose address is the context."""
+        return np.zeros(0, np.int64) if sizes.zones == 0 else np.ctypeslib.as_array(context, (sizes.zones,))
+
     def matrix(pointer: Any, pattern: Pattern | None) -> np.ndarray:
         if pattern is not None:
             return view(pointer, len(pattern.rows))
         return view(pointer, n * n).reshape(n, n).T
 
     def fill(law: Law, length: int) -> Callable[..., None]:
-        return lambda _c, t, y, out: law(t, view(y, n), zones, view(out, length))
+        return lambda c, t, y, out: law(t, view(y, n), live(c), view(out, length))
 
-    def jacobian(_c: Any, t: float, y: Any, values: Any, ft: Any) -> None:
+    def jacobian(c: Any, t: float, y: Any, values: Any, ft: Any) -> None:
         into = matrix(values, sizes.pattern)
         into[...] = 0.0
         view(ft, n)[:] = 0.0
-        laws["jacobian"](t, view(y, n), zones, into, view(ft, n))
+        laws["jacobian"](t, view(y, n), live(c), into, view(ft, n))
 
-    def mass(_c: Any, values: Any) -> None:
+    def mass(c: Any, values: Any) -> None:
         into = matrix(values, sizes.mass_pattern)
         into[...] = 0.0
-        laws["mass"](zones, into)
+        laws["mass"](live(c), into)
 
-    def switch(_c: Any, t: float, y: Any, fired: Any, count: int) -> int:
+    def switch(c: Any, t: float, y: Any, fired: Any, count: int) -> int:
+        zones = live(c)
         before = zones.copy()
         laws["switch"](t, view(y, n), zones, view(fired, count))
         return int(np.count_nonzero(before != zones))
@@ -229,9 +239,9 @@ def _python_callbacks(
         "mass": mass,
         "guards": fill(laws.get("guards", _ones), sizes.guards),
         "switch": switch,
-        "slip": lambda _c, t, y, r: int(laws["slip"](t, view(y, n), zones, view(r, n))),
-        "next_time": lambda _c, t: float(laws["next_time"](t, zones)),
-        "at_time": lambda _c, t, y: int(laws["at_time"](t, view(y, n), zones)),
+        "slip": lambda c, t, y, r: int(laws["slip"](t, view(y, n), live(c), view(r, n))),
+        "next_time": lambda c, t: float(laws["next_time"](t, live(c))),
+        "at_time": lambda c, t, y: int(laws["at_time"](t, view(y, n), live(c))),
         "outputs": fill(laws.get("outputs", _ones), sizes.outputs or n),
     }
 

@@ -10,22 +10,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.flatten.flat_model import FlatModel
-from fairlead.system import layout
 from fairlead.system.blocks import Block, Floats, Tables
 from fairlead.system.context import context, working_arrays
 from fairlead.system.driver import SPREAD, callbacks
 from fairlead.system.jacobian import jacobian
 from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
-from fairlead.system.plain_python import called_controllers
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
-from fairlead.system.shown import what_to_ask
 from fairlead.system.switching import guards, holders, kinks, limits, machine_owners, machine_zones
 from fairlead.system.system import Pattern, System
-from fairlead.system.timing import samplers
-from fairlead.system.tolerances import Weights, guard_tolerances
+from fairlead.system.timing import first_pieces, samplers
+from fairlead.system.tolerances import scales
 from fairlead.system.unknowns import Numbering
+from fairlead.system.working import set_apart
 
 HOLD_TIME = 1e-3  # s; a held contact loses a slip left over from rounding with this time constant
 
@@ -37,35 +35,31 @@ def build(
     tables: Tables,
     machines: Sequence[str],
     begin: Floats,
-    chosen: Weights,
     *,
-    named: bool = True,
+    whole: bool = True,
 ) -> System:
     """The System of these blocks; `machines` says whose every position in `zones` is, `begin` [n] the start.
 
-    Without `named` its outputs have no names, and nothing can be chosen to be recorded.
+    A part of a model (not `whole`) has its weights and its samples from the whole, and no outputs of its own.
     """
     shared, end = shares(blocks)
     program = jacobian(flat, blocks, shared, numbering, end.mass)
     mass_pattern, memory = mass(blocks, shared, numbering)
     slots, switches = guards(blocks)
-    start = flat.assembly.netlist.run.start
-    memory |= switches | rows(blocks, shared, end) | samplers(blocks, start) | {"stored": stored(blocks, shared)}
+    memory |= switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
-    memory["counts"][layout.OUTPUT], late = what_to_ask(blocks, shared, np.zeros(0, dtype=np.int64))
     memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])}
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
-    controllers = called_controllers(blocks, numbering, memory)
     memory["context"] = context(blocks, numbering, program, memory, end.mass)
-    memory["context"][layout.RATES_SHOWN] = int(late)
-    unknowns = numbering.unknowns
+    timed = first_pieces(blocks, memory["zones"])
+    working = set_apart(memory, blocks, samples=whole)
+    unknowns, run = numbering.unknowns, flat.assembly.netlist.run
     return System(
         flat=flat,
         numbering=numbering,
         blocks=blocks,
         tables=tables,
         callbacks={name: at for name, at in callbacks().address.items() if name != SPREAD},
-        context=memory["context"].ctypes.data,
         initial=begin,
         pattern=Pattern(program.starts, program.rows),
         timed=program.timed,
@@ -74,10 +68,9 @@ def build(
         differential=np.array([u.differential for u in unknowns], dtype=bool),
         quadrature=np.array([u.kind == "ledger" for u in unknowns], dtype=bool),
         stiff=np.array([u.kind == "state" for u in unknowns], dtype=bool),
-        absolute=chosen.absolute,
-        relative=chosen.relative,
-        cap=chosen.cap,
-        guard_tolerance=guard_tolerances([unit for _, unit in slots], chosen.cap),
+        accuracy=run.accuracy,
+        start=run.start,
+        scales=scales(flat, numbering, [unit for _, unit in slots]) if whole else None,
         guard_machine=memory["guard_machines"],
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),
@@ -88,9 +81,10 @@ def build(
         guard_names=[name for name, _ in slots],
         machine_zones=machine_zones(blocks, len(machines)),
         machine_guards=machine_owners(blocks, len(machines)),
-        signals=signals(flat, blocks, shared, numbering) if named else [],
+        signals=signals(flat, blocks, shared, numbering) if whole else [],
         memory=memory,
-        controllers=controllers,
+        working=working,
+        timed_tables=timed,
     )
 
 

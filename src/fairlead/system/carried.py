@@ -28,7 +28,7 @@ from fairlead.system.probing import Guards
 from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
 from fairlead.system.structure import Structure
-from fairlead.system.system import System
+from fairlead.system.system import Instance
 
 KEPT_FREE = 24
 """Carried nodes nearest to where they are let go that stay unknowns: they come off before the next look."""
@@ -50,7 +50,7 @@ class Bond(NamedTuple):
 class Carriage:
     """Finds what is carried in one System."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: Instance) -> None:
         """Look at the whole; nothing is evaluated yet."""
         self.system = system
         self.bonds = [b for b in system.blocks if b.kernel.variant.type.declaration.carries is not None]
@@ -142,7 +142,7 @@ def _slope(structure: Structure, slopes: Floats, target: str, key: str) -> Float
     return np.zeros(len(slopes))
 
 
-def following(system: System, riders: list[Rider], t: float, y: Floats) -> Following:
+def following(system: Instance, riders: list[Rider], t: float, y: Floats) -> Following:
     """What stands where for what is carried at (t, y [n])."""
     numbering, flat = system.numbering, system.flat
     call(system, "rhs", t, y, np.zeros(system.n))

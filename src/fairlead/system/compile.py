@@ -7,6 +7,8 @@ No symbolic work happens here: kernels are traced once per class (`kernels.py`) 
 
 from __future__ import annotations
 
+import dataclasses
+
 from fairlead.component.values import Variant
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.collection import collected_later
@@ -19,13 +21,11 @@ from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.narrowing import Narrowing
 from fairlead.system.ranks import signal_ranks
 from fairlead.system.system import System
-from fairlead.system.timing import start_pieces
-from fairlead.system.tolerances import weights
 from fairlead.system.unknowns import number
 
 
 @collected_later
-def compile(flat: FlatModel, accuracy: float = 1e-4) -> System:
+def compile(flat: FlatModel) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
     kernels = _kernels(flat)
     structures = {path: made.structure for path, made in kernels.items()}
@@ -37,12 +37,8 @@ def compile(flat: FlatModel, accuracy: float = 1e-4) -> System:
     faults += undetermined(flat, numbering, blocks)
     if faults:
         raise ModelError(faults)
-    chosen = weights(flat, numbering, accuracy)
-    system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin, chosen)
-    start_pieces(blocks, system.zones, flat.assembly.netlist.run.start)
-    system.record(["*"])
-    system.narrowing = Narrowing(system)
-    return system
+    system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
+    return dataclasses.replace(system, narrows=Narrowing)
 
 
 def untraceable(flat: FlatModel) -> list[Fault]:

@@ -1,4 +1,7 @@
-"""The context: sizes, and the addresses of all arrays, in the one vector that every callback gets."""
+"""The context: sizes, and the addresses of all arrays, in the one vector that every callback gets.
+
+What a run changes (working.py) and what it records (recording.py) has other addresses in every run.
+"""
 
 from __future__ import annotations
 
@@ -14,20 +17,19 @@ from fairlead.system.switching import holds
 from fairlead.system.timing import time_places
 from fairlead.system.unknowns import Numbering, reaction_masses
 
-# Positions of the context that hold the address of the array of that name, in lower case, in memory.
+# Positions of the context that hold the address of the array of that name, in lower case, in memory; there is one for
+# each name in `working.CHANGED` too.
 ADDRESSES = (
-    "Z", "W", "ZONES", "TABLES", "KERNELS", "BLOCKS", "COUNTS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS",
-    "REACTION_A", "PARTIALS", "WORK", "PROGRAM", "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS",
-    "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES", "TIME_PLACE", "SELECTED", "STORED", "SAMPLED", "SAMPLE_PERIOD",
-    "SAMPLE_COUNT", "SAMPLE_START", "SAMPLE_KERNELS", "OUTPUTS_ALL", "CIRCLE_PAIRS", "CIRCLE_COEF", "CIRCLE_ZONES",
-    "CIRCLE_SEEN", "CIRCLE_STILL", "CIRCLE_BODIES", "CIRCLE_PINS", "CIRCLE_NODES", "CIRCLE_RATIO", "GUARD_INERTIA",
-    "TAU", "FIXED", "FIXED_COEF", "MOVING", "MOVING_BASE", "F_REST",
+    "TABLES", "KERNELS", "BLOCKS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS", "REACTION_A", "PROGRAM",
+    "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
+    "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
+    "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
     "N_REACTIONS": "reaction_mass", "N_BLOCKS": "kernels", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
-    "N_HOLDS": "holds", "N_TIME": "time_place", "N_SELECTED": "selected", "N_STORED": "stored", "N_SAMPLED": "sampled",
+    "N_HOLDS": "holds", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
     "N_FIXED": "fixed", "N_MOVING": "moving",
 }  # fmt: skip
@@ -51,7 +53,8 @@ def working_arrays(
         "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),
         "program": program.steps, "program_coef": program.coef, "fixed": program.fixed,
         "fixed_coef": program.fixed_coef, "moving": program.moving, "moving_base": np.zeros(len(program.moving)),
-        "holds": holds(blocks)[0], "time_place": time_places(blocks), "selected": np.zeros(0, dtype=np.int64),
+        "fixed_done": np.zeros(1, dtype=np.int64),
+        "holds": holds(blocks)[0], "time_place": time_places(blocks),
     }  # fmt: skip
 
 

@@ -23,9 +23,10 @@ from fairlead.system.build import build
 from fairlead.system.driver import SPREAD
 from fairlead.system.moving import Following, Moving
 from fairlead.system.part import Part, hand_over
+from fairlead.system.recording import Recording, recording
 from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
-from fairlead.system.system import System
+from fairlead.system.system import Instance, System, begun
 from fairlead.system.tolerances import Weights
 from fairlead.system.unknowns import Numbering
 
@@ -34,7 +35,7 @@ AGREE, EPSILON = 1e-6, 1e-14
 
 
 @collected_later
-def cut(system: System, t: float, y: Floats, moving: Moving) -> Part | None:
+def cut(system: Instance, t: float, y: Floats, moving: Moving) -> Part | None:
     """The System of what moves at (t, y [n]); None if its equations differ from those of the whole there."""
     whole, n, carried = system.numbering, system.n, moving.carried
     kept, machines, rim = moving.kept, moving.machines, moving.rim
@@ -48,34 +49,46 @@ def cut(system: System, t: float, y: Floats, moving: Moving) -> Part | None:
     machine_of[machines] = np.arange(len(machines))
     pieces = _pieces(system, moving)
     blocks = [_part_of(block, piece, numbering.dump, carried, z_of, w_of, machine_of) for _, block, piece in pieces]
-    weights = Weights(system.absolute[unknowns], system.relative[unknowns], system.cap[unknowns])
+    guards = _guards(system, pieces)
     numbering.resting = len(rests)
     names, flat = [system.machine_names[m] for m in machines], _heavier(system.flat, carried)
-    made = build(flat, numbering, blocks, system.tables, names, y[unknowns].copy(), weights, named=False)
+    part = build(flat, numbering, blocks, system.tables, names, y[unknowns].copy(), whole=False)
+    made = begun(part, _weights(system, unknowns, guards), _shown(part, system), part.working.new())
     made.zones[:] = system.zones[machines]
-    made.recorded = system.recorded
     _tell_of_the_whole(made, system, y, unknowns, machines, z_of, carried)
     hand_over(system, made)
-    guards = _guards(system, pieces)
-    made.guard_tolerance = system.guard_tolerance[guards]
     if not _say_what_rests(system, made, t, y, unknowns, moving, rests):
         return None
     return Part(made, unknowns, machines, guards, rim[machines].astype(np.int64), system, carried)
 
 
+def _weights(system: Instance, unknowns: Integers, guards: Integers) -> Weights:
+    """Those of the whole."""
+    return Weights(
+        system.absolute[unknowns], system.relative[unknowns], system.cap[unknowns], system.guard_tolerance[guards]
+    )  # fmt: skip
+
+
+def _shown(part: System, system: Instance) -> Recording:
+    """What is recorded of the whole; of its own the part shows nothing."""
+    nothing = recording([], [], part.blocks, part.memory["counts"])
+    return dataclasses.replace(nothing, recorded=system.recorded)
+
+
 def _tell_of_the_whole(
-    part: System, system: System, y: Floats, unknowns: Integers, machines: Integers, z_of: Integers, carried: Following
-) -> None:
+    part: Instance, system: Instance, y: Floats, unknowns: Integers, machines: Integers, z_of: Integers,
+    carried: Following,
+) -> None:  # fmt: skip
     """What `spread` must know (the names are explained in layout.py)."""
     count = len(carried.unknowns) // 2
     x, v = carried.unknowns[:count], carried.unknowns[count:]
     a = system.numbering.acceleration + v
-    part.memory |= {
+    part.memory.update({
         "whole_y": y.copy(), "kept": unknowns, "kept_machines": machines,
         "carried": np.stack([x, v, *(z_of[carried.place[u]] for u in (x, v, a))], axis=1).astype(np.int64),
         "carried_coef": np.stack([carried.ratio[x], carried.offset[x], carried.ratio[v],
                                   carried.ratio[a] * carried.mass, 1 / carried.bond], axis=1),
-    }  # fmt: skip
+    })  # fmt: skip
     context = part.memory["context"]
     for name in ("WHOLE_Y", "KEPT", "KEPT_MACHINES", "CARRIED", "CARRIED_COEF"):
         part.memory[name.lower()] = np.ascontiguousarray(part.memory[name.lower()])
@@ -195,7 +208,7 @@ def _guards(system: System, pieces: Sequence[tuple[int, Block, Piece]]) -> Integ
 
 
 def _say_what_rests(
-    system: System, part: System, t: float, y: Floats, unknowns: Integers, moving: Moving, rests: Integers
+    system: Instance, part: Instance, t: float, y: Floats, unknowns: Integers, moving: Moving, rests: Integers
 ) -> bool:
     """Write the numbers of the rest into the part; False if the equations of the part are not those of the whole."""
     of_part, carried, n = np.zeros(part.n), moving.carried, system.n
@@ -226,7 +239,7 @@ def _say_what_rests(
     return True
 
 
-def _terms(system: System, t: float, y: Floats) -> Floats:
+def _terms(system: Instance, t: float, y: Floats) -> Floats:
     """By row of w: the sum of its terms without their signs, as far as it is linear in the unknowns."""
     values, made = np.zeros(len(system.pattern.rows)), np.zeros(system.numbering.w_dump + 1)
     call(system, "jacobian", t, y, values, np.zeros(system.n))

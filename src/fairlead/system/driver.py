@@ -135,7 +135,8 @@ def assemble(ctx, t, y, ledger, values, ft):
         evaluate(ctx, t, y)
     z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
     kernels, blocks = i8(ctx[KERNELS]), ctx[BLOCKS]
-    if ctx[FIXED_DONE] == 0:
+    done = i8(ctx[FIXED_DONE])
+    if done[0] == 0:
         fix(ctx, t, y)
     schedule = i8(ctx[SCHEDULE])
     for s in range(0, ctx[N_SCHEDULE]):
@@ -185,7 +186,8 @@ def fix(ctx, t, y):
     moving, base = i8(ctx[MOVING]), f8(ctx[MOVING_BASE])
     for k in range(0, ctx[N_MOVING]):
         base[k] = work[moving[k]]
-    ctx[FIXED_DONE] = 1
+    done = i8(ctx[FIXED_DONE])
+    done[0] = 1
 
 
 def mass(ctx, values):

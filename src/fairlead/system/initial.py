@@ -18,7 +18,7 @@ from fairlead.component.instantiate import PortRef
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.quantities import QuantityError, si
-from fairlead.system.system import glob
+from fairlead.system.recording import glob
 from fairlead.system.unknowns import Numbering
 
 

@@ -16,7 +16,7 @@ from fairlead.system.influence import Influence, answers, paths, spread
 from fairlead.system.moving import Following, Moving, Rider
 from fairlead.system.probing import Guards, Probe
 from fairlead.system.rest import Booleans, Floats, Integers
-from fairlead.system.system import System
+from fairlead.system.system import Instance
 
 JOLT = 1e-3
 """Share of its size by which everything that moves is displaced, to see what answers to it."""
@@ -28,7 +28,7 @@ class Look:
     """One look at a System at (t, y) with some riders: what is left of it, and which laws say when that ends."""
 
     def __init__(
-        self, system: System, found: Influence, guards: Guards, circles: Integers, riders: list[Rider],
+        self, system: Instance, found: Influence, guards: Guards, circles: Integers, riders: list[Rider],
         what: Following, t: float, y: Floats,
     ) -> None:  # fmt: skip
         """Let go of more and more until nothing left out answers to anything that is not.

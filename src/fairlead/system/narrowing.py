@@ -15,7 +15,7 @@ from fairlead.system.cutting import cut
 from fairlead.system.moving import Moving, nothing_carried
 from fairlead.system.part import Part
 from fairlead.system.rest import Anatomy, Booleans, Floats, Integers, Rest, anatomy, at_rest, leaning_on
-from fairlead.system.system import System
+from fairlead.system.system import Instance
 
 HUB = 64
 """An unknown in more equations than this passes no motion on: what hangs on it moves anyway, or hangs on a rest."""
@@ -28,7 +28,7 @@ HOLDING = 0.2
 class Narrowing:
     """Cuts parts that move out of one System."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: Instance) -> None:
         """Look at a whole System; nothing is cut yet."""
         self.system = system
         self._anatomy: Anatomy | None = None
@@ -136,7 +136,7 @@ class Narrowing:
         return found
 
 
-def _reached_by(system: System) -> tuple[Integers, Integers]:
+def _reached_by(system: Instance) -> tuple[Integers, Integers]:
     """Entries (row, column) along which motion spreads: all but those of hubs and of the ledger."""
     n = system.n
     row = np.concatenate([system.pattern.rows, system.mass_pattern.rows])
@@ -146,7 +146,7 @@ def _reached_by(system: System) -> tuple[Integers, Integers]:
     return row[near], column[near]
 
 
-def _givers(system: System) -> list[Booleans]:
+def _givers(system: Instance) -> list[Booleans]:
     """By block: instances that prescribe a motion."""
     paths = {g.prescribed.by.instance for g in system.flat.groups if g.prescribed and g.prescribed.outputs}
     return [np.array([i.path in paths for i in block.instances], dtype=bool) for block in system.blocks]

@@ -9,8 +9,8 @@ import numpy as np
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.blocks import Block, Integers
 from fairlead.system.layout import STORED_ENERGY
+from fairlead.system.recording import OutputSignal
 from fairlead.system.shares import Share
-from fairlead.system.system import OutputSignal
 from fairlead.system.unknowns import Numbering
 
 

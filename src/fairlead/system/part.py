@@ -8,20 +8,20 @@ from fairlead.system.asking import call
 from fairlead.system.driver import SPREAD
 from fairlead.system.moving import Following
 from fairlead.system.rest import Floats, Integers
-from fairlead.system.system import System
+from fairlead.system.system import Instance
 
 
 @dataclasses.dataclass(frozen=True)
 class Part:
     """What moves, and where it lies in the whole."""
 
-    problem: System
+    problem: Instance
     unknowns: Integers
     machines: Integers
     guards: Integers
     rim: Integers
     """By machine of the part: 1 if its change ends what is true of the part."""
-    whole: System
+    whole: Instance
     carried: Following
 
     @property
@@ -41,8 +41,9 @@ class Part:
         of_unknowns[u[own]] = what.ratio[u[own]] * of_unknowns[what.place[u[own]]]
 
 
-def hand_over(one: System, other: System) -> None:
+def hand_over(one: Instance, other: Instance) -> None:
     """Give another System of the same sampled instances what they know: counts of samples, objects in Python."""
-    other.memory["sample_count"][:] = one.memory["sample_count"]
+    for name in ("sample_count", "sample_start"):
+        other.memory[name][:] = one.memory[name]
     for mine, its in zip(one.controllers, other.controllers, strict=True):
         its.take_over(mine)

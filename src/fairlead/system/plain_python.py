@@ -96,10 +96,12 @@ class CalledController:
 
 
 def called_controllers(blocks: Sequence[Block], numbering: Numbering, memory: Memory) -> list[CalledController]:
-    """All controllers in plain Python; their addresses take the place of kernels in memory."""
-    found = []
+    """All controllers in plain Python, anew; their addresses take the place of kernels in `memory`."""
+    found: list[CalledController] = []
     for k, (b, i) in enumerate(memory["sampled"]):
         if blocks[b].instances[i].type.declaration.python:
+            if not found:
+                memory["sample_kernels"] = memory["sample_kernels"].copy()
             found.append(CalledController(blocks[b], int(i), numbering, memory))
             memory["sample_kernels"][k] = found[-1].address
     return found

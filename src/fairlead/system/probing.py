@@ -15,7 +15,7 @@ from fairlead.system import layout
 from fairlead.system.blocks import place_of_motion
 from fairlead.system.moving import Following, Rider
 from fairlead.system.rest import Booleans, Floats, Integers
-from fairlead.system.system import System
+from fairlead.system.system import Instance
 
 KERNEL = ctypes.CFUNCTYPE(None, *(ctypes.c_int64, ctypes.c_void_p), *2 * (ctypes.c_int64,), *4 * (ctypes.c_void_p,))
 TRAVEL = 1e-4
@@ -39,7 +39,7 @@ stays in costs the same.
 class Guards:
     """All guards for what stands in z, be it consistent or not; those of circles are not among them."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: Instance) -> None:
         """Find the kernels and what they want to be told."""
         memory = system.memory
         self._count = len(system.guard_tolerance)
@@ -62,7 +62,7 @@ class Guards:
 class Probe:
     """Asks the guards at one state of a System, with some of it carried."""
 
-    def __init__(self, system: System, guards: Guards, riders: list[Rider], what: Following, z: Floats) -> None:
+    def __init__(self, system: Instance, guards: Guards, riders: list[Rider], what: Following, z: Floats) -> None:
         """What stands in z is consistent."""
         self.system, self.guards, self.riders, self.following, self.z = system, guards, riders, what, z
         self.now = guards.at(z)
@@ -168,7 +168,7 @@ class Probe:
         return np.concatenate(made)
 
 
-def laws_of_guards(system: System) -> Integers:
+def laws_of_guards(system: Instance) -> Integers:
     """By guard: its law, counted over all blocks."""
     made, start = [], 0
     for block in system.blocks:
@@ -177,7 +177,7 @@ def laws_of_guards(system: System) -> Integers:
     return np.concatenate(made)
 
 
-def laws_with_unknowns(system: System) -> Booleans:
+def laws_with_unknowns(system: Instance) -> Booleans:
     """By law, counted over all blocks: whether it has unknowns of its own."""
     owns = [any(t.startswith("own:") for t in block.kernel.structure.targets) for block in system.blocks]
     return np.repeat(owns, [block.count for block in system.blocks])

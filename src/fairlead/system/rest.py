@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.system.system import System
+from fairlead.system.system import Instance, System
 
 Integers = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -102,7 +102,7 @@ def _hold_rows(system: System) -> HoldRows:
     return HoldRows(row, machine, in_zone, given)
 
 
-def at_rest(parts: Anatomy, system: System, y: Floats) -> Rest:
+def at_rest(parts: Anatomy, system: Instance, y: Floats) -> Rest:
     """What rests in the zones in force; y [n] tells which speeds are zero up to rounding."""
     n, holds = system.n, parts.holds
     now = (holds.machine < 0) | (system.zones[holds.machine] == holds.zone)

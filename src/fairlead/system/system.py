@@ -1,26 +1,33 @@
-"""The compiled model: everything an engine asks for, by the shape of `integrate.protocol.Problem`."""
+"""The compiled model: everything an engine asks for, by the shape of `integrate.protocol.Problem`.
+
+    System      compiled once: structure, plans, code; frozen, and shared by all runs and threads
+    Instance    a System in one run: working memory of its own, weights, what is recorded
+"""
 
 from __future__ import annotations
 
+import functools
 import math
-import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
-from fairlead.system.blocks import Block, Tables
-from fairlead.system.plain_python import CalledController
-from fairlead.system.shares import shares
-from fairlead.system.shown import what_to_ask
+from fairlead.system.blocks import Block, Memory, Tables
+from fairlead.system.plain_python import CalledController, called_controllers
+from fairlead.system.recording import OutputSignal, Recording, choose
+from fairlead.system.timing import PlacedTable
+from fairlead.system.tolerances import Scales, Weights
 from fairlead.system.unknowns import Numbering
+from fairlead.system.working import Bytes, Working, addressed, discrete
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+EVERYTHING = ("*",)
 
 
 class Pattern(NamedTuple):
@@ -30,40 +37,44 @@ class Pattern(NamedTuple):
     rows: Integers
 
 
-@dataclass(frozen=True)
-class OutputSignal:
-    """One recordable output."""
+class Asked(Protocol):
+    """What a run says of itself, see `integrate.protocol.Run`; None: as the netlist says."""
 
-    name: str
-    unit: str
-    doc: str
-    at: int  # position among all outputs, or -1 - position in z
+    @property
+    def accuracy(self) -> float | None:
+        """Relative accuracy."""
+
+    @property
+    def start(self) -> float:
+        """Time of the start, s."""
+
+    @property
+    def record(self) -> Sequence[str] | None:
+        """Names of what to record, with * and ?; None: everything."""
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
 class System:
-    """A model as flat arrays and addresses of compiled callbacks. `memory` keeps the arrays alive."""
+    """A model as flat arrays and addresses of compiled callbacks; nothing in it is changed by a run."""
 
     flat: FlatModel
     numbering: Numbering
     blocks: list[Block]
     tables: Tables
     callbacks: dict[str, int]
-    context: int
     initial: Floats
     pattern: Pattern
     timed: NDArray[np.bool_]  # rows of f that depend on time
     mass_pattern: Pattern
-    zones: Integers
+    zones: Integers  # at the start, but for what is given in time
     differential: NDArray[np.bool_]
     quadrature: NDArray[np.bool_]
     stiff: NDArray[np.bool_]  # states inside components, as a bristle: some follow what drives them within a step
-    absolute: Floats
-    relative: Floats
-    cap: Floats
-    guard_tolerance: Floats
+    accuracy: float  # of a run that does not say
+    start: float  # likewise, s
+    scales: Scales | None  # None for a part, whose weights are those of the whole
     guard_machine: Integers
-    guard_inertia: Floats
+    guard_inertia: Floats  # at the start
     holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
     limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
     kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
@@ -73,15 +84,20 @@ class System:
     machine_zones: list[Sequence[str]]
     machine_guards: list[Any]  # per machine: the block and the instance it belongs to
     signals: list[OutputSignal]
-    memory: dict[str, NDArray[Any]] = field(repr=False)
-    recorded: list[OutputSignal] = field(default_factory=list)
-    controllers: list[CalledController] = field(default_factory=list, repr=False)
-    narrowing: Any = field(default=None, repr=False)  # cuts out what moves, see narrowing.py; None for a part
+    memory: Memory = field(repr=False)  # arrays that code reads; those that a run changes as they are at first
+    working: Working = field(repr=False)
+    timed_tables: list[PlacedTable] = field(repr=False)  # what is given in time
+    narrows: Callable[[Any], Any] | None = field(default=None, repr=False)  # see narrowing.py; None for a part
 
     @property
     def n(self) -> int:
         """How many unknowns."""
         return len(self.initial)
+
+    @property
+    def n_guards(self) -> int:
+        """How many guard slots."""
+        return len(self.guard_machine)
 
     @property
     def unknown_names(self) -> list[str]:
@@ -93,11 +109,6 @@ class System:
         """Machines of contacts that may close a circle: a switch changes more than their own row."""
         machines = np.unique(self.memory["circle_pairs"][:, 5])
         return machines[machines >= 0]
-
-    @property
-    def n_outputs(self) -> int:
-        """Recorded outputs, and the stored energy at the end."""
-        return len(self.recorded) + 1
 
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine."""
@@ -140,28 +151,34 @@ class System:
         """True if controllers take samples of signals."""
         return bool(len(self.memory["sampled"]))
 
-    def record(self, patterns: Iterable[str]) -> list[OutputSignal]:
-        """Choose what is recorded; always also the ledger and the creep of every contact, at the end."""
-        wanted = [re.compile(glob(pattern)) for pattern in patterns]
-        chosen = [s for s in self.signals if any(w.fullmatch(s.name) for w in wanted)]
-        names = {s.name for s in chosen}
-        hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
-        self.recorded = chosen + hidden
-        self.memory["selected"] = np.array([s.at for s in self.recorded], dtype=np.int64)
-        context = self.memory["context"]
-        context[layout.N_SELECTED] = len(self.recorded)
-        context[layout.SELECTED] = self.memory["selected"].ctypes.data
-        counts, late = what_to_ask(self.blocks, shares(self.blocks)[0], self.memory["selected"])
-        self.memory["counts"][layout.OUTPUT] = counts
-        context[layout.RATES_SHOWN] = int(late)
-        return chosen
+    def recording(self, patterns: Sequence[str]) -> Recording:
+        """Choose what is recorded, by names with * and ?; the ledger and the creep of every contact are, too."""
+        return self._recording(tuple(patterns))
+
+    @functools.cached_property
+    def _recording(self) -> Callable[[tuple[str, ...]], Recording]:
+        counts = self.memory["counts"]
+        return functools.lru_cache(maxsize=8)(lambda names: choose(self.signals, names, self.blocks, counts))
+
+    def instance(self, run: Asked | None = None, piece: Bytes | None = None) -> Instance:
+        """This System for one run, with memory of its own; in `piece`, `working.size` bytes of zeros, if given."""
+        assert self.scales is not None, "a part has the weights of the whole"
+        accuracy = self.accuracy if run is None or run.accuracy is None else run.accuracy
+        names = EVERYTHING if run is None or run.record is None else run.record
+        piece = self.working.new() if piece is None else piece
+        made = begun(self, self.scales.weights(accuracy), self.recording(names), piece)
+        start = self.start if run is None else run.start
+        for table in self.timed_tables:
+            made.zones[table.machine] = table.polynomial.piece_at(start)
+        made.memory["sample_start"][0] = start
+        return made
 
     def __str__(self) -> str:
         unknowns = self.numbering.unknowns
         algebraic = sum(not u.differential for u in unknowns)
         lines = [
             f"{self.n} unknowns, {algebraic} of them algebraic; {len(self.pattern.rows)} entries in df/dy; "
-            f"{len(self.zones)} machines with zones; {len(self.guard_tolerance)} guard slots; "
+            f"{len(self.zones)} machines with zones; {self.n_guards} guard slots; "
             f"{len(self.blocks)} kernels",
         ]
         lines += [f"  kernel {b.kernel.variant.label}: {b.count} instances" for b in self.blocks]
@@ -169,6 +186,53 @@ class System:
         return "\n".join(lines)
 
 
-def glob(pattern: str) -> str:
-    """A name pattern with * and ? as a regular expression; brackets mean themselves (`core[12]`)."""
-    return re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")
+@dataclass(frozen=True, eq=False)
+class Instance(System):
+    """A System in one run. Its callbacks change what lies in `piece`, and its controllers, and nothing else."""
+
+    of: System = field(kw_only=True, repr=False)
+    piece: Bytes = field(kw_only=True, repr=False)
+    context: int = field(kw_only=True)
+    absolute: Floats = field(kw_only=True)
+    relative: Floats = field(kw_only=True)
+    cap: Floats = field(kw_only=True)
+    guard_tolerance: Floats = field(kw_only=True)
+    record: Recording = field(kw_only=True, repr=False)
+    controllers: list[CalledController] = field(kw_only=True, repr=False)
+
+    @property
+    def recorded(self) -> list[OutputSignal]:
+        """What is recorded, in order."""
+        return self.record.recorded
+
+    @property
+    def n_outputs(self) -> int:
+        """Recorded outputs, and the stored energy at the end."""
+        return len(self.recorded) + 1
+
+    @functools.cached_property
+    def narrowing(self) -> Any:
+        """Cuts out what moves, see narrowing.py; None for a part."""
+        return None if self.narrows is None else self.narrows(self)
+
+
+def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> Instance:
+    """An Instance that works in `piece`, which is zero, as a run begins but for time."""
+    own = system.working.arrays(piece)
+    for name, values in system.working.begin.items():
+        own[name][...] = values
+    blocks = [
+        replace(block, parameters=own[discrete(k)]) if discrete(k) in own else block
+        for k, block in enumerate(system.blocks)
+    ]
+    memory = system.memory | own | addressed(system.memory, own, system.blocks)
+    context = memory["context"]
+    record.tell(context)
+    controllers = called_controllers(blocks, system.numbering, memory)
+    context[layout.SAMPLE_KERNELS] = memory["sample_kernels"].ctypes.data
+    return Instance(
+        **{f.name: getattr(system, f.name) for f in fields(System)}
+        | {"blocks": blocks, "memory": memory, "zones": own["zones"], "guard_inertia": own["guard_inertia"]},
+        of=system, piece=piece, context=context.ctypes.data, absolute=weights.absolute, relative=weights.relative,
+        cap=weights.cap, guard_tolerance=weights.guard_tolerance, record=record, controllers=controllers,
+    )  # fmt: skip

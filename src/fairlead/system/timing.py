@@ -40,14 +40,18 @@ def time_places(blocks: Sequence[Block]) -> Integers:
     return np.array(found, dtype=np.int64).reshape(-1, 3)
 
 
-def start_pieces(blocks: Sequence[Block], zones: Integers, start: float) -> None:
-    """Put what is given in time into the piece that holds at the start; tables of unknowns settle then."""
+def first_pieces(blocks: Sequence[Block], zones: Integers) -> list[PlacedTable]:
+    """Put tables of unknowns into a piece from which they settle; what is given in time waits for the start: those."""
+    timed = []
     for table in tables(blocks):
-        polynomial = table.polynomial
-        zones[table.machine] = polynomial.piece_at(start) if table.timed else polynomial.begin
+        if table.timed:
+            timed.append(table)
+        else:
+            zones[table.machine] = table.polynomial.begin
+    return timed
 
 
-def samplers(blocks: Sequence[Block], start: float) -> Memory:
+def samplers(blocks: Sequence[Block]) -> Memory:
     """Instances with sample times, in the order of the blocks; the first sample is at the start."""
     sampled, periods, kernels = [], [], []
     for b, block in enumerate(blocks):
@@ -60,6 +64,6 @@ def samplers(blocks: Sequence[Block], start: float) -> Memory:
         "sampled": np.array(sampled, dtype=np.int64).reshape(-1, 2),
         "sample_period": np.array(periods, dtype=float),
         "sample_count": np.zeros(len(sampled), dtype=np.int64),
-        "sample_start": np.array([start]),
+        "sample_start": np.zeros(1),
         "sample_kernels": np.array(kernels, dtype=np.int64),
     }

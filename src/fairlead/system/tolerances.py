@@ -35,48 +35,67 @@ GUARD_ROUNDING = {"m/s": 1e-10, "rad/s": 1e-9, "m": 1e-10, "rad": 1e-9, "N": 1e-
 
 @dataclass(frozen=True)
 class Weights:
-    """absolute, relative and cap of every unknown, shape (n,) each."""
+    """absolute, relative and cap of every unknown, shape (n,) each; the tolerance of every guard, shape (ng,)."""
 
     absolute: Floats
     relative: Floats
     cap: Floats
+    guard_tolerance: Floats
 
 
-def weights(flat: FlatModel, numbering: Numbering, accuracy: float) -> Weights:
-    """Weights for an accuracy."""
+@dataclass(frozen=True, eq=False)
+class Scales:
+    """What there is to know of a System before the accuracy is: by unknown, shape (n,) each, and by guard."""
+
+    nominal: Floats
+    """Sizes that count as 1."""
+    follows: Floats
+    """1 where the weight grows with the unknown, else 0."""
+    creep: Floats
+    """The smallest creep of the contacts at a speed; infinite where there is none."""
+    width: Floats
+    """Likewise the largest weight at which their curves are seen."""
+    rounding: Floats
+    """By guard: what its unit is known to."""
+
+    def weights(self, accuracy: float) -> Weights:
+        """Weights for an accuracy; a guard is known to its rounding, but to a tenth of the smallest speed weight."""
+        share = CREEP_SHARE * min(1.0, accuracy / ORDINARY) ** 0.5
+        cap = np.minimum(share * self.creep, np.where(self.width < accuracy * NOMINAL["m/s"], self.width, np.inf))
+        tolerance = np.minimum(self.rounding, cap.min(initial=np.inf) * 0.1)
+        return Weights(accuracy * self.nominal, accuracy * self.follows, cap, tolerance)
+
+
+def scales(flat: FlatModel, numbering: Numbering, units: Sequence[str]) -> Scales:
+    """The scales of a model; `units` are those of its guards."""
     unknowns = numbering.unknowns
-    absolute = np.array([accuracy * nominal(u) for u in unknowns])
-    relative = np.array([0.0 if u.kind in ("position", "ledger") else accuracy for u in unknowns])
-    cap = np.full(len(unknowns), np.inf)
-    share = CREEP_SHARE * min(1.0, accuracy / ORDINARY) ** 0.5
+    creep, width = np.full(len(unknowns), np.inf), np.full(len(unknowns), np.inf)
     for instance in flat.instances:
-        most = _most(instance, accuracy, share)
-        if most == np.inf:
-            continue
-        for port in ("a", "b"):
-            rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
-            if rate is not None:
-                cap[rate] = min(cap[rate], most)
-    return Weights(absolute, relative, cap)
+        for least, most in zip((creep, width), _most(instance), strict=True):
+            if most == np.inf:
+                continue
+            for port in ("a", "b"):
+                rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
+                if rate is not None:
+                    least[rate] = min(least[rate], most)
+    return Scales(
+        np.array([nominal(u) for u in unknowns]),
+        np.array([0.0 if u.kind in ("position", "ledger") else 1.0 for u in unknowns]),
+        creep, width, np.array([GUARD_ROUNDING.get(unit, 1e-9) for unit in units]),
+    )  # fmt: skip
 
 
-def _most(instance: Instance, accuracy: float, share: float) -> float:
-    """The largest weight of the speeds at a contact, m/s; infinite where nothing but the accuracy says."""
+def _most(instance: Instance) -> tuple[float, float]:
+    """The creep of a contact, and the weight of a speed at which its curve is seen, m/s; infinite where it has none."""
     creep = instance.values.given.get("creep")
     if isinstance(creep, float):
-        return share * creep
+        return creep, np.inf
     if not hasattr(instance.type, "narrowest"):
-        return np.inf
-    width = CURVE_SHARE * (instance.values.curve.scale() or np.inf)
-    return width if width < accuracy * NOMINAL["m/s"] else np.inf
+        return np.inf, np.inf
+    return np.inf, CURVE_SHARE * (instance.values.curve.scale() or np.inf)
 
 
 def nominal(unknown: Unknown) -> float:
     """The size of an unknown that counts as 1."""
     return NOMINAL.get(unknown.unit, 1.0) if unknown.nominal is None else unknown.nominal
 
-
-def guard_tolerances(units: Sequence[str], cap: Floats) -> Floats:
-    """Per guard: the rounding of its unit, but at most a tenth of the smallest speed weight."""
-    least = cap.min(initial=np.inf) * 0.1
-    return np.array([min(GUARD_ROUNDING.get(unit, 1e-9), least) for unit in units])
