@@ -12,6 +12,9 @@ remember (`meta`). Loading takes llvmlite only, about 20 ms.
 
 The folder is private to the user, because what it holds is executed. An entry that is torn or
 foreign, and a folder that cannot be written, mean one warning and a compile in memory.
+
+Code is made for the processor it runs on (`processor.py`), and the key says so, so that the builds
+for two processors lie side by side.
 """
 
 from __future__ import annotations
@@ -31,6 +34,8 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
+
+from fairlead.processor import processor
 
 MAGIC = b"fairlead-native-1\n"
 # numba refers to these only on paths that raise or count references; compiled laws do neither.
@@ -83,12 +88,10 @@ def digest(*parts: str) -> str:
 
 @functools.cache
 def _environment() -> tuple[str, ...]:
-    import llvmlite.binding as llvm
-
     versions = tuple(importlib.metadata.version(name) for name in ("numba", "llvmlite", "numpy"))
-    cpu = (llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten())
+    chosen = processor()
     own = pathlib.Path(__file__).read_text(encoding="utf-8")
-    return (*versions, *cpu, platform.platform(), platform.machine(), sys.version, own)
+    return (*versions, chosen.cpu, chosen.features, platform.platform(), platform.machine(), sys.version, own)
 
 
 def load_or_compile(key: str, build: Callable[[], Build]) -> Native:
@@ -182,14 +185,14 @@ def _prepare_llvm() -> None:
 
 
 def target_machine() -> Any:
-    """A new LLVM target machine for this CPU; every execution engine takes over the one it is given."""
+    """A new LLVM target machine for the chosen processor; every execution engine takes over the one it is given."""
     import llvmlite.binding as llvm
 
     _prepare_llvm()
+    chosen = processor()
     return llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=3,
-        jit=True, codemodel="jitdefault",
-    )  # fmt: skip
+        cpu=chosen.cpu, features=chosen.features, opt=3, jit=True, codemodel="jitdefault"
+    )
 
 
 def _compile(function: Any) -> _ObjectCode:

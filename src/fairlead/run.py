@@ -28,6 +28,7 @@ from fairlead.integrate.sundials_solver import require_package
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
+from fairlead.processor import processor
 from fairlead.results import Result, RunDirectory, Signal
 
 if TYPE_CHECKING:
@@ -234,6 +235,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "engine": engine_of(settings, system)[0], "engine_reason": engine_of(settings, system)[1],
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
+        "build": str(processor()),
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every,
         "remarks": [str(remark) for remark in remarks(system.flat)],

@@ -77,12 +77,21 @@ def versions() -> Finding:
 
 
 def processor() -> Finding:
-    """What kernels are compiled for."""
+    """The processor of this machine, and the one that laws and engine are compiled for."""
+    from fairlead.errors import UsageError
+    from fairlead.processor import BUILDS, VARIABLE, processor
+
     try:
         import llvmlite.binding as llvm
+
+        chosen = processor()
     except (ImportError, OSError) as error:
         return Finding("processor", f"llvmlite does not load: {error}", REINSTALL)
-    return Finding("processor", f"{llvm.get_host_cpu_name()}, {platform.machine()}, {os.cpu_count()} cores")
+    except UsageError as error:
+        cure = f"Set {VARIABLE} to {' or '.join(BUILDS)}, or not at all."
+        return Finding("processor", str(error).split("\n")[0], cure)
+    here = f"{llvm.get_host_cpu_name()}, {platform.machine()}, {os.cpu_count()} cores"
+    return Finding("processor", f"{here}; compiled for {'it' if chosen.build == 'host' else chosen}")
 
 
 def libraries() -> Iterator[Finding]:

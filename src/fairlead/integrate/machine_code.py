@@ -12,6 +12,7 @@ from typing import Any
 
 import fairlead.native as native
 from fairlead.integrate.codes import CHECK
+from fairlead.processor import tell_numba
 
 SOURCES = (
     "memory.py", "foreign.py", "condensing.py", "condensed.py", "linear.py", "sparse.py", "perturbed_pivots.py",
@@ -87,6 +88,7 @@ def compiled_sundials() -> dict[str, Callable[..., int]]:
 def _build_sundials() -> native.Build:
     import numba
 
+    tell_numba()
     sundials_kernels = importlib.import_module("fairlead.integrate.sundials_kernels")
 
     kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
@@ -101,6 +103,7 @@ def _build_sundials() -> native.Build:
 def _compile(advance: Callable[[int, int], int]) -> native.Build:
     import numba
 
+    tell_numba()
     signature = numba.int64(numba.int64, numba.int64)
     function = numba.cfunc(signature, error_model="numpy", _nrt=False)(advance)
     return native.Build(meta={}, functions={"advance": function})

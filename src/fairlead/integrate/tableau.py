@@ -21,6 +21,7 @@ order 3(2), stiffly accurate, dense output of order 3.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -53,18 +54,26 @@ class Tableau:
 
     @property
     def G(self) -> NDArray[np.float64]:
-        """[s, s]: K = G k turns the classical stages k into those of this form."""
-        return np.asarray(np.linalg.inv(np.eye(self.stages) / self.gamma - self.C), dtype=np.float64)
+        """[s, s]: K = G k turns the classical stages k into those of this form.
+
+        C is strictly lower, so row i of (I/gamma - C) G = I follows from those above it. BLAS is left out: it rounds
+        in another way on another processor, and every step would follow.
+        """
+        rows: list[NDArray[np.float64]] = []
+        for i, unit in enumerate(np.eye(self.stages)):
+            rows.append(self.gamma * sum((self.C[i, j] * row for j, row in enumerate(rows)), start=unit))
+        return np.array(rows)
 
     @property
     def c(self) -> NDArray[np.float64]:
         """[s]: where in the step each stage looks."""
-        return (self.a @ self.G).sum(axis=1)
+        G, stages = self.G, range(self.stages)
+        return np.array([math.fsum(float(row[j] * G[j, k]) for j in stages for k in stages) for row in self.a])
 
     @property
     def d(self) -> NDArray[np.float64]:
         """[s]: weight of f_t in each stage."""
-        return self.G.sum(axis=1)
+        return np.array([math.fsum(row) for row in self.G.tolist()])
 
     def interpolation_weights(self, theta: float) -> NDArray[np.float64]:
         """[s]: y(theta) = y0 + sum_i w_i K_i."""

@@ -1,0 +1,8 @@
+"""Random scenes: netlists from a seed, for whoever wants many that nobody has thought of.
+
+    networks.network(seed)   masses, shafts, springs, stops and contacts in rows, stacks, trees, rings and nets
+    routes.route(seed)       a line through bends, pulleys, tubes and clamps, hauled or paid out
+
+A seed gives the same text on every machine. Every scene loads and checks clean, and runs to its end in a moment.
+By hand: `python -m tests.scenes --seed 7 --count 20`.
+"""
