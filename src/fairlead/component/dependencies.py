@@ -34,10 +34,8 @@ def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
     files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
-    files += [
-        here.parent / "system" / n
-        for n in ("kernels.py", "kernel_text.py", "held_pairs.py", "lowering.py", "layout.py", "structure.py")
-    ]
+    text = "kernels kernel_text held_pairs lowering lowered_values layout structure"
+    files += [here.parent / "system" / f"{name}.py" for name in text.split()]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 

@@ -15,7 +15,6 @@ code; compiled once, not once per model. Names in capitals are positions, see `l
 from __future__ import annotations
 
 import functools
-import inspect
 from pathlib import Path
 
 from fairlead.native import Build, Native, digest, load_or_compile
@@ -359,7 +358,7 @@ SHARED = (
 @functools.cache
 def callbacks() -> Native:
     """The compiled driver; `address` holds the C address of every callback."""
-    files = ("driver.py", "unions.py", "lowering.py", "layout.py")
+    files = ("driver.py", "unions.py", "lowering.py", "lowered_values.py", "layout.py")
     sources = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
     return load_or_compile(digest(*sources), _build)
 
@@ -367,10 +366,9 @@ def callbacks() -> Native:
 def _build() -> Build:
     from fairlead.system.lowering import lower
 
-    shared = [inspect.getsource(function) for function in SHARED]
     here = globals()
     made = {
-        name: lower(inspect.getsource(here[name]), name, kinds, returns, shared=shared)
+        name: lower(here[name], name, kinds, returns, shared=SHARED)
         for name, (kinds, returns) in SIGNATURES.items()
     }
     return Build({}, made)

@@ -47,6 +47,12 @@ class _Printer(PythonCodePrinter):
     def _print_sign(self, expression: sympy.Expr) -> str:
         return f"sign({self._print(expression.args[0])})"
 
+    def _print_Pi(self, constant: sympy.Expr) -> str:
+        return repr(float(constant))  # by value, as a kernel knows no such names
+
+    def _print_Exp1(self, constant: sympy.Expr) -> str:
+        return repr(float(constant))
+
 
 class KernelText:
     """Builds the text of one kernel and the structure that goes with it."""

@@ -47,7 +47,7 @@ def _build(variant: Variant) -> Build:
     from fairlead.system.lowering import lower
 
     source, structure = write_source(variant)
-    return Build(asdict(structure), {"kernel": lower(source, "kernel")})
+    return Build(asdict(structure), {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
 
 
 def write_source(variant: Variant) -> tuple[str, Structure]:

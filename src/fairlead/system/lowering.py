@@ -1,21 +1,26 @@
 """The text of a kernel made into LLVM code, without numba. Imported on a cache miss only.
 
 Kernels are straight-line arithmetic inside loops and zone branches; type inference on such text cost
-numba 3 to 12 s a class, this takes about 0.1 s. Understood is just what `kernel_text.py` writes:
+numba 3 to 12 s a class, this takes about 0.1 s. `kernel_text.py` writes such text, and the driver of
+`driver.py` is written in it. Understood are
 
-    for i in range(a, b):      if a == b:  (or !=, <, <=, >, >=)      name = expression, name += expression
-    while a == b:  (likewise)  if a == b and c == d:  (both sides are always looked at)
-    out[index] = expression, out[index] += expression             return expression
+    for i in range(a, b):     while condition:     if condition: ... elif condition: ... else: ...
+    name = expression         x[i] = expression    a, b = b, a          each also with += -= *= /= **= //= %=
+    call(x, y)                return expression    return
 
-with + - * / **, the functions below, and indexing of arrays. Floats are double, integers 64 bit; a
-variable keeps the type it is first given. The driver of `driver.py` is written in the same subset.
+with the expressions and conditions of `lowered_values.py`. Every program of this subset does what Python
+does with it, but for what is said there about numbers. Anything else is refused by file and line:
+
+- A variable keeps the type that it is first given: a whole number, a float, or an array.
+- A variable is read only where it is certain to have a value, whichever branches were taken.
 """
 
 from __future__ import annotations
 
 import ast
-import functools
-from collections.abc import Sequence
+import inspect
+import textwrap
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,27 +28,16 @@ import llvmlite.binding as llvm
 from llvmlite import ir
 
 from fairlead.native import target_machine
-from fairlead.system import layout
+from fairlead.system.lowered_values import DOUBLE, F8, INT, KERNEL, LoweringError, Values, Where, kind_name
 
-DOUBLE, INT = ir.DoubleType(), ir.IntType(64)
-F8, I8 = DOUBLE.as_pointer(), INT.as_pointer()
-TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": I8, "None": ir.VoidType()}
+TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": INT.as_pointer(), "None": ir.VoidType()}
 SHARED = {
     "ctx": "I8", "t": "float", "y": "F8", "mode": "int", "r": "F8", "g": "F8", "ledger": "int",
     "values": "F8", "ft": "F8", "of_whole": "F8", "out": "F8",
 }  # fmt: skip
 """Arguments of shared functions."""
-KERNEL = ("int", "I8", "int", "int", "F8", "I8", "F8", "F8")
-INTRINSIC = {
-    "exp": "llvm.exp",
-    "log": "llvm.log",
-    "sqrt": "llvm.sqrt",
-    "sin": "llvm.sin",
-    "cos": "llvm.cos",
-    "abs": "llvm.fabs",
-}
-CONSTANTS = {name: value for name, value in vars(layout).items() if name.isupper() and isinstance(value, int)}
-LIBRARY = ("tan", "tanh", "atan")  # from the C library of the process
+
+Source = str | Callable[..., Any]
 
 
 @dataclass(frozen=True)
@@ -59,34 +53,64 @@ class Lowered:
 
 
 def lower(
-    source: str, name: str, kinds: Sequence[str] = KERNEL, returns: str = "None", shared: Sequence[str] = ()
+    source: Source,
+    name: str,
+    kinds: Sequence[str] = KERNEL,
+    returns: str = "None",
+    shared: Sequence[Source] = (),
+    file: str = "<text>",
 ) -> Lowered:
     """LLVM of the one function in `source`, under the symbol `name`, its arguments of the given kinds.
 
-    `shared` holds the sources of functions it may call, in the order of their use.
+    A source is the text of a function, of which `file` is said to hold it, or the function itself. `shared`
+    are the functions it may call, in the order of their use. Raises LoweringError, with file and line, for
+    text that would not do what it does in Python.
     """
     module = ir.Module(name)
     for text in shared:
-        names = [argument.arg for argument in ast.parse(text).body[0].args.args]  # type: ignore[attr-defined]
-        _define(module, text, "", [SHARED[name] for name in names], "None").linkage = "internal"
-    _define(module, source, name, kinds, returns)
+        tree, where = _parsed(text, file)
+        names = [argument.arg for argument in tree.args.args]
+        _define(module, tree, where, "", [SHARED[name] for name in names], "None").linkage = "internal"
+    tree, where = _parsed(source, file)
+    _define(module, tree, where, name, kinds, returns)
     return Lowered(name, _optimised(str(module)))
 
 
-def _define(module: ir.Module, source: str, name: str, kinds: Sequence[str], returns: str) -> ir.Function:
-    tree = ast.parse(source).body[0]
-    assert isinstance(tree, ast.FunctionDef)
+def _parsed(source: Source, file: str) -> tuple[ast.FunctionDef, Where]:
+    """The one function of a source, and where its lines stand."""
+    first = 1
+    if not isinstance(source, str):
+        file, first = source.__code__.co_filename, source.__code__.co_firstlineno
+        source = textwrap.dedent(inspect.getsource(source))
+    where = Where(file, source.splitlines(), first)
+    tree, *beside = ast.parse(source).body
+    if beside or not isinstance(tree, ast.FunctionDef):
+        raise LoweringError(f"{file}:{first}: one function is wanted here, and nothing beside it")
+    plain = ast.arguments([], tree.args.args, None, [], [], None, [])
+    if tree.decorator_list or ast.dump(tree.args) != ast.dump(plain):
+        where.refuse(tree, "a function has plain arguments, without defaults, and no decorators")
+    return tree, where
+
+
+def _define(
+    module: ir.Module, tree: ast.FunctionDef, where: Where, name: str, kinds: Sequence[str], returns: str
+) -> ir.Function:
     signature = ir.FunctionType(TYPES[returns], [TYPES[kind] for kind in kinds])
     function = ir.Function(module, signature, name or tree.name)
     entry = function.append_basic_block()
-    arguments = {a.arg: value for a, value in zip(tree.args.args, function.args, strict=True)}
     start = function.append_basic_block()
-    work = _Lowering(module, ir.IRBuilder(start), entry, arguments)
-    work.body([s for s in tree.body if not isinstance(s, ast.Expr) or isinstance(s.value, ast.Call)])
-    if not work.builder.block.is_terminated:
-        work.builder.ret_void()
+    work = _Lowering(module, ir.IRBuilder(start), entry, where)
+    work.take({a.arg: value for a, value in zip(tree.args.args, function.args, strict=True)}, _stored(tree))
+    work.body(tree.body)
+    work.end(tree)
     ir.IRBuilder(entry).branch(start)
     return function
+
+
+def _stored(tree: ast.FunctionDef) -> set[str]:
+    """Names that the text gives a value somewhere."""
+    names = (node for node in ast.walk(tree) if isinstance(node, ast.Name))
+    return {node.id for node in names if isinstance(node.ctx, ast.Store)}
 
 
 def _optimised(text: str) -> str:
@@ -99,21 +123,48 @@ def _optimised(text: str) -> str:
     return str(module)
 
 
-class _Lowering:
-    """Walks the text and emits. Arguments are values; other variables live on the stack until optimised."""
+class _Lowering(Values):
+    """Walks the statements and emits. Whatever is given a value lives on the stack until optimised."""
 
-    def __init__(self, module: ir.Module, builder: ir.IRBuilder, entry: ir.Block, names: dict[str, Any]) -> None:
-        self.module, self.builder, self.entry, self.names = module, builder, entry, names
-        self.variables: dict[str, Any] = {}
+    @property
+    def ended(self) -> bool:
+        """True behind a return, where nothing is done any more."""
+        return bool(self.builder.block.is_terminated)
+
+    def take(self, arguments: dict[str, Any], stored: set[str]) -> None:
+        """The arguments; those that the text gives another value are variables from the start."""
+        for name, value in arguments.items():
+            if name in stored:
+                self.store(name, value, None)
+            else:
+                self.arguments[name] = value
+
+    def end(self, tree: ast.FunctionDef) -> None:
+        """What happens behind the last statement."""
+        if not self.ended and not isinstance(self.returns, ir.VoidType):
+            self.where.refuse(tree, f"{tree.name} may end without a value; let it return one in the end")
+        if not self.ended:
+            self.builder.ret_void()
 
     def body(self, statements: list[ast.stmt]) -> None:
-        """Statements in order."""
+        """Statements in order; what follows a return is not looked at."""
         for statement in statements:
-            getattr(self, "_" + type(statement).__name__)(statement)
+            if self.ended:
+                return
+            emit = getattr(self, "_" + type(statement).__name__, None)
+            if emit is None:
+                self.where.refuse(statement, "no such statement here; there are for, while, if, = and return")
+            emit(statement)
 
-    def _For(self, loop: Any) -> None:
+    def _Pass(self, statement: ast.Pass) -> None:
+        pass
+
+    def _For(self, loop: ast.For) -> None:
+        """The variable of a loop is one like the others: it keeps its last value, or what it was without a turn."""
         builder = self.builder
-        start, stop = (self.value(argument) for argument in loop.iter.args)
+        if not isinstance(loop.target, ast.Name) or loop.orelse:
+            self.where.refuse(loop, "a loop is `for name in range(start, stop):`, without else")
+        start, stop = self._range(loop)
         before = builder.block
         test, body, done = (builder.append_basic_block() for _ in range(3))
         builder.branch(test)
@@ -122,161 +173,117 @@ class _Lowering:
         index.add_incoming(start, before)
         builder.cbranch(builder.icmp_signed("<", index, stop), body, done)
         builder.position_at_end(body)
-        self.variables.pop(loop.target.id, None)
-        self.names[loop.target.id] = index
+        given = set(self.given)
+        self.store(loop.target.id, index, loop)
         self.body(loop.body)
-        index.add_incoming(builder.add(index, INT(1)), builder.block)
-        builder.branch(test)
+        if not self.ended:
+            index.add_incoming(builder.add(index, INT(1)), builder.block)
+            builder.branch(test)
+        self.given = given
         builder.position_at_end(done)
 
-    def _While(self, loop: Any) -> None:
+    def _range(self, loop: ast.For) -> tuple[Any, Any]:
+        call = loop.iter
+        if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Name) or call.func.id != "range":
+            self.where.refuse(loop, "a loop runs over range(start, stop)")
+        if call.keywords or len(call.args) not in (1, 2):
+            self.where.refuse(loop, "range takes a start and a stop; a loop goes up by one")
+        ends = [self.whole(argument, "an end of range") for argument in call.args]
+        return (INT(0), ends[0]) if len(ends) == 1 else (ends[0], ends[1])
+
+    def _While(self, loop: ast.While) -> None:
         builder = self.builder
+        if loop.orelse:
+            self.where.refuse(loop, "a loop has no else here")
         test, body, done = (builder.append_basic_block() for _ in range(3))
         builder.branch(test)
         builder.position_at_end(test)
-        builder.cbranch(self.holds(loop.test), body, done)
+        self.branch_on(loop.test, body, done)
         builder.position_at_end(body)
+        given = set(self.given)
         self.body(loop.body)
-        builder.branch(test)
+        if not self.ended:
+            builder.branch(test)
+        self.given = given
         builder.position_at_end(done)
 
-    def _If(self, branch: Any) -> None:
-        with self.builder.if_then(self.holds(branch.test)):
-            self.body(branch.body)
+    def _If(self, branch: ast.If) -> None:
+        builder = self.builder
+        then, done = builder.append_basic_block(), builder.append_basic_block()
+        otherwise = builder.append_basic_block() if branch.orelse else done
+        self.branch_on(branch.test, then, otherwise)
+        before = set(self.given)
+        ways = [(then, branch.body)] + ([(otherwise, branch.orelse)] if branch.orelse else [])
+        left: list[set[str]] = [] if branch.orelse else [before]  # what has a value where this way goes on
+        for block, statements in ways:
+            self.given = set(before)
+            builder.position_at_end(block)
+            self.body(statements)
+            if not self.ended:
+                left.append(self.given)
+                builder.branch(done)
+        self.given = set.intersection(*left) if left else before
+        builder.position_at_end(done)
+        if not left:
+            builder.unreachable()
 
-    def holds(self, test: Any) -> Any:
-        """A comparison of two whole numbers or two others, or several that must all hold."""
-        if isinstance(test, ast.BoolOp):
-            assert isinstance(test.op, ast.And), ast.dump(test)
-            return functools.reduce(self.builder.and_, map(self.holds, test.values))
-        left, right = self.value(test.left), self.value(test.comparators[0])
-        signs = {ast.Eq: "==", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
-        sign = signs[type(test.ops[0])]
-        if left.type == INT and right.type == INT:
-            return self.builder.icmp_signed(sign, left, right)
-        return self.builder.fcmp_ordered(sign, self.double(left), self.double(right))
+    def _Expr(self, statement: ast.Expr) -> None:
+        if isinstance(statement.value, ast.Call):
+            self.value(statement.value)
+        elif not (isinstance(statement.value, ast.Constant) and isinstance(statement.value.value, str)):
+            self.where.refuse(statement, "an expression alone does nothing")
 
-    def _Expr(self, statement: Any) -> None:
-        self.value(statement.value)
+    def _Return(self, statement: ast.Return) -> None:
+        nothing = isinstance(self.returns, ir.VoidType)
+        if nothing != (statement.value is None):
+            self.where.refuse(statement, f"this function returns {'nothing' if nothing else 'a value'}")
+        if statement.value is None:
+            self.builder.ret_void()
+        else:
+            value = self.fitted(self.value(statement.value), self.returns, statement, "what is returned")
+            self.builder.ret(value)
 
-    def _Return(self, statement: Any) -> None:
-        self.builder.ret(self.value(statement.value))
+    def _Assign(self, assignment: ast.Assign) -> None:
+        for target in assignment.targets:
+            if isinstance(target, ast.Tuple) != isinstance(assignment.value, ast.Tuple):
+                self.where.refuse(assignment, "several names on the left want as many values on the right")
+        if isinstance(assignment.value, ast.Tuple):
+            values = [self.value(each) for each in assignment.value.elts]
+        else:
+            values = [self.value(assignment.value)]
+        for target in assignment.targets:
+            places = target.elts if isinstance(target, ast.Tuple) else [target]
+            if len(places) != len(values):
+                self.where.refuse(assignment, f"{len(places)} names on the left, {len(values)} values on the right")
+            for place, value in zip(places, values, strict=True):
+                self._give(place, value, assignment)
 
-    def _Assign(self, assignment: Any) -> None:
-        target = assignment.targets[0]
-        if isinstance(target, ast.Tuple):
-            names = [name.id for name in target.elts if isinstance(name, ast.Name)]
-            for name, value in zip(names, [self.value(each) for each in assignment.value.elts], strict=True):
-                self._store(name, value)
-            return
-        value = self.value(assignment.value)
+    def _AugAssign(self, assignment: ast.AugAssign) -> None:
+        target = assignment.target
         if isinstance(target, ast.Name):
-            self._store(target.id, value)
+            present = self.named(target)
+            value = self.operate(assignment.op, present, assignment.value, assignment)
+            self.store(target.id, value, assignment)
         else:
             place = self.place(target)
-            self.builder.store(value if place.type.pointee == value.type else self.double(value), place)
+            value = self.operate(assignment.op, self.builder.load(place), assignment.value, assignment)
+            self.builder.store(self.fitted(value, place.type.pointee, assignment, "the element"), place)
 
-    def _AugAssign(self, assignment: Any) -> None:
-        added = self.value(assignment.value)
-        place = (
-            self.variables[assignment.target.id]
-            if isinstance(assignment.target, ast.Name)
-            else self.place(assignment.target)
-        )
-        if place.type.pointee == INT:
-            self.builder.store(self.builder.add(self.builder.load(place), added), place)
+    def _give(self, target: ast.expr, value: Any, statement: ast.stmt) -> None:
+        if isinstance(target, ast.Name):
+            self.store(target.id, value, statement)
         else:
-            self.builder.store(self.builder.fadd(self.builder.load(place), self.double(added)), place)
+            place = self.place(target)
+            self.builder.store(self.fitted(value, place.type.pointee, statement, "the element"), place)
 
-    def _store(self, name: str, value: Any) -> None:
+    def store(self, name: str, value: Any, statement: ast.stmt | None) -> None:
+        """Give a variable a value; it keeps the type that it is first given."""
+        if statement is not None and isinstance(value.type, ir.VoidType):
+            self.where.refuse(statement, f"{name} is given {kind_name(value.type)}")
         if name not in self.variables:
             self.variables[name] = ir.IRBuilder(self.entry).alloca(value.type)
         place = self.variables[name]
-        self.builder.store(self.double(value) if place.type.pointee == DOUBLE else value, place)
-
-    def place(self, subscript: Any) -> Any:
-        """Address of an element of an array."""
-        return self.builder.gep(self.value(subscript.value), [self.value(subscript.slice)])
-
-    def value(self, node: ast.expr) -> Any:
-        """Emit an expression."""
-        if isinstance(node, ast.Constant):
-            return INT(node.value) if isinstance(node.value, int) else DOUBLE(node.value)
-        if isinstance(node, ast.Name):
-            if node.id in self.variables:
-                return self.builder.load(self.variables[node.id])
-            return self.names[node.id] if node.id in self.names else INT(CONSTANTS[node.id])
-        if isinstance(node, ast.Subscript):
-            return self.builder.load(self.place(node))
-        if isinstance(node, ast.UnaryOp):
-            inner = self.value(node.operand)
-            return self.builder.neg(inner) if inner.type == INT else self.builder.fneg(inner)
-        if isinstance(node, ast.BinOp):
-            return self.operation(node)
-        assert isinstance(node, ast.Call), ast.dump(node)
-        assert isinstance(node.func, ast.Name), ast.dump(node)
-        return self.call(node.func.id, [self.value(argument) for argument in node.args])
-
-    def operation(self, node: ast.BinOp) -> Any:
-        """Integers stay integers under + and *; everything else is double."""
-        left = self.value(node.left)
-        if isinstance(node.op, ast.Pow):
-            return self.power(self.double(left), node.right)
-        right = self.value(node.right)
-        whole = {ast.Add: "add", ast.Mult: "mul", ast.Sub: "sub"}
-        if left.type == INT and right.type == INT and type(node.op) in whole:
-            return getattr(self.builder, whole[type(node.op)])(left, right)
-        emit = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}[type(node.op)]
-        return getattr(self.builder, emit)(self.double(left), self.double(right))
-
-    def power(self, base: Any, exponent: ast.expr) -> Any:
-        """Small whole powers by multiplication, others by pow."""
-        whole = _whole(exponent)
-        if whole is None or abs(whole) > 8:
-            return self.intrinsic("llvm.pow", [base, self.double(self.value(exponent))])
-        result = DOUBLE(1.0)
-        for _ in range(abs(whole)):
-            result = self.builder.fmul(result, base)
-        return result if whole >= 0 else self.builder.fdiv(DOUBLE(1.0), result)
-
-    def call(self, name: str, arguments: list[Any]) -> Any:
-        """A function of the text: pointers from the block, mathematics, the least of several."""
-        if name == "call_kernel":
-            kernel = ir.FunctionType(ir.VoidType(), [TYPES[kind] for kind in KERNEL])
-            return self.builder.call(self.builder.inttoptr(arguments[0], kernel.as_pointer()), arguments[1:])
-        if name in self.module.globals and name not in LIBRARY:
-            return self.builder.call(self.module.globals[name], arguments)
-        if name in ("f8", "i8"):
-            return self.builder.inttoptr(arguments[0], F8 if name == "f8" else I8)
-        values = [self.double(argument) for argument in arguments]
-        if name in ("min", "max"):
-            best = values[0]
-            for value in values[1:]:
-                best = self.builder.select(
-                    self.builder.fcmp_ordered("<" if name == "min" else ">", value, best), value, best
-                )
-            return best
-        if name == "sign":
-            above, below = (self.builder.fcmp_ordered(s, values[0], DOUBLE(0.0)) for s in "><")
-            return self.builder.fsub(*(self.builder.uitofp(holds, DOUBLE) for holds in (above, below)))
-        if name in INTRINSIC:
-            return self.intrinsic(INTRINSIC[name], values)
-        assert name in LIBRARY, name
-        found = self.module.globals.get(name) or ir.Function(self.module, ir.FunctionType(DOUBLE, [DOUBLE]), name)
-        return self.builder.call(found, values)
-
-    def intrinsic(self, name: str, values: list[Any]) -> Any:
-        """A mathematical function that LLVM knows."""
-        return self.builder.call(self.module.declare_intrinsic(name, [DOUBLE]), values)
-
-    def double(self, value: Any) -> Any:
-        """An integer as double."""
-        return self.builder.sitofp(value, DOUBLE) if value.type == INT else value
-
-
-def _whole(node: ast.expr) -> int | None:
-    """The value of a whole constant exponent, with its sign."""
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        inner = _whole(node.operand)
-        return -inner if inner is not None else None
-    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, int) else None
+        if statement is not None:
+            value = self.fitted(value, place.type.pointee, statement, name)
+        self.builder.store(value, place)
+        self.given.add(name)
