@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.patterns import matcher
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Tables
 from fairlead.system.plain_python import CalledController
@@ -142,8 +142,8 @@ class System:
 
     def record(self, patterns: Iterable[str]) -> list[OutputSignal]:
         """Choose what is recorded; always also the ledger and the creep of every contact, at the end."""
-        wanted = [re.compile(glob(pattern)) for pattern in patterns]
-        chosen = [s for s in self.signals if any(w.fullmatch(s.name) for w in wanted)]
+        wanted = [matcher(pattern) for pattern in patterns]
+        chosen = [s for s in self.signals if any(fits(s.name) for fits in wanted)]
         names = {s.name for s in chosen}
         hidden = [s for s in self.signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
         self.recorded = chosen + hidden
@@ -167,8 +167,3 @@ class System:
         lines += [f"  kernel {b.kernel.variant.label}: {b.count} instances" for b in self.blocks]
         lines += [f"  unknown {u.name} [{u.unit}] {'' if u.differential else 'algebraic'}".rstrip() for u in unknowns]
         return "\n".join(lines)
-
-
-def glob(pattern: str) -> str:
-    """A name pattern with * and ? as a regular expression; brackets mean themselves (`core[12]`)."""
-    return re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")
