@@ -131,7 +131,7 @@ def _key(word: str) -> str:
 
 def listing(names: Iterable[str], most: int = 12) -> str:
     """The names separated by commas; a long list is cut and says how many were left out."""
-    words = list(names)
+    words = [name if len(name) <= LONGEST_VALUE_SHOWN else shown(name) for name in names]
     shown_words = ", ".join(words[:most])
     return f"{shown_words} and {len(words) - most} more" if len(words) > most else shown_words
 

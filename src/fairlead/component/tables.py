@@ -46,6 +46,8 @@ WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 MOST_POINTS = 100_000
 MOST_BYTES = 10_000_000
 CSV_FORM = "Write two numbers in a row, a comma between them and a point in them: 0.5,12.3"
+# Where a number of a table stands: the path to it in the netlist, and what a message says before it.
+Place = tuple[tuple[str | int, ...], str]
 
 
 class TableError(ValueError):
@@ -111,7 +113,8 @@ def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave 
 
 
 def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    words, at = {"kind": "linear", "beyond": "constant"}, _row
+    words = {"kind": "linear", "beyond": "constant"}
+    at: Callable[[int, int], Place] = _row
     if isinstance(value, Mapping):
         _only(value, {x_name, "y", "file", *WORDS})
         for word, allowed in WORDS.items():
@@ -139,10 +142,6 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
             raise TableError(f"{said}{x_name} must rise from point to point; {after:g} follows {before:g}", "", path)
     shape = linear_table if words["kind"] == "linear" else monotone_cubic_table
     return shape(x, y, beyond=words["beyond"])
-
-
-# Where a number of a table stands: the path to it in the netlist, and what a message says before it.
-Place = tuple[tuple[str | int, ...], str]
 
 
 def _row(k: int, column: int) -> Place:
