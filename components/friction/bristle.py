@@ -12,6 +12,7 @@ from fairlead.component import Choice, Count, Law, Output, Parameter, State, der
 from fairlead.component.piecewise import FAR, STRIDE, PiecewisePolynomial
 
 MOST = 25
+MOST_SITES = 100_000  # of a bond, to either side
 LEAST_LEVEL, MOST_LEVEL = 0.25, 0.95  # mean force of sliding bonds over that of bonds about to snap
 BEYOND = 10.0  # times the velocity of the curve: where its sliding level is read
 
@@ -119,6 +120,9 @@ class Bristle(OneFormula):
     def check(p):
         """There must be bonds, and a level that they can have; the curve stays where it is."""
         yield from stays_in_place(p)
+        if p.travel > MOST_SITES * p.presliding:
+            what = f"{p.travel:g} m of travel have {p.travel / p.presliding:.2g} sites a bond; at most {MOST_SITES}"
+            yield "travel", what, f"Give at most {MOST_SITES * p.presliding:g} m."
         if p.curve.breakaway() <= 0:
             yield "curve", "the coefficient at rest is zero", "Leave the contact out, or give it some friction."
         elif p.level < LEAST_LEVEL:

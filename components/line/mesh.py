@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from fairlead.components.route.window import Reach
 
-MOST_NODES = 200_000
+from fairlead.errors import Fault, ModelError
+
 MOST_ELEMENTS = 20_000
 
 
@@ -61,7 +63,10 @@ def _tidy(length: float) -> float:
 
 
 def cut(length: float, element: float, modules: int = 1, graded: Callable[[float], float] | None = None) -> Mesh:
-    """Equal elements near `element` in every module; with `graded(place)` elements of the length it gives there."""
+    """Equal elements near `element` in every module; with `graded(place)` elements of the length it gives there.
+
+    Raises ModelError for grades that make no elements, or too many.
+    """
     module = length / modules
     places, connectors = [0.0], {0}
     for k in range(modules):
@@ -69,7 +74,13 @@ def cut(length: float, element: float, modules: int = 1, graded: Callable[[float
         inner = _equal(module, element) if graded is None else _graded(begin, module, graded)
         places += [begin + x for x in inner]
         connectors.add(len(places) - 1)
+        if len(places) > MOST_ELEMENTS + modules:
+            raise _ungraded(f"its lengths make more than {MOST_ELEMENTS} elements", "Give longer ones.")
     return Mesh(tuple(places), frozenset(connectors))
+
+
+def _ungraded(what: str, way_out: str) -> ModelError:
+    return ModelError([Fault(None, f"graded: {what}.", way_out)])
 
 
 def _equal(length: float, element: float) -> list[float]:
@@ -80,9 +91,17 @@ def _equal(length: float, element: float) -> list[float]:
 def _graded(begin: float, length: float, graded: Callable[[float], float]) -> list[float]:
     """March with the wanted length at the middle of each element, then fit the whole into the module."""
     steps: list[float] = []
-    while (at := sum(steps)) < length * (1 - 1e-9) and len(steps) < MOST_NODES:
-        step = graded(begin + at)
-        steps.append(graded(begin + at + step / 2))
+    at = 0.0
+    while at < length * (1 - 1e-9):
+        ahead = graded(begin + at)
+        step = graded(begin + at + ahead / 2)
+        if not (ahead > 0 and step > 0):
+            what = f"an element at {begin + at:g} m would be {min(ahead, step):g} m long"
+            raise _ungraded(what, "Give lengths above zero.")
+        steps.append(step)
+        at += step
+        if len(steps) > MOST_ELEMENTS:
+            raise _ungraded(f"its lengths make more than {MOST_ELEMENTS} elements", "Give longer ones.")
     over = sum(steps) - length
     if len(steps) > 1 and over > steps[-1] / 2:  # the last piece is nearer to nothing than to an element
         steps.pop()
@@ -97,17 +116,16 @@ def bulkheads(mesh: Mesh, pitch: float | None) -> dict[int, Reach]:
     Else they sit at the nodes nearest to multiples of the pitch from the connectors.
     """
     inner = [node for node in range(mesh.elements + 1) if node not in mesh.connectors]
-    if pitch is None:
+    if pitch is None or pitch <= min(mesh.lengths):
         return {node: mesh.reach(node) for node in inner}
-    chosen: list[int] = []
+    chosen: set[int] = set()
     for first, last in itertools.pairwise(sorted(mesh.connectors)):
         begin, end = mesh.places[first], mesh.places[last]
         count = max(1, round((end - begin) / pitch))
         for k in range(1, count):
             place = begin + (end - begin) * k / count
-            node = min(range(first + 1, last), key=lambda i: abs(mesh.places[i] - place), default=None)
-            if node is not None and node not in chosen:
-                chosen.append(node)
+            if first + 1 < last:
+                chosen.add(_nearest(mesh.places, place, first + 1, last - 1))
     marks = sorted({*chosen, *mesh.connectors})
     found = {}
     for before, node, after in zip(marks, marks[1:], marks[2:], strict=False):
@@ -120,3 +138,10 @@ def bulkheads(mesh: Mesh, pitch: float | None) -> dict[int, Reach]:
 def finest(mesh: Mesh) -> float:
     """Length of the shortest element [m]."""
     return min(mesh.lengths, default=math.inf)
+
+
+def _nearest(places: Sequence[float], place: float, first: int, last: int) -> int:
+    """The node from `first` to `last` that is nearest to a place; of two the inboard one."""
+    after = bisect.bisect_left(places, place, first, last)
+    before = max(after - 1, first)
+    return before if place - places[before] <= places[after] - place else after

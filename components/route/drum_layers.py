@@ -44,7 +44,8 @@ class Layers:
         """How many layers fit below the edge of the flange."""
         if self.height is None:
             return MOST_LAYERS
-        return int((self.height - self.diameter) / self.rise + 1e-9) + 1 if self.height >= self.diameter else 0
+        layers = (self.height - self.diameter) / self.rise + 1e-9
+        return int(min(layers, MOST_LAYERS - 1)) + 1 if self.height >= self.diameter else 0
 
     @property
     def capacity(self) -> float:

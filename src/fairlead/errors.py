@@ -131,7 +131,7 @@ def _key(word: str) -> str:
 
 def listing(names: Iterable[str], most: int = 12) -> str:
     """The names separated by commas; a long list is cut and says how many were left out."""
-    words = list(names)
+    words = [name if len(name) <= LONGEST_VALUE_SHOWN else shown(name) for name in names]
     shown_words = ", ".join(words[:most])
     return f"{shown_words} and {len(words) - most} more" if len(words) > most else shown_words
 
@@ -154,5 +154,17 @@ def shown(value: object) -> str:
     return _printable(text) if text.strip() else repr(text)
 
 
+def printable(text: str) -> str:
+    """The text with a mark for every character that is none to be seen: escapes, directions, halves of characters.
+
+    Line breaks and tabs stay.
+    """
+    return text if text.isprintable() else "".join(map(_seen, text))
+
+
+def _seen(letter: str) -> str:
+    return letter if letter.isprintable() or letter in "\n\t" else " " if letter.isspace() else "\ufffd"
+
+
 def _printable(text: str) -> str:
-    return "".join(letter if letter.isprintable() else " " if letter.isspace() else "�" for letter in text)
+    return "".join(letter if letter.isprintable() else " " if letter.isspace() else "\ufffd" for letter in text)

@@ -164,6 +164,9 @@ def split(text: str) -> tuple[float, str]:
     if match is None:
         raise QuantityError(f"{shown(text)} is not a quantity", FORM)
     number, rest = float(match[0]), text[match.end() :]
+    if comma := re.match(r",\d+", rest):
+        fixed = f"{match[0]}.{comma[0][1:]}{rest[comma.end() :]}"
+        raise QuantityError(f"{shown(text)} is not a quantity", f"Write a decimal point, not a comma: {shown(fixed)}.")
     if rest and not rest.startswith(" "):
         advice = f"Put a space before the unit: {match[0]} {rest}." if rest[0].isalpha() else FORM
         raise QuantityError(f"{shown(text)} is not a quantity", advice)

@@ -155,8 +155,9 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         outcome = integrate(system, _engine_settings(netlist, settings, system, patterns), watch)
         interruption.between_blocks = False
         outcome = _explained(outcome)
-        if outcome.status == Status.INTERRUPTED and interruption.terminated:
-            outcome = dataclasses.replace(outcome, sentence=outcome.sentence.replace("interrupted", "ended by SIGTERM"))
+        if outcome.status == Status.INTERRUPTED and interruption.ended_by is not None:
+            said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
+            outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)

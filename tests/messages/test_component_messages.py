@@ -315,12 +315,12 @@ def test_mistakes_of_the_netlist_and_of_the_components_are_told_together(tmp_pat
 
 def test_a_table_in_a_file_is_told_with_its_place_and_its_neighbours(tmp_path):
     (tmp_path / "pull.csv").write_text("t,y\n0,1\n1,x\n")
-    assert "push.force.table.file = pull.csv is not two columns of numbers." in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
+    assert "push.force.table.file = pull.csv, row 3, column 2: x is not a number." in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
     assert "there is no file pul.csv in the folder of the netlist. Did you mean pull.csv?" in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pul.csv}}"))
     (tmp_path / "pull.csv").write_bytes(b"\xff\xfe\x00\x01" * 20)
-    assert "push.force.table.file = pull.csv cannot be read" in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
+    assert "push.force.table.file = pull.csv, row 1: the file is not a text in UTF-8" in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
     (tmp_path / "pull.csv").write_text("0,1\n1,inf\n")
-    assert "push.force.table.file = inf is not finite." in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
+    assert "push.force.table.file = pull.csv, row 2, column 2: inf is not a number." in check(tmp_path, GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
     assert "push.force.table.file = " in check(tmp_path, GOOD.replace(WAVE, f"{{table: {{file: {'x' * 300}.csv}}}}"))
 
 

@@ -154,18 +154,19 @@ def test_sigterm_ends_the_process_when_run_json_says_so_and_all_is_kept(start, n
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows ends a process without asking it")
-def test_sigterm_before_the_first_block_leaves_a_run_that_is_said_to_have_been_ended(tmp_path, netlist) -> None:
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_a_signal_before_the_first_block_leaves_a_run_that_is_said_to_have_been_ended(tmp_path, netlist, name) -> None:
     script = """
 import os, signal, sys, fairlead, fairlead.run
 integrate = fairlead.run.integrate
 def terminated(*given):
-    os.kill(os.getpid(), signal.SIGTERM)
+    os.kill(os.getpid(), getattr(signal, sys.argv[3]))
     return integrate(*given)
 fairlead.run.integrate = terminated
 fairlead.load(sys.argv[1]).run(out=sys.argv[2])
 """
-    command = [sys.executable, "-c", script, str(netlist), str(tmp_path / "run")]
-    assert subprocess.run(command, capture_output=True, timeout=300).returncode == -signal.SIGTERM
+    command = [sys.executable, "-c", script, str(netlist), str(tmp_path / "run"), name]
+    assert subprocess.run(command, capture_output=True, timeout=300).returncode == -getattr(signal, name)
     result = Result.open(tmp_path / "run")
     assert result.run["status"] == "interrupted"
     assert len(result.t) == 0

@@ -310,3 +310,43 @@ def test_warnings_of_check_are_no_faults_in_json(command: Command) -> None:
     ]
     refused = json.loads(command("check", "belt", "--json", model=StandIn(raises=MISTAKES)).stdout)
     assert refused["warnings"] == []
+
+
+class Impatient:
+    """Stands for a module whose import is interrupted."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def find_spec(self, name: str, *_: object) -> None:
+        if name == self.name:
+            raise KeyboardInterrupt
+
+
+def test_ctrl_c_while_the_program_loads_ends_like_one_later(monkeypatch, capsys):
+    import sys
+
+    from fairlead.__main__ import main
+
+    monkeypatch.delitem(sys.modules, "fairlead.cli")
+    monkeypatch.setattr(sys, "meta_path", [Impatient("fairlead.cli"), *sys.meta_path])
+    with pytest.raises(SystemExit) as caught:
+        main()
+    assert caught.value.code == 130
+    assert capsys.readouterr().err == "interrupted\n"
+
+
+def test_ctrl_c_while_a_verb_loads_ends_like_one_later(monkeypatch):
+    import sys
+
+    monkeypatch.delitem(sys.modules, "fairlead.cli.verb")
+    monkeypatch.delitem(sys.modules, "fairlead.simulate", raising=False)
+    monkeypatch.setattr(fairlead, "load", StandIn(raises=KeyboardInterrupt()).load)
+    said = CliRunner().invoke(app, ["check", "belt"])
+    assert (said.exit_code, said.stderr) == (130, "interrupted\n")
+    monkeypatch.setattr("fairlead.cli.Verb.make_context", interrupt)
+    assert CliRunner().invoke(app, ["check", "belt"]).exit_code == 130
+
+
+def interrupt(*_: object, **__: object) -> None:
+    raise KeyboardInterrupt

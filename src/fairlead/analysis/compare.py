@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fairlead.errors import FairleadError
+from fairlead.errors import FairleadError, Fault, Location, ModelError
+from fairlead.netlist.settings_file import Setting
 
 if TYPE_CHECKING:
     from fairlead.results import Result
@@ -27,6 +28,7 @@ FINER = 1e-2  # accuracy of the reference, relative to that of the scene
 GRID = 4001  # common times at which signals are compared
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 LEAST = 1e-3  # of the widest range of a unit: what hardly moves is measured by that
+VARIED = Location("--vary")
 EXACT = "hold"  # the treatment that the others are measured against
 
 
@@ -63,10 +65,12 @@ def compare(
     A run ends after `max_wall` seconds at the latest.
 
     The reference is exact hold at a hundredth of the accuracy where a `method` is varied, else the first
-    combination. Raises ModelError when the reference cannot be built.
+    combination. Raises ModelError for every mistake in what is varied, before anything runs.
     """
     folder, fixed = pathlib.Path(out), dict(settings or {})
+    vary = {name: [Setting(value, VARIED) for value in values] for name, values in vary.items()}
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
+    _refuse_mistakes(load, fixed, chosen)
     exact = {name: EXACT if name.split(".")[-1] == "method" else values[0] for name, values in vary.items()}
     accuracy = load({**fixed, **exact}).netlist.run.accuracy
     reference, failed = _run(load, {**fixed, **exact}, folder / "reference", max_wall, accuracy * FINER)
@@ -80,6 +84,18 @@ def compare(
     return Comparison(
         tuple(rows), label if reference is not None else f"none: {failed or 'the reference failed'}", folder
     )
+
+
+def _refuse_mistakes(load: Load, fixed: Mapping[str, str], chosen: Sequence[Mapping[str, str]]) -> None:
+    """Tell of all combinations what the netlist and its components refuse; what only fails to run is a row."""
+    faults: dict[Fault, None] = {}
+    for values in chosen:
+        try:
+            load({**fixed, **values}).assembly  # noqa: B018 - making it is what refuses
+        except ModelError as error:
+            faults |= dict.fromkeys(error.faults)
+    if faults:
+        raise ModelError(faults)
 
 
 def _run(

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from fairlead.analysis.suggestion import suggest
 from fairlead.errors import Fault, ModelError, did_you_mean, listing
 from fairlead.netlist.netlist import Value
+from fairlead.patterns import matcher
 from fairlead.quantities import QuantityError, si
-from fairlead.system.recording import OutputSignal, glob
+from fairlead.system.recording import OutputSignal
 
 SENSES = {"above": -1.0, "below": +1.0}
 
@@ -77,12 +78,10 @@ class Limits:
 
 def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) -> Limits:
     """Bind the limits of a netlist to recorded columns. Raises ModelError."""
-    import re
-
     found, faults = Limits(), []
     for pattern, value in given.items():
-        wanted = re.compile(glob(pattern))
-        columns = [k for k, signal in enumerate(recorded) if wanted.fullmatch(signal.name)]
+        fits = matcher(pattern)
+        columns = [k for k, signal in enumerate(recorded) if fits(signal.name)]
         if not columns:
             near, way_out = suggest(pattern, [signal.name for signal in recorded])
             faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip(), way_out))

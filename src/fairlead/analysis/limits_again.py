@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from fairlead.patterns import matcher
 from fairlead.results import Result
-from fairlead.system.recording import glob
 
 
 @dataclass(frozen=True)
@@ -35,8 +34,7 @@ def _judge(result: Result, limit: dict[str, Any]) -> Judged | None:
         name, value, t = limit["nearest"]
         broken = limit["sense"] * (value - limit["bound"]) > 0
         return Judged(name, limit["text"], limit["unit"], limit["bound"], value, t, broken)
-    wanted = re.compile(glob(limit["signal"]))
-    names = [signal.name for signal in result.signals if wanted.fullmatch(signal.name)]
+    names = [*filter(matcher(limit["signal"]), (signal.name for signal in result.signals))]
     if not names or not len(result.t):
         return None
     values = result.columns(names)

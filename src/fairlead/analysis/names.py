@@ -10,7 +10,8 @@ from fairlead.analysis.suggestion import suggest
 from fairlead.component.instantiate import Assembly
 from fairlead.errors import Fault, ModelError
 from fairlead.netlist.netlist import Value
-from fairlead.system.recording import OutputSignal, glob
+from fairlead.patterns import matcher
+from fairlead.system.recording import OutputSignal
 from fairlead.system.unknowns import LEDGER
 
 
@@ -65,8 +66,7 @@ def _excused(assembly: Assembly, pattern: str) -> bool:
 
 
 def _any(pattern: str, names: list[str]) -> bool:
-    wanted = re.compile(glob(pattern))
-    return any(wanted.fullmatch(name) for name in names)
+    return any(map(matcher(pattern), names))
 
 
 def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:

@@ -16,4 +16,16 @@ def unreasonable(netlist: Netlist, settings: RunSettings) -> list[Fault]:
     if rows <= MOST_ROWS:
         return []
     what = f"record.every = {every:g} s makes {rows:.3g} rows in {settings.stop - settings.start:g} s."
-    return [Fault(Location(str(netlist.path)), what, f"At most {MOST_ROWS} rows; record less often, or stop earlier.")]
+    written = netlist.recorded.get("every")
+    where = written.where if written is not None else Location(str(netlist.path))
+    return [Fault(where, what, f"At most {MOST_ROWS} rows; record less often, or stop earlier.")]
+
+
+def sparse(netlist: Netlist) -> list[Fault]:
+    """A remark on a recording grid that is longer than the run, in which nothing but both ends is recorded."""
+    every, lasts = netlist.record.every, netlist.run.stop - netlist.run.start
+    written = netlist.recorded.get("every")
+    if every is None or every <= lasts or written is None:
+        return []
+    what = f"record.every = {every:g} s is longer than the run of {lasts:g} s, of which only both ends are recorded."
+    return [Fault(written.where, what, "Record more often, or leave it out to have every step.")]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fairlead.analysis.on_the_drum import off_the_drum
+from fairlead.analysis.recording import sparse
 from fairlead.analysis.rigid_seas import rigid_seas
 from fairlead.analysis.slow_drives import slow_drives
 from fairlead.analysis.states import State
@@ -16,12 +17,16 @@ from fairlead.flatten.flat_model import FlatModel
 
 
 def remarks(flat: FlatModel) -> list[Fault]:
-    """Contacts too wide, weak clamps, tight curves, winches without line, rigid seas that are not, slow drives."""
+    """What is odd but not wrong.
+
+    Contacts too wide, weak clamps, tight curves, winches without line, rigid seas that are not, slow drives, records
+    of nothing but both ends.
+    """
     solved = statics(flat)
     found = list(too_wide(flat))
     for one in solved:
         found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route), *rigid_seas(one.route)]
-    return [*found, *slow_drives(flat, solved)]
+    return [*found, *slow_drives(flat, solved), *sparse(flat.assembly.netlist)]
 
 
 def weak_clamps(found: Statics) -> Iterator[Fault]:

@@ -4,6 +4,9 @@ Exit codes are in `exit_codes.py`. Results go to standard output, progress, warn
 standard error. A verb imports what it needs when it runs, so that `--help` stays quick.
 """
 
+import io
+import sys
+
 import typer
 
 from fairlead.cli import (
@@ -21,12 +24,14 @@ from fairlead.cli import (
     schema,
     statics,
 )  # fmt: skip
-from fairlead.cli.verb import Verb
+from fairlead.cli.terminal import echo
+from fairlead.cli.verb import Verb, Verbs
 
 __all__ = ["app", "main"]
 
 app = typer.Typer(
     name="fairlead",
+    cls=Verbs,
     help="System models in which dry friction sticks and slips at many places at once.",
     epilog="Start with: fairlead run single_bend --report",
     no_args_is_help=True,
@@ -44,7 +49,7 @@ def _print_version(wanted: bool) -> None:
     if wanted:
         import importlib.metadata
 
-        typer.echo(f"fairlead {importlib.metadata.version('fairlead')}")
+        echo(f"fairlead {importlib.metadata.version('fairlead')}")
         raise typer.Exit
 
 
@@ -59,4 +64,6 @@ def _options(
 
 def main() -> None:
     """Run the command line with the arguments of this process; does not return."""
+    if isinstance(sys.stdout, io.TextIOWrapper):  # what it cannot write, such as ° in ASCII, is no reason to fail
+        sys.stdout.reconfigure(errors="replace")
     app(prog_name="fairlead")

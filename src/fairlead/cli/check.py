@@ -2,9 +2,8 @@
 
 import json
 
-import typer
-
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import echo
 
 
 def check(
@@ -22,9 +21,9 @@ def check(
     remarks = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).check()
     if as_json:
         warnings = [fault_record(remark) for remark in remarks]
-        typer.echo(json.dumps({"ok": True, "faults": [], "warnings": warnings}, indent=2))
+        echo(json.dumps({"ok": True, "faults": [], "warnings": warnings}, indent=2))
         return
     for remark in remarks:
-        typer.echo(f"warning: {remark}", err=True)
+        echo(f"warning: {remark}", err=True)
     if not quiet:
-        typer.echo(f"{netlist}: no mistakes found{f', {len(remarks)} warnings' if remarks else ''}.")
+        echo(f"{netlist}: no mistakes found{f', {len(remarks)} warnings' if remarks else ''}.")

@@ -9,6 +9,7 @@ import typer
 
 from fairlead.cli.exit_codes import MODEL_ERROR
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import console, echo
 
 if TYPE_CHECKING:
     from fairlead.analysis.compare import Comparison, Row
@@ -47,10 +48,10 @@ def compare(
     figure = draw(found, folder / "compare.png")
     if as_json:
         record = {"reference": found.reference, "figure": str(figure), "rows": [asdict(row) for row in found.rows]}
-        typer.echo(json.dumps(record, indent=2))
+        echo(json.dumps(record, indent=2))
     elif not quiet:
         _print(found)
-        typer.echo(f"wrote {figure}")
+        echo(f"wrote {figure}")
     if all(row.status == "not started" for row in found.rows):
         raise typer.Exit(MODEL_ERROR)
 
@@ -71,7 +72,6 @@ def parse_variations(texts: list[str]) -> dict[str, list[str]]:
 
 def _print(found: "Comparison") -> None:
     from rich import box
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
@@ -79,13 +79,13 @@ def _print(found: "Comparison") -> None:
         table.add_column(name.replace("[", "\\["), justify="left" if name in ("treatment", "status") else "right")
     for row in found.rows:
         table.add_row(*_cells(row))
-    console = Console(highlight=False)
-    console.print(table)
+    screen = console()
+    screen.print(table)
     worst = sorted({row.worst for row in found.rows if row.worst})
-    console.print(f"error against {found.reference}, of the range of {', '.join(worst) or 'no signal'}")
+    screen.print(f"error against {found.reference}, of the range of {', '.join(worst) or 'no signal'}")
     for row in found.rows:
         if row.reason:
-            console.print(f"{row.label}: {row.reason}", markup=False)
+            screen.print(f"{row.label}: {row.reason}", markup=False)
 
 
 def _cells(row: "Row") -> list[str]:

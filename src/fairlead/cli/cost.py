@@ -9,6 +9,7 @@ import typer
 from fairlead.cli.exit_codes import INTERRUPTED
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.study import Budget, Fresh, Outputs, number, say, write_record
+from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
     from fairlead.analysis.choice import Choice
@@ -60,12 +61,12 @@ def cost(
     record = _record(study, choices)
     written = write_record(folder, "cost.json", record)
     if as_json:
-        typer.echo(json.dumps(record, indent=1))
+        echo(json.dumps(record, indent=1))
     elif not quiet:
         from fairlead.cli.cost_table import print_study
 
         print_study(study, choices)
-        typer.echo(f"wrote {figure} and {written} (every output by itself)")
+        echo(f"wrote {figure} and {written} (every output by itself)")
     if write is not None:
         _write(write, next(choice for choice in choices if choice.target == aim), study, fixed)
     if study.interrupted:
@@ -91,11 +92,11 @@ def _write(path: pathlib.Path, choice: "Choice", study: "Study", fixed: dict[str
     from fairlead.netlist.settings_file import write_settings
 
     if not choice.settings:
-        typer.echo(f"warning: {path} is not written. {choice.sentence}", err=True)
+        echo(f"warning: {path} is not written. {choice.sentence}", err=True)
         return
     use = f"Use: fairlead run {study.name} --settings {path}"
     comment = f"Made by fairlead cost {study.name}.\n{choice.sentence}\n{use}"
-    typer.echo(f"wrote {write_settings(path, {**fixed, **choice.settings}, comment)}")
+    echo(f"wrote {write_settings(path, {**fixed, **choice.settings}, comment)}")
 
 
 def _record(study: "Study", choices: list["Choice"]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from fairlead.cli.options import Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import echo
 
 
 class Stage(enum.StrEnum):
@@ -38,7 +39,7 @@ def describe(
         text = fairlead.describe_type(subject, libraries)
     else:
         text = fairlead.load(subject, set=parse_settings(settings), libraries=libraries).describe(stage.value)
-    typer.echo(text)
+    echo(text)
 
 
 def is_type_name(subject: str) -> bool:

@@ -6,6 +6,7 @@ import typer
 
 from fairlead.cli.exit_codes import MODEL_ERROR, OK
 from fairlead.cli.options import AsJson, Quiet, Verbose
+from fairlead.cli.terminal import echo
 
 
 def doctor(as_json: AsJson = False, quiet: Quiet = False, verbose: Verbose = False) -> None:
@@ -16,10 +17,10 @@ def doctor(as_json: AsJson = False, quiet: Quiet = False, verbose: Verbose = Fal
     for finding in examine():
         findings.append(finding)
         if not as_json and not (quiet and finding.well):
-            typer.echo(str(finding))
+            echo(str(finding))
     well = all(finding.well for finding in findings)
     if as_json:
-        typer.echo(json.dumps({"ok": well, "findings": [finding.record() for finding in findings]}, indent=2))
+        echo(json.dumps({"ok": well, "findings": [finding.record() for finding in findings]}, indent=2))
     elif not quiet:
-        typer.echo("All is well." if well else "Mend what is marked with x; the rest is well.")
+        echo("All is well." if well else "Mend what is marked with x; the rest is well.")
     raise typer.Exit(OK if well else MODEL_ERROR)

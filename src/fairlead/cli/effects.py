@@ -9,6 +9,7 @@ import typer
 from fairlead.cli.exit_codes import INTERRUPTED
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.study import Budget, Fresh, Outputs, number, print_table, say, write_record
+from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
     from fairlead.analysis.effect_row import Row, Size
@@ -50,10 +51,10 @@ def effects(
     record = _record(found)
     written = write_record(folder, "effects.json", record)
     if as_json:
-        typer.echo(json.dumps(record, indent=1))
+        echo(json.dumps(record, indent=1))
     elif not quiet:
         _print(found)
-        typer.echo(f"wrote {written} (every output by itself)")
+        echo(f"wrote {written} (every output by itself)")
     if found.interrupted:
         raise typer.Exit(INTERRUPTED)
 

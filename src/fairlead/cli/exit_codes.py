@@ -1,8 +1,8 @@
 """What the exit code of the command says; the one list, which docs/netlist.md prints.
 
 The errors of `fairlead.errors` carry theirs. 70 is EX_SOFTWARE of sysexits.h, so that a script never takes a mistake
-of fairlead for a verdict on a model; 130 is what shells give for Ctrl-C. SIGTERM ends the process as it ends any other,
-143 in shells, when what was computed is kept and run.json says so.
+of fairlead for a verdict on a model; 130 is what shells give for Ctrl-C. SIGTERM and SIGHUP end the process as they end
+any other, 143 and 129 in shells, when what was computed is kept and run.json says so.
 """
 
 OK, MODEL_ERROR, USAGE, NUMERICAL_FAILURE, BUDGET, LIMIT_BROKEN, UNFORESEEN, INTERRUPTED = 0, 1, 2, 3, 4, 5, 70, 130

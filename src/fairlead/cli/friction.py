@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
     from fairlead.component.values import Values
@@ -43,14 +44,14 @@ def friction(
         records.append({"contacts": names, "method": found.label, "figure": str(figure), **dict(rows)})
         if not (as_json or quiet):
             note = " (of no scene; set it with --normal)" if given is None else ""
-            typer.echo(f"{names}: {found.label}")
+            echo(f"{names}: {found.label}")
             for name, value in rows:
-                typer.echo(f"  {name:<18}{value}{note if name == 'normal force' else ''}")
-            typer.echo(f"  wrote {figure}")
+                echo(f"  {name:<18}{value}{note if name == 'normal force' else ''}")
+            echo(f"  wrote {figure}")
     for remark in remarks:
-        typer.echo(f"warning: {remark}", err=True)
+        echo(f"warning: {remark}", err=True)
     if as_json:
-        typer.echo(json.dumps(records, indent=2))
+        echo(json.dumps(records, indent=2))
 
 
 def _contacts(

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from fairlead.cli.options import Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import echo
 
 
 class Format(enum.StrEnum):
@@ -40,9 +41,9 @@ def graph(
         kind = SUFFIXES.get(out.suffix, Format.MERMAID) if out else Format.MERMAID
     text = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).graph(kind.value)
     if out is None:
-        typer.echo(text)
+        echo(text)
         return
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text, encoding="utf-8")
     if not quiet:
-        typer.echo(f"{kind.value} drawing in {out}")
+        echo(f"{kind.value} drawing in {out}")

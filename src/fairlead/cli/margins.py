@@ -10,6 +10,7 @@ import typer
 from fairlead.cli.exit_codes import LIMIT_BROKEN
 from fairlead.cli.options import AsJson, Quiet, Verbose
 from fairlead.cli.tables import finite, number, plain_table, times, wide_console
+from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
     from fairlead.analysis.limits_again import Judged
@@ -39,11 +40,11 @@ def margins(
     lines, limits = of_lines(result), judged(result)
     broken = [_broken(one) for one in limits if one.broken]
     if as_json:
-        typer.echo(json.dumps(_record(result, lines, limits, broken), indent=2))
+        echo(json.dumps(_record(result, lines, limits, broken), indent=2))
     elif not quiet:
         _print(result, lines, limits)
     for text in broken:
-        typer.echo(f"limit broken: {text}", err=True)
+        echo(f"limit broken: {text}", err=True)
     if broken:
         raise typer.Exit(LIMIT_BROKEN)
 

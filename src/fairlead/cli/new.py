@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from fairlead.cli.options import Quiet, Verbose
+from fairlead.cli.terminal import echo
 
 LAW = '''"""Friction law {word}, a method of every contact: fairlead friction 0.4 --method {word} --library {file}"""
 
@@ -61,7 +62,7 @@ def new(
     except FileExistsError:
         raise typer.BadParameter(f"{file} is there already; choose another name.") from None
     if not quiet:
-        typer.echo(f"wrote {file}; in a netlist: method: {name}, and run it with --library {file}")
+        echo(f"wrote {file}; in a netlist: method: {name}, and run it with --library {file}")
 
 
 def _refuse_known(name: str) -> None:

@@ -4,6 +4,8 @@ from typing import Annotated
 
 import typer
 
+from fairlead.errors import shown
+
 Netlist = Annotated[str, typer.Argument(help="A netlist file, or the name of a bundled model.")]
 Settings = Annotated[
     list[str],
@@ -42,6 +44,6 @@ def parse_settings(texts: list[str]) -> dict[str, str]:
         if not (name and equals and value):
             raise typer.BadParameter(f"--set wants NAME=VALUE, such as --set mu=0.6; it got {text!r}.")
         if name in settings:
-            raise typer.BadParameter(f"--set gives {name} twice: {settings[name]!r} and {value!r}.")
+            raise typer.BadParameter(f"--set gives {shown(name)} twice: {settings[name]!r} and {value!r}.")
         settings[name] = value
     return settings

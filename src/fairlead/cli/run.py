@@ -8,6 +8,7 @@ import typer
 
 from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import console, echo
 
 if TYPE_CHECKING:
     from fairlead import Model, Result
@@ -54,7 +55,7 @@ def run(
     _compare_with_statics(model, result)
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
-        typer.echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
+        echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
     else:
         if not quiet:
             _print_summary(result, written, profile=profile)
@@ -100,16 +101,13 @@ def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) 
 
 def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bool) -> None:
     """The closing table and the files made beside the results."""
-    from rich.console import Console
-
     from fairlead.cli.summary import summary_table
 
-    console = Console(highlight=False)
-    console.print(summary_table(result.run, result.path))
+    console().print(summary_table(result.run, result.path))
     for file in written:
-        typer.echo(f"wrote {file}")
+        echo(f"wrote {file}")
     if profile:
-        typer.echo(result.run.get("profile", "no profile was kept"))
+        echo(result.run.get("profile", "no profile was kept"))
 
 
 def _say_what_is_kept(result: "Result", quiet: bool) -> None:
@@ -119,10 +117,10 @@ def _say_what_is_kept(result: "Result", quiet: bool) -> None:
     size = sum(file.stat().st_size for name in (SERIES_FILE, EVENT_FILE) for file in result.path.glob(name))
     if size > LARGE and not quiet:
         rows = f"{len(result.t)} rows of {len(result.signals)} signals"
-        typer.echo(f"note: the results take {size / 1e6:.0f} MB ({rows}). {_fewer(result)}", err=True)
+        echo(f"note: the results take {size / 1e6:.0f} MB ({rows}). {_fewer(result)}", err=True)
     kept = earlier(result.path)
     if kept is not None:
-        typer.echo(f"note: the run did not finish, so the results it was to replace are kept in {kept}.", err=True)
+        echo(f"note: the run did not finish, so the results it was to replace are kept in {kept}.", err=True)
 
 
 def _fewer(result: "Result") -> str:
@@ -139,16 +137,16 @@ def _fewer(result: "Result") -> str:
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
     """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
     for remark in outcome.get("remarks") or ():
-        typer.echo(f"warning: {remark}", err=True)
+        echo(f"warning: {remark}", err=True)
     if outcome["status"] != "finished":
-        typer.echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
+        echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
     if chattering := outcome.get("chattering"):
-        typer.echo(f"warning: toggled faster than their dwell: {', '.join(chattering)}", err=True)
+        echo(f"warning: toggled faster than their dwell: {', '.join(chattering)}", err=True)
     closure = (outcome.get("energy") or {}).get("closure")
     if outcome["status"] == "finished" and closure is not None and not closure <= OPEN:
-        typer.echo(
+        echo(
             f"warning: the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this "
             "run. Ask for a finer accuracy, or look for a number far from all others.", err=True,
         )  # fmt: skip
     for broken in outcome.get("limits_broken") or ():
-        typer.echo(f"limit broken: {broken}", err=True)
+        echo(f"limit broken: {broken}", err=True)

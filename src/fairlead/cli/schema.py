@@ -2,9 +2,8 @@
 
 import json
 
-import typer
-
 from fairlead.cli.options import Libraries, Quiet, Verbose
+from fairlead.cli.terminal import echo
 
 
 def schema(
@@ -19,4 +18,4 @@ def schema(
     """
     import fairlead
 
-    typer.echo(json.dumps(fairlead.json_schema(libraries), indent=2))
+    echo(json.dumps(fairlead.json_schema(libraries), indent=2))

@@ -7,6 +7,7 @@ import typer
 
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.tables import finite, number, plain_table, times, wide_console
+from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -32,7 +33,7 @@ def statics(
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
     found = [record(one) for one in model.statics(wanted)]
     if as_json:
-        typer.echo(json.dumps(finite(found), indent=2))
+        echo(json.dumps(finite(found), indent=2))
     elif not quiet:
         print_statics(model.netlist.name, found)
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairlead.cli.terminal import console
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -52,14 +54,13 @@ def write_record(folder: pathlib.Path, name: str, record: dict[str, Any]) -> pat
 def print_table(columns: Iterable[str], left: Iterable[str], rows: Iterable[list[str]], width: int) -> "Console":
     """Print a table whose columns in `left` are text, as wide as it is where nobody watches. Returns the console."""
     from rich import box
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console(highlight=False, width=None if typer.get_text_stream("stdout").isatty() else width)
+    screen = console(width=None if typer.get_text_stream("stdout").isatty() else width)
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in columns:
         table.add_column(name, no_wrap=True, justify="left" if name in left else "right")
     for row in rows:
         table.add_row(*row)
-    console.print(table)
-    return console
+    screen.print(table)
+    return screen

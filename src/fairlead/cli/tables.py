@@ -3,6 +3,8 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+from fairlead.cli.terminal import console
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
@@ -12,9 +14,7 @@ def wide_console() -> "Console":
     """A console that is as wide as the terminal, or wide enough for our tables where there is none."""
     import sys
 
-    from rich.console import Console
-
-    return Console(highlight=False, width=None if sys.stdout.isatty() else 120)
+    return console(width=None if sys.stdout.isatty() else 120)
 
 
 def finite(value: Any) -> Any:

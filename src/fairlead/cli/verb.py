@@ -14,7 +14,31 @@ import typer
 import typer.core
 
 from fairlead.cli.exit_codes import INTERRUPTED, UNFORESEEN
+from fairlead.cli.terminal import echo
 from fairlead.errors import FairleadError, Fault, ModelError
+
+
+class Verbs(typer.core.TyperGroup):
+    """The verbs; Ctrl-C before one of them has begun ends as it does later."""
+
+    def make_context(self, *given: Any, **more: Any) -> Any:
+        """Read the arguments. Raises typer.Exit when that is interrupted."""
+        try:
+            return super().make_context(*given, **more)
+        except KeyboardInterrupt as error:
+            raise _interrupted() from error
+
+    def invoke(self, ctx: Any) -> Any:
+        """Call the verb. Raises typer.Exit when finding it is interrupted."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt as error:
+            raise _interrupted() from error
+
+
+def _interrupted() -> typer.Exit:
+    echo("interrupted", err=True)
+    return typer.Exit(INTERRUPTED)
 
 
 class Verb(typer.core.TyperCommand):
@@ -32,17 +56,14 @@ class Verb(typer.core.TyperCommand):
                 warnings.showwarning = _show_warning
                 return super().invoke(ctx)
         except FairleadError as error:
-            typer.echo(_as_json(error) if as_json else str(error), err=not as_json)
+            echo(_as_json(error) if as_json else str(error), err=not as_json)
             if verbose:
-                typer.echo(traceback.format_exc(), err=True)
+                echo(traceback.format_exc(), err=True)
             raise typer.Exit(error.exit_code) from error
-        except KeyboardInterrupt as error:
-            typer.echo("interrupted", err=True)
-            raise typer.Exit(INTERRUPTED) from error
         except Exception as error:
             if _belongs_to_typer(error):
                 raise
-            typer.echo(_report_text(error, verbose), err=True)
+            echo(_report_text(error, verbose), err=True)
             raise typer.Exit(UNFORESEEN) from error
 
 
@@ -91,4 +112,4 @@ def _report_text(error: Exception, verbose: bool) -> str:
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
     """One line on standard error, without the line of ours that happened to notice."""
-    typer.echo(f"warning: {message}", err=True)
+    echo(f"warning: {message}", err=True)

@@ -15,7 +15,7 @@ from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.declare import PATH, SWITCH, Input, Output, Port
 from fairlead.component.friction_block import sound
 from fairlead.component.parameters import read
-from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, is_head
+from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_head
 from fairlead.component.stand_in import stand_in
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
@@ -87,8 +87,15 @@ class Assembly:
     )  # ports joined to what could not be read: not open, if unconnected
 
     def add(self, path: str, values: Values, where: Location) -> None:
-        """Add a leaf."""
+        """Add a leaf. Raises TooManyParts."""
+        if self.crowded:
+            raise TooManyParts
         self.instances[path] = Instance(path, values, where, variant_of(values))
+
+    @property
+    def crowded(self) -> bool:
+        """Whether the scene has as many parts as it may have."""
+        return self.scene.tally.full(len(self.instances))
 
     def excuse(self, paths: Iterable[str]) -> None:
         """Blame no port of these instances for being open: what is written about them could not be read."""
@@ -159,8 +166,12 @@ def _read(
 
 def _expanded(assembly: Assembly, path: str, values: Values, where: Location) -> list[Fault]:
     """Place an entry; what its children cannot be made with is told, and the entry left out."""
+    full = assembly.crowded
     try:
         _place(assembly, path, values, where)
+    except TooManyParts:
+        assembly.broken.add(path)
+        return [] if full else [*TooManyParts(where, path).faults]
     except ModelError as error:
         assembly.broken.add(path)
         return [fault if fault.where else Fault(where, f"{path}.{fault.what}", fault.way_out) for fault in error.faults]

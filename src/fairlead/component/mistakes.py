@@ -137,7 +137,11 @@ def _fault(detail: Any, spot: Spot) -> Fault:
         return Fault(node.where, what.rstrip(), f"There is {listing(expected)}.")
     if detail["type"].startswith("union_tag"):
         return _wrong_word(node, spot, context)
-    if detail["type"] == "model_type" or detail["type"] == "model_attributes_type":
+    if detail["type"] in ("model_type", "model_attributes_type"):
+        if isinstance(spot.declared, Stations | Part):
+            family = spot.declared.family
+            words = listing(family.members)  # type: ignore[attr-defined]
+            return Fault(node.where, f"{said} is not a map.", f"Write a map with {family.key}, one of {words}.")  # type: ignore[attr-defined]
         return Fault(node.where, f"{said} is not a map.", f"Write it as {{{', '.join(spot.siblings)}}} with values.")
     return Fault(node.where, f"{said}: {detail['msg'][0].lower()}{detail['msg'][1:]}.", _needed(spot.declared))
 

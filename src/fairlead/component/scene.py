@@ -11,10 +11,37 @@ from fairlead.component.base import Declared, Family
 from fairlead.component.declare import SWITCH
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
-from fairlead.errors import Fault, ModelError
+from fairlead.errors import Fault, Location, ModelError
 from fairlead.netlist.netlist import Value
 
 FRAMEWORK_EFFECTS = ("energy",)
+MOST_PARTS = 200_000
+"""Parts that a scene may be made of; some minutes of work and a gigabyte of memory. More is a slip of a count."""
+
+
+class TooManyParts(ModelError):
+    """What a netlist repeats (elements, blocks, sections) makes more parts than a scene may have."""
+
+    def __init__(self, where: Location | None = None, path: str = "") -> None:
+        what = f"{path}{': ' if path else ''}the scene has more than {MOST_PARTS} parts{' with it' if path else ''}."
+        super().__init__([Fault(where, what, "Make fewer of what is repeated: elements, blocks, sections, modules.")])
+
+
+@dataclass
+class Tally:
+    """How many parts have been made for a scene, counted before they take any room."""
+
+    parts: int = 0
+
+    def add(self) -> None:
+        """Count one. Raises TooManyParts."""
+        self.parts += 1
+        if self.full():
+            raise TooManyParts
+
+    def full(self, placed: int = 0) -> bool:
+        """Whether there is no room for more, of those made or of those `placed`, which may share their numbers."""
+        return max(self.parts, placed) > MOST_PARTS
 
 
 @dataclass(frozen=True)
@@ -24,12 +51,14 @@ class Scene:
     friction: Mapping[str, Value] = field(default_factory=dict)
     effects: Mapping[str, Value] = field(default_factory=dict)
     folder: pathlib.Path = field(default_factory=pathlib.Path)
+    tally: Tally = field(default_factory=Tally)
 
     def make(self, kind: type[Declared], **given: Any) -> Values:
         """Values of a child, numbers in SI. A family head stands for the member the scene chose.
 
-        Raises ModelError when settings of the scene contradict each other.
+        Raises ModelError when settings of the scene contradict each other, and TooManyParts.
         """
+        self.tally.add()
         plain = {name: value.plain() for name, value in self.defaults(kind, given).items()}
         plain |= {name: value.plain() for name, value in self.switched(kind, given).items() if name not in given}
         made = make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
@@ -47,6 +76,8 @@ class Scene:
             return kind
         chosen = given.get(_key(kind), self.friction.get(_key(kind)))
         word = chosen.plain() if isinstance(chosen, Value) else chosen
+        if isinstance(word, dict | list):  # what cannot be a word names no member
+            return kind
         return kind.members.get(word or kind.default_word, kind)
 
     def defaults(self, kind: type[Declared], given: Mapping[str, Any]) -> dict[str, Value]:

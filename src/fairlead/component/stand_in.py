@@ -95,12 +95,14 @@ def _stations(declared: Stations, listed: list[Any], wrong: Iterable[tuple[Any, 
     """A list of devices with others where they are wrong; each is known by its type."""
     by_number: dict[Any, list[tuple[Any, ...]]] = {}
     for place in wrong:
-        if len(place) < 3:  # the type, or something that is no map
+        if len(place) < 3 or not isinstance(listed[place[0]], Mapping):  # the type, or something that is no map
             raise _Hopeless
         by_number.setdefault(place[0], []).append(place[2:])
     made = list(listed)
     for number, places in by_number.items():
-        member = declared.family.members[made[number]["type"]]  # type: ignore[attr-defined]
+        member = declared.family.members.get(str(made[number].get("type")))  # type: ignore[attr-defined]
+        if member is None:
+            raise _Hopeless
         made[number] = _mended(member.declaration.parameters, made[number], places, firm=True)
     return made
 

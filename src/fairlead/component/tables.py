@@ -18,10 +18,11 @@ from __future__ import annotations
 
 import csv
 import functools
+import io
 import itertools
 import math
 import pathlib
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -39,11 +40,14 @@ from fairlead.component.piecewise import (
 )  # fmt: skip
 from fairlead.component.values import Wave
 from fairlead.errors import did_you_mean, listing, shown
-from fairlead.quantities import QuantityError, si, wanted
+from fairlead.quantities import NUMBER, QuantityError, si, wanted
 
 WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 MOST_POINTS = 100_000
 MOST_BYTES = 10_000_000
+CSV_FORM = "Write two numbers in a row, a comma between them and a point in them: 0.5,12.3"
+# Where a number of a table stands: the path to it in the netlist, and what a message says before it.
+Place = tuple[tuple[str | int, ...], str]
 
 
 class TableError(ValueError):
@@ -109,15 +113,18 @@ def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave 
 
 
 def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    words, at = {"kind": "linear", "beyond": "constant"}, _row
+    words = {"kind": "linear", "beyond": "constant"}
+    at: Callable[[int, int], Place] = _row
     if isinstance(value, Mapping):
         _only(value, {x_name, "y", "file", *WORDS})
         for word, allowed in WORDS.items():
             words[word] = str(value.get(word, words[word]))
             if words[word] not in allowed:
                 raise TableError(f" = {shown(words[word])} is not known", f"Allowed: {listing(allowed)}.", (word,))
-        rows = _from_file(value["file"], folder) if "file" in value else _columns(value, x_name)
-        at = _in_file if "file" in value else functools.partial(_column, (x_name, "y"))
+        if "file" in value:
+            rows, at = _from_file(value["file"], folder)
+        else:
+            rows, at = _columns(value, x_name), functools.partial(_column, (x_name, "y"))
     else:
         rows = value
     if not isinstance(rows, list) or any(not isinstance(row, list | tuple) or len(row) != 2 for row in rows):
@@ -127,26 +134,24 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
         )
     if not 2 <= len(rows) <= MOST_POINTS:
         raise TableError(f"a table has 2 to {MOST_POINTS} points, this one has {len(rows)}")
-    x = [_si(row[0], x_unit, *at(k, 0)) for k, row in enumerate(rows)]
-    y = [_si(row[1], y_unit, *at(k, 1)) for k, row in enumerate(rows)]
+    x = [_si(row[0], x_unit, *at(k, 0)[0]) for k, row in enumerate(rows)]
+    y = [_si(row[1], y_unit, *at(k, 1)[0]) for k, row in enumerate(rows)]
     for k, (before, after) in enumerate(itertools.pairwise(x)):
         if not after > before:
-            raise TableError(f"{x_name} must rise from point to point; {after:g} follows {before:g}", "", at(k + 1, 0))
+            path, said = at(k + 1, 0)
+            raise TableError(f"{said}{x_name} must rise from point to point; {after:g} follows {before:g}", "", path)
     shape = linear_table if words["kind"] == "linear" else monotone_cubic_table
     return shape(x, y, beyond=words["beyond"])
 
 
-def _row(k: int, column: int) -> tuple[str | int, ...]:
-    """Where a number of a list of pairs stands."""
-    return k, column
+def _row(k: int, column: int) -> Place:
+    """In a list of pairs."""
+    return (k, column), ""
 
 
-def _column(names: tuple[str, str], k: int, column: int) -> tuple[str | int, ...]:
-    return names[column], k
-
-
-def _in_file(k: int, column: int) -> tuple[str | int, ...]:
-    return ("file",)
+def _column(names: tuple[str, str], k: int, column: int) -> Place:
+    """In two lists."""
+    return (names[column], k), ""
 
 
 def _columns(value: Mapping[str, Any], x_name: str) -> list[list[Any]]:
@@ -156,25 +161,74 @@ def _columns(value: Mapping[str, Any], x_name: str) -> list[list[Any]]:
     return [list(pair) for pair in zip(x, y, strict=True)]
 
 
-def _from_file(name: Any, folder: pathlib.Path) -> list[list[Any]]:
-    """Two columns of a CSV file inside the netlist's folder; a header line is passed over."""
+def _from_file(name: Any, folder: pathlib.Path) -> tuple[list[list[Any]], Callable[[int, int], Place]]:
+    """Two columns of a CSV file inside the netlist's folder, and where each number stands.
+
+    A first row in which nothing begins with a number is a header. Nothing is passed over but that, comments (#) and
+    empty rows: what is not two numbers in a row is refused by the number of its row.
+    """
     try:
-        text = _inside(folder, str(name)).read_text(encoding="utf-8-sig")
-        rows = [row for row in csv.reader(text.splitlines()) if row and not row[0].lstrip().startswith("#")]
-    except (OSError, ValueError, csv.Error) as error:  # ValueError: not text, or not a name of a file
+        data = _inside(folder, str(name)).read_bytes()
+    except (OSError, ValueError, RuntimeError) as error:  # no name of a file, or a link that leads to itself
         if isinstance(error, TableError):
             raise
-        raise TableError(f" = {shown(name)} cannot be read: {error}", "", ("file",)) from error
+        reason = getattr(error, "strerror", None) or "this is no path to a file"
+        raise TableError(f" = {shown(name)} cannot be read: {reason}", "", ("file",)) from error
+    said = f" = {shown(name)}, row"
+    found, lines, first = [], [], True
+    for line, cells in _cells(data, said):
+        if first and not any(NUMBER.match(cell) for cell in cells):
+            first = False  # it was the header
+            continue
+        first = False
+        found.append(_pair(cells, f"{said} {line}"))
+        lines.append(line)
+    return found, lambda k, _: (("file",), f"{said} {lines[k]}: ")
+
+
+def _cells(data: bytes, said: str) -> Iterator[tuple[int, list[str]]]:
+    """The rows that hold something, each with its number in the file."""
     try:
-        float(rows[0][0])
-    except (ValueError, IndexError):
-        rows = rows[1:]
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        what = f"{said} {line}: the file is not a text in UTF-8 (byte 0x{data[error.start]:02x})"
+        raise TableError(what, "Save it as CSV in UTF-8.", ("file",)) from None
+    reader = csv.reader(io.StringIO(text, newline=""))
     try:
-        return [[float(row[0]), float(row[1])] for row in rows]
-    except (ValueError, IndexError):
-        raise TableError(
-            f" = {shown(name)} is not two columns of numbers", "Separate them by a comma.", ("file",)
-        ) from None
+        for row in reader:
+            cells = [cell.strip() for cell in row]
+            while cells and not cells[-1]:
+                cells.pop()
+            if cells and not cells[0].startswith("#"):
+                yield reader.line_num, cells
+    except csv.Error as error:
+        raise TableError(f"{said} {reader.line_num}: {error}", CSV_FORM, ("file",)) from None
+
+
+def _pair(cells: list[str], said: str) -> list[float]:
+    """The two numbers of a row. Raises TableError with what else it holds."""
+    if any(";" in cell for cell in cells):
+        raise TableError(f"{said}: {shown(','.join(cells))} is separated by semicolons", CSV_FORM, ("file",))
+    for column, cell in enumerate(cells, 1):
+        number = NUMBER.fullmatch(cell) is not None
+        if not number or math.isinf(float(cell)):
+            hint = _hint(cell)
+            what = f"{said}, column {column}: {shown(cell)} is not a {'finite ' if number else ''}number"
+            raise TableError(what, f"{hint}{CSV_FORM}", ("file",))
+    if len(cells) != 2:
+        what = f"{said}: {'one column' if len(cells) == 1 else f'{len(cells)} columns'}; a table has two"
+        raise TableError(what, CSV_FORM, ("file",))
+    return [float(cell) for cell in cells]
+
+
+def _hint(cell: str) -> str:
+    """What a cell may have been meant as that begins with a number."""
+    begins = NUMBER.match(cell)
+    if begins is None:
+        return ""
+    comma = cell[begins.end() :].startswith(",")
+    return "A decimal comma is no point. " if comma else "Numbers of a file are in SI and have no unit. "
 
 
 def _inside(folder: pathlib.Path, name: str) -> pathlib.Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fairlead.component.instantiate import Assembly
+from fairlead.component.scene import TooManyParts
 from fairlead.errors import Fault
 
 
@@ -24,5 +25,8 @@ def lay(assembly: Assembly) -> list[Fault]:
             for path in (one, two):
                 assembly.excuse(inner for inner in assembly.instances if inner.startswith(f"{path}."))
             continue
-        faults += lines[0].line.lay(assembly, lines[0], routes[0])
+        try:
+            faults += lines[0].line.lay(assembly, lines[0], routes[0])
+        except TooManyParts:
+            faults += TooManyParts(where, f"{one}.path -- {two}.path").faults
     return faults

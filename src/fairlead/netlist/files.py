@@ -18,6 +18,8 @@ def find(path: str | os.PathLike[str]) -> Path:
     """The file a path or the name of a bundled model means; raises ModelError when there is none."""
     asked = os.fspath(path)
     where = Location(shown(asked))
+    if UNPRINTABLE.search(asked):
+        raise ModelError([Fault(where, "this is not the name of a file in UTF-8", "Give the file a plain name.")])
     bundled = bundled_models()
     if _is(asked, Path.is_file):
         return Path(asked)
@@ -91,16 +93,25 @@ def read_text(file: Path, where: Location | None = None) -> tuple[str, bytes]:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        what = f"not a text file in UTF-8 (byte 0x{data[error.start]:02x} at {error.start})"
-        raise ModelError([Fault(place, what, "A netlist is a YAML file.")]) from None
+        before = data[: error.start].decode("utf-8-sig")
+        what = f"not a text in UTF-8: byte 0x{data[error.start]:02x}"
+        raise ModelError([Fault(_at_end(place.file, before), what, _encoding(data))]) from None
     if found := UNPRINTABLE.search(text):
-        line, column = (
-            text.count("\n", 0, found.start()) + 1,
-            found.start() - text.rfind("\n", 0, found.start()),
-        )
         what = f"not a text file: it holds the control character U+{ord(found[0]):04X}"
-        raise ModelError([Fault(Location(place.file, line, column), what, "A netlist is a YAML file.")])
+        raise ModelError([Fault(_at_end(place.file, text[: found.start()]), what, "A netlist is a YAML file.")])
     return text, data
+
+
+def _at_end(file: str, before: str) -> Location:
+    """The place that follows a text."""
+    return Location(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
+
+
+def _encoding(data: bytes) -> str:
+    """What to do about a file in another encoding."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "It is in UTF-16; save it in UTF-8."
+    return "A netlist is a YAML file; save it in UTF-8."
 
 
 def display(file: Path) -> str:

@@ -56,7 +56,7 @@ def survey(
     wrong += _loose_ends(tree)
     faults += without_echoes(wrong, faults)
     for name in sorted(overrides):
-        sources.hash.update(f"{name}={overrides[name]}\0".encode())
+        sources.hash.update(f"{name}={overrides[name]}\0".encode("utf-8", "surrogatepass"))
     netlist = _netlist(file, tree, document, sources.hash.hexdigest())
     return netlist, tuple(sorted(dict.fromkeys(faults), key=_place))
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.netlist.files import UNPRINTABLE
 from fairlead.netlist.limits import DEEPEST
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.yaml12 import resolve
@@ -36,6 +37,8 @@ def override(tree: Value, overrides: Mapping[str, str]) -> tuple[Value, list[Fau
 def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
     if len(name) > LONGEST or len(text) > LONGEST:
         return Fault(PLACE, f"{shown(name)}: names and values have at most {LONGEST} characters")
+    if UNPRINTABLE.search(name + text):
+        return Fault(PLACE, f"{shown(name)} = {shown(text)} is not a text in UTF-8", "Type it again in plain letters.")
     try:
         new = Value(resolve(text.strip()), place, place)
     except ValueError as error:

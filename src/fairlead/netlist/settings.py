@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
@@ -41,6 +42,7 @@ Count = Annotated[int, BeforeValidator(_whole), Field(gt=0)]
 Duration = Annotated[Seconds, Field(gt=0)]
 
 
+LONGEST_FILE_NAME = 200  # bytes; file systems take 255
 SHORTEST = 1e-12  # s, and as a share of the times themselves: below it matrices of the engines are rounded away
 
 
@@ -87,6 +89,22 @@ class RunSettings(Strict):
         return self
 
 
+def _figure_file(value: object) -> object:
+    """The name of a figure, refused before the run if nothing could be written there after it."""
+    if not isinstance(value, str) or not value:
+        return value
+    ends = re.search(r"\.([A-Za-z]{2,5})$", value)
+    if re.search(r"[/\\]", value) or value.startswith("."):
+        raise QuantityError(f"{shown(value)} is not a plain file name", "Figures stay in the folder of the run.")
+    if not value.isprintable() or len(value.encode("utf-8", "replace")) > LONGEST_FILE_NAME:
+        what = f"{shown(value)} is no name for a file"
+        raise QuantityError(what, f"A name has at most {LONGEST_FILE_NAME} bytes, all of them to be seen.")
+    if ends and ends[1].lower() != "png":
+        what = f"{shown(value)} is no figure that can be drawn"
+        raise QuantityError(what, f"Figures are PNG: write {shown(value[: ends.start()])}.png.")
+    return value
+
+
 class Plot(Strict):
     """A figure drawn at the end of a run."""
 
@@ -94,7 +112,7 @@ class Plot(Strict):
     """Patterns of the signals to draw, such as `line.*.tension`."""
     title: str = ""
     """Title above the figure."""
-    file: str = ""
+    file: Annotated[str, BeforeValidator(_figure_file)] = ""
     """File name inside the run directory, such as `tension.png`."""
     kind: Literal["lines", "map"] = "lines"
     """lines over time; or a map of the elements of a line: time to the right, place upward, value as colour."""

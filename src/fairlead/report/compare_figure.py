@@ -39,7 +39,8 @@ def draw(comparison: Comparison, path: Path) -> Path:
                 axes[0].annotate(
                     row.status, (0.02, place), xycoords=("axes fraction", "data"), va="center", color=COLOURS[1]
                 )
-        figure.suptitle(f"Against {comparison.reference}", x=0.01, horizontalalignment="left")
+        figure.suptitle(f"Against {comparison.reference}", x=0.01, horizontalalignment="left", parse_math=False)
+        path.parent.mkdir(parents=True, exist_ok=True)  # no run has, if none could be started
         figure.savefig(path, dpi=DOTS_PER_INCH)
     return path
 

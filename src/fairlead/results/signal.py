@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from fairlead.patterns import matcher
+
 
 @dataclass(frozen=True)
 class Signal:
@@ -27,16 +29,7 @@ def matching(names: Iterable[str], pattern: str) -> list[str]:
     names = list(names)
     if pattern in names:
         return [pattern]
-    expression = re.compile(_expression(pattern))
-    return [name for name in names if expression.fullmatch(name)]
-
-
-def _expression(pattern: str) -> str:
-    segments = []
-    for segment in pattern.split("."):
-        literal = re.escape(segment).replace(r"\*", ".*").replace(r"\?", ".")
-        segments.append(literal if segment.endswith(("]", "*")) else literal + r"(?:\[\d+\])?")
-    return r"\.".join(segments)
+    return [*filter(matcher(pattern, any_index=True), names)]
 
 
 def family(name: str) -> tuple[str, int | None]:

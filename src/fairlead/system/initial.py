@@ -8,7 +8,6 @@ A name is that of an unknown, or of a port's variable (`spring.b.x`) or of a mas
 from __future__ import annotations
 
 import math
-import re
 from typing import NamedTuple
 
 import numpy as np
@@ -17,8 +16,8 @@ from numpy.typing import NDArray
 from fairlead.component.instantiate import PortRef
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.patterns import matcher
 from fairlead.quantities import QuantityError, si
-from fairlead.system.recording import glob
 from fairlead.system.unknowns import Numbering
 
 
@@ -40,7 +39,7 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
     names, faults = _names(flat, numbering), []
     said: dict[int, tuple[str, float]] = {}
     for pattern, value in given.items():
-        chosen = [name for name in names if re.fullmatch(glob(pattern), name)]
+        chosen = [*filter(matcher(pattern), names)]
         if not chosen:
             faults.append(_no_such(flat, names, pattern, value.named_at))
             continue

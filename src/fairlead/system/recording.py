@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from fairlead.patterns import matcher
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Integers
 from fairlead.system.shares import shares
@@ -49,8 +49,8 @@ def choose(
     signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], counts: Integers
 ) -> Recording:
     """The signals whose names fit a pattern with * and ?; `counts` of the other modes are those of the System."""
-    wanted = [re.compile(glob(pattern)) for pattern in patterns]
-    chosen = [s for s in signals if any(w.fullmatch(s.name) for w in wanted)]
+    wanted = [matcher(pattern) for pattern in patterns]
+    chosen = [s for s in signals if any(fits(s.name) for fits in wanted)]
     names = {s.name for s in chosen}
     hidden = [s for s in signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
     return recording(chosen, chosen + hidden, blocks, counts)
@@ -65,7 +65,3 @@ def recording(
     counts[layout.OUTPUT], late = asked
     return Recording(chosen, recorded, selected, counts, late)
 
-
-def glob(pattern: str) -> str:
-    """A name pattern with * and ? as a regular expression; brackets mean themselves (`core[12]`)."""
-    return re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")
