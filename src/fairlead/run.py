@@ -1,4 +1,4 @@
-"""One run: the engine is started, what it records goes to disk, and the summary is drawn up."""
+"""One run: the engine is started, what it records goes to disk or memory, and the summary is drawn up."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
-from fairlead.results import Result, RunDirectory, Signal
+from fairlead.results import MemoryRun, Result, RunDirectory, Signal, Sink
 
 if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording
@@ -44,10 +44,10 @@ CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences
 
 @dataclass
 class Watch:
-    """Receives blocks of the engine: writes them down and keeps the figures of the summary."""
+    """Receives blocks of the engine: passes them on and keeps the figures of the summary."""
 
     system: System
-    directory: RunDirectory
+    sink: Sink
     recording: Recording
     ledger: Ledger
     creep: WorstCreep
@@ -90,8 +90,8 @@ class Watch:
             self.kept_jumps += len(jumped)
             for k in np.flatnonzero(counts := jumped.sum(axis=0)):
                 self.jumps[self.recording.recorded[k].name] += int(counts[k])
-        self.directory.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
-        self.directory.events(_named(self.system, row) for row in block.events)
+        self.sink.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
+        self.sink.events(_named(self.system, row) for row in block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.limits.watch(block.t, block.values)
         if self.metered is not None:
@@ -130,9 +130,12 @@ def worth_keeping(
     return keep, jump[sharp]
 
 
-def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path, *, force: bool,
+def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path | None, *, force: bool,
         progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float) -> Result:  # fmt: skip
-    """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError."""
+    """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError.
+
+    They go to the directory `path`, or stay in memory when that is None.
+    """
     if faults := unreasonable(netlist, settings):
         raise ModelError(faults)
     if settings.engine == "ida":
@@ -145,12 +148,9 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     creeping = [signal.name for signal in recording.recorded if signal.name.endswith(".creep_rate")]
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system), "limits": limits.plain()}
-    with (
-        Interruption() as interruption,
-        RunDirectory.create(path, _signals(recording.chosen), header, force=force) as directory,
-    ):
+    with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
         on_grid = netlist.record.every is not None
-        watch = Watch(system, directory, recording, Ledger(), WorstCreep(creeping), limits, progress, on_grid,
+        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits, progress, on_grid,
                       interruption, least_jumps(system, recording.chosen, settings.accuracy))  # fmt: skip
         outcome = integrate(system, _engine_settings(netlist, settings, system, patterns), watch)
         interruption.between_blocks = False
@@ -161,8 +161,14 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
-        directory.finish(_status(outcome), summary)
-    return Result.open(path)
+        sink.finish(_status(outcome), summary)
+    return sink.result()
+
+
+def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, Any], *, force: bool) -> Sink:
+    if path is None:
+        return MemoryRun(signals, header)
+    return RunDirectory.create(path, signals, header, force=force)
 
 
 def _explained(outcome: Outcome) -> Outcome:

@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import enum
 import functools
 import os
 import pathlib
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from fairlead.analysis.statics import Statics
     from fairlead.component.instantiate import Assembly
     from fairlead.flatten.flat_model import FlatModel
+    from fairlead.netlist.includes import Sources
     from fairlead.netlist.netlist import Netlist
     from fairlead.results import Result
     from fairlead.system.system import System
@@ -31,24 +33,40 @@ STAGES = ("netlist", "component", "flatten", "system")
 Progress = Callable[[float, float, Any], None]
 
 
+class Place(enum.Enum):
+    """Where results go when nobody says."""
+
+    RESULTS = "results/NAME"
+
+
 def load(path: str | os.PathLike[str], set: Mapping[str, str] | None = None, libraries: Iterable[str] = ()) -> Model:
     """Read a netlist, by path or by the name of a bundled model. Raises ModelError with every mistake.
 
     `set` overrides scene parameters (`mu`) and settings (`pad.normal_force`, `run.stop`); `libraries`
     are Python files with component classes of the user, whose code is run.
     """
-    return Model(path, dict(set or {}), tuple(libraries))
+    from fairlead.netlist.load import read
+
+    sources, faults = read(path)
+    if sources is None:
+        raise ModelError(faults)
+    return Model(sources, dict(set or {}), tuple(libraries))
 
 
 class Model:
-    """A netlist and the stages it passes through; each stage is made when first asked for."""
+    """A netlist and the stages it passes through; each stage is made when first asked for.
 
-    def __init__(self, path: str | os.PathLike[str], overrides: Mapping[str, str], libraries: tuple[str, ...]) -> None:
-        """Read the netlist; nothing is instantiated yet."""
-        from fairlead.netlist.load import survey
+    A model pickles: what goes along is the netlist with its values and the paths of the libraries. Stages are made
+    again where it arrives, and tables in files read again.
+    """
+
+    def __init__(self, sources: Sources, overrides: Mapping[str, str], libraries: tuple[str, ...]) -> None:
+        """Work out the netlist of `sources`; nothing is instantiated yet. `load` reads them."""
+        from fairlead.netlist.load import worked_out
 
         self.libraries = libraries
-        netlist, self._faults = survey(path, overrides)
+        self._sources, self._overrides = sources, overrides
+        netlist, self._faults = worked_out(sources, overrides)
         if netlist is None:
             raise ModelError(self._faults)
         self.netlist: Netlist = netlist
@@ -144,22 +162,28 @@ class Model:
             raise UsageError(f"{what}\n    A line is laid on a route by joining their paths; see docs/routes.md.")
         return found
 
-    def run(self, out: str | os.PathLike[str] | None = None, force: bool = False, progress: Progress | None = None,
-            profile: bool = False, **settings: Any) -> Result:  # fmt: skip
-        """Simulate; results go to the directory `out` (default results/NAME) as the run goes.
+    def run(self, out: str | os.PathLike[str] | Place | None = Place.RESULTS, force: bool = False,
+            progress: Progress | None = None, profile: bool = False, **settings: Any) -> Result:  # fmt: skip
+        """Simulate; results go to the directory `out` (results/NAME when it is not given) as the run goes.
 
-        `settings` replace those of the netlist's `run` block (stop, accuracy, ...), in SI. The model is compiled once,
-        whatever they are and however often it is run.
+        `out=None` touches no disk: the result stays in memory. `settings` replace those of the netlist's `run`
+        block (stop, accuracy, ...), in SI. The model is compiled once, whatever they are and however often it is run.
         """
         from fairlead.run import run
 
         begun = time.perf_counter()
         netlist = self.netlist.run.model_copy(update=settings)
         system = self.system
-        directory = pathlib.Path(out) if out is not None else pathlib.Path("results") / self.netlist.name
+        path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
         return run(
-            self.netlist, netlist, system, directory, force=force, progress=progress, profile=profile, begun=begun
-        )
+            self.netlist, netlist, system, None if path is None else pathlib.Path(path),
+            force=force, progress=progress, profile=profile, begun=begun,
+        )  # fmt: skip
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What a pickle holds: no stage, and of the libraries where they lie."""
+        kept = ("netlist", "_sources", "_overrides", "_faults")
+        return {"libraries": tuple(map(os.path.abspath, self.libraries)), **{name: vars(self)[name] for name in kept}}
 
     def __repr__(self) -> str:
         """Name and size of the netlist."""

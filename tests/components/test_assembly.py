@@ -19,7 +19,7 @@ def close_by_rows(have, want):
 
 
 # The guidance route with more or other numbers, or with simpler drives.
-TOO_LONG = {"long_deployment", "slack_start", "weak_clamp", "guidance_route_ideal"}
+TOO_LONG = {"long_deployment", "long_route", "slack_start", "weak_clamp", "guidance_route_ideal"}
 
 
 @pytest.fixture(scope="module", params=sorted(set(bundled_models()) - TOO_LONG))

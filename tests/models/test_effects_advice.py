@@ -146,7 +146,8 @@ def test_all_effects_off_names_none_of_a_component_that_went_with_another():
     assert load(together.settings).check() == []
 
 
-ALIKE = {"long_deployment", "slack_start", "weak_clamp", "guidance_route_ideal", "guidance_route_electric"}  # and slow
+ALIKE = {"long_deployment", "long_route", "slack_start", "weak_clamp", "guidance_route_ideal",
+         "guidance_route_electric"}  # and slow
 BUNDLED = {path.stem for path in pathlib.Path(next(iter(fairlead.models.__path__))).glob("*.yaml")} - ALIKE
 
 

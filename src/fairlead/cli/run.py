@@ -47,11 +47,12 @@ def run(
     import fairlead
     from fairlead.cli.progress import progress_bar
     from fairlead.netlist.settings_file import read_settings
+    from fairlead.simulate import Place
 
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress:
-        result = model.run(out=out, force=force, progress=progress, profile=profile)
+        result = model.run(out or Place.RESULTS, force=force, progress=progress, profile=profile)
     _compare_with_statics(model, result)
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
@@ -78,7 +79,7 @@ def _compare_with_statics(model: "Model", result: "Result") -> None:
     from fairlead.results import run_file
 
     result.run["against_statics"] = against_statics(model.flat, result)
-    run_file.write(result.path, result.run)
+    run_file.write(result.folder, result.run)
 
 
 def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> list[pathlib.Path]:
@@ -94,7 +95,7 @@ def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) 
 
         written += figures.draw(result, plots)
     if csv:
-        written.append(result.path / "series.csv")
+        written.append(result.folder / "series.csv")
         result.to_csv(written[-1])
     return written
 
@@ -103,7 +104,7 @@ def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bo
     """The closing table and the files made beside the results."""
     from fairlead.cli.summary import summary_table
 
-    console().print(summary_table(result.run, result.path))
+    console().print(summary_table(result.run, result.folder))
     for file in written:
         echo(f"wrote {file}")
     if profile:
@@ -114,11 +115,11 @@ def _say_what_is_kept(result: "Result", quiet: bool) -> None:
     """Results that are large, and earlier ones that this run was to replace."""
     from fairlead.results.claim import EVENT_FILE, SERIES_FILE, earlier
 
-    size = sum(file.stat().st_size for name in (SERIES_FILE, EVENT_FILE) for file in result.path.glob(name))
+    size = sum(file.stat().st_size for name in (SERIES_FILE, EVENT_FILE) for file in result.folder.glob(name))
     if size > LARGE and not quiet:
         rows = f"{len(result.t)} rows of {len(result.signals)} signals"
         echo(f"note: the results take {size / 1e6:.0f} MB ({rows}). {_fewer(result)}", err=True)
-    kept = earlier(result.path)
+    kept = earlier(result.folder)
     if kept is not None:
         echo(f"note: the run did not finish, so the results it was to replace are kept in {kept}.", err=True)
 

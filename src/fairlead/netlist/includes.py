@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from fairlead.errors import Fault, Location, ModelError, shown
 from fairlead.netlist.files import display, inside, read_text
@@ -18,13 +18,13 @@ MERGED = ("parameters", "components", "connections")
 
 @dataclass
 class Sources:
-    """Every file of a scene: one merged tree, the trees of the included files, the faults, the hash."""
+    """Every file of a scene: one merged tree, the trees of the included files, the faults, all bytes read."""
 
     top: Path
     tree: Value | None = None
     parts: list[Value] = field(default_factory=list)
     faults: list[Fault] = field(default_factory=list)
-    hash: Any = field(default_factory=hashlib.sha256)
+    data: bytes = b""  # of every file in the order of reading, each after its length
     meter: Meter = field(default_factory=Meter)
     seen: set[Path] = field(default_factory=set)
 
@@ -32,6 +32,11 @@ class Sources:
     def folder(self) -> Path:
         """The folder of the top netlist, which no include may leave."""
         return self.top.resolve().parent
+
+    def digest(self, overrides: Mapping[str, str]) -> str:
+        """A hash over the bytes of every file and the overrides, whatever their order."""
+        said = "".join(f"{name}={overrides[name]}\0" for name in sorted(overrides))
+        return hashlib.sha256(self.data + said.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 def gather(top: Path) -> Sources:
@@ -53,7 +58,7 @@ def _read(sources: Sources, file: Path, named_at: Location | None, chain: tuple[
     except TooMuch as error:
         sources.faults.append(error.fault)
         return None
-    sources.hash.update(len(data).to_bytes(8, "little") + data)
+    sources.data += len(data).to_bytes(8, "little") + data
     tree, faults = read_yaml(text, display(file), sources.meter)
     sources.faults += faults
     if tree is None or not isinstance(tree.content, dict):

@@ -9,7 +9,7 @@ from typing import Any
 
 from fairlead.errors import Fault, ModelError, did_you_mean, listing, shown, without_echoes
 from fairlead.netlist.files import find
-from fairlead.netlist.includes import gather
+from fairlead.netlist.includes import Sources, gather
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Entry, Netlist, Value
 from fairlead.netlist.overrides import override
@@ -39,12 +39,21 @@ def survey(
     For `check`, so that the next stages add theirs to the same list. The netlist is None when nothing of it
     can be used; entries that are broken are left out of it.
     """
+    sources, faults = read(path)
+    return (None, faults) if sources is None else worked_out(sources, overrides or {})
+
+
+def read(path: str | os.PathLike[str]) -> tuple[Sources | None, tuple[Fault, ...]]:
+    """The files of a netlist; None, and why, when nothing can be read."""
     try:
-        file = find(path)
+        sources = gather(find(path))
     except ModelError as error:
         return None, error.faults
-    overrides = overrides or {}
-    sources = gather(file)
+    return (None, tuple(sources.faults)) if sources.tree is None else (sources, ())
+
+
+def worked_out(sources: Sources, overrides: Mapping[str, str]) -> tuple[Netlist | None, tuple[Fault, ...]]:
+    """The netlist of these files with `overrides`, and its mistakes. The sources stay as they are."""
     if sources.tree is None:
         return None, tuple(sources.faults)
     tree, faults = override(sources.tree, overrides)
@@ -55,9 +64,7 @@ def survey(
         wrong += validate(Part, part)[1]
     wrong += _loose_ends(tree)
     faults += without_echoes(wrong, faults)
-    for name in sorted(overrides):
-        sources.hash.update(f"{name}={overrides[name]}\0".encode("utf-8", "surrogatepass"))
-    netlist = _netlist(file, tree, document, sources.hash.hexdigest())
+    netlist = _netlist(sources.top, tree, document, sources.digest(overrides))
     return netlist, tuple(sorted(dict.fromkeys(faults), key=_place))
 
 

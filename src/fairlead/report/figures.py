@@ -74,7 +74,7 @@ def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
     paths = []
     with matplotlib.rc_context({**STYLE, "backend": "agg"}):
         for picture in pictures:
-            path = result.path / picture.file
+            path = result.folder / picture.file
             # The mark tells a later run in this directory that the picture may go.
             mark = {"Software": "fairlead"}
             # Figure.savefig draws twice, the first time for the layout alone, which the second finds by itself.

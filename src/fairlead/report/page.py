@@ -72,7 +72,7 @@ def write(result: Result, plots: Iterable[Any] = ()) -> Path:
     """Draw the figures (see `figures.draw`), write report.html into the run directory, return its path."""
     figures = draw(result, plots)
     page = PAGE.substitute(
-        title=escape(str(result.run.get("name", result.path.name))),
+        title=escape(str(result.run.get("name", result.folder.name))),
         description=escape(str(result.run.get("description", ""))),
         status=escape(result.status),
         mood="" if result.status == "finished" else "bad",
@@ -82,7 +82,7 @@ def write(result: Result, plots: Iterable[Any] = ()) -> Path:
         zones=_zones(result.events),
         signals=_signals(result),
     )
-    path = result.path / PAGE_FILE
+    path = result.folder / PAGE_FILE
     path.write_text(page, encoding="utf-8")
     return path
 

@@ -1,8 +1,10 @@
-"""What a run leaves behind: the directory it writes and the result read back from it."""
+"""What a run leaves behind: the directory it writes, or what it keeps in memory, and the result read from it."""
 
 from fairlead.results.events import Event
+from fairlead.results.in_memory import MemoryRun
 from fairlead.results.recorder import RunDirectory
 from fairlead.results.signal import Signal, matching
+from fairlead.results.sink import Sink
 from fairlead.results.trajectory import Result, UnknownSignalError
 
-__all__ = ["Event", "Result", "RunDirectory", "Signal", "UnknownSignalError", "matching"]
+__all__ = ["Event", "MemoryRun", "Result", "RunDirectory", "Signal", "Sink", "UnknownSignalError", "matching"]

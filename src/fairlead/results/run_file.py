@@ -36,6 +36,12 @@ def read(directory: Path) -> dict[str, Any] | None:
     return record if isinstance(record, dict) and record.get("format") == FORMAT else None
 
 
+def as_read(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what `read` would give of a record that `write` wrote."""
+    plain: dict[str, Any] = _plain(record)
+    return plain
+
+
 def stamp() -> dict[str, Any]:
     """Return what tells this run from others: format, start, and the process that writes it."""
     return {"format": FORMAT, "started": now(), "process": os.getpid(), "host": platform.node()}

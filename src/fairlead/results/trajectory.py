@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,10 +43,28 @@ class UnknownSignalError(FairleadError, KeyError):
         return str(self.args[0])  # KeyError would show the message in quotes.
 
 
-class Result:
-    """One run directory, read lazily: a signal is read when it is first asked for."""
+class Series(Protocol):
+    """Recorded signals, wherever they lie."""
 
-    def __init__(self, path: Path, run: Mapping[str, Any], series: SeriesReader) -> None:
+    signals: tuple[Signal, ...]
+
+    def time(self) -> NDArray[np.float64]:
+        """Return the recorded times (n,) [s]."""
+
+    def side(self) -> NDArray[np.int8]:
+        """Return the side of an event of every row (n,)."""
+
+    def values(self, names: list[str]) -> NDArray[np.float64]:
+        """Return the values (n, len(names)) of recorded signals."""
+
+
+class Result:
+    """One run directory, read lazily: a signal is read when it is first asked for.
+
+    `path` is the directory; None for a run that stayed in memory (`run(out=None)`).
+    """
+
+    def __init__(self, path: Path | None, run: Mapping[str, Any], series: Series) -> None:
         self.path = path
         self.run = dict(run)
         self._series = series
@@ -88,7 +106,22 @@ class Result:
     @cached_property
     def events(self) -> list[Event]:
         """Zone changes in order: (t, component, zone_from, zone_to, guard)."""
-        return read_events(self.path / EVENT_FILE)
+        return self._read_events()
+
+    def _read_events(self) -> list[Event]:
+        return read_events(self.folder / EVENT_FILE)
+
+    @property
+    def folder(self) -> Path:
+        """The directory of the run. Raises UsageError for a run that stayed in memory."""
+        if self.path is None:
+            what = f"The run of {self.run.get('name', 'this model')} stayed in memory, so it has no folder."
+            raise UsageError(f"{what}\n    Run it without out=None, or with out=FOLDER, to have files of it.")
+        return self.path
+
+    @property
+    def _place(self) -> str:
+        return "memory" if self.path is None else str(self.path)
 
     @property
     def status(self) -> str:
@@ -180,11 +213,11 @@ class Result:
             advice = f'It stands for {len(several)} signals: use result.match("{name}").'
         else:
             advice = did_you_mean(name, self._signals) or f"Recorded are {listing(self._signals)}."
-        raise UnknownSignalError(f"{name} was not recorded in {self.path}. {advice}")
+        raise UnknownSignalError(f"{name} was not recorded in {self._place}. {advice}")
 
     def __repr__(self) -> str:
         return (
-            f"Result({str(self.path)!r}: {self.run.get('name', 'run')}, {self.status}, {self._reach()}, "
+            f"Result({self._place!r}: {self.run.get('name', 'run')}, {self.status}, {self._reach()}, "
             f"{len(self.signals)} signals, zone changes: {len(self.events)})"
         )
 
@@ -196,7 +229,7 @@ class Result:
 
         facts = [
             ("status", self.status),
-            ("directory", str(self.path)),
+            ("directory", self._place),
             ("recorded", f"{len(self.t)} rows, {self._reach()}"),
             ("zone changes", str(len(self.events))),
         ]
