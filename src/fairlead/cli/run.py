@@ -52,7 +52,7 @@ def run(
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress:
-        result = model.run(out or Place.RESULTS, force=force, progress=progress, profile=profile)
+        result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile)
     _compare_with_statics(model, result)
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
