@@ -208,7 +208,7 @@ def test_a_folder_a_device_and_a_missing_file_are_named(tmp_path):
     (tmp_path / "belt.yaml").write_text(GOOD)
     with pytest.raises(ModelError, match="this is a folder, not a netlist"):
         load(tmp_path)
-    with pytest.raises(ModelError, match=r"no such file or bundled model\n    Did you mean belt.yaml\?"):
+    with pytest.raises(ModelError, match=r"no such file or bundled model\n    Did you mean .*belt.yaml\?"):
         load(tmp_path / "blet.yaml")
     with pytest.raises(ModelError, match="no such file"):
         load(tmp_path / ("x" * 5000))

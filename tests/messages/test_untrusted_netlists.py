@@ -206,3 +206,46 @@ def test_every_verb_prints_through_one_place():
 
 def test_what_cannot_be_seen_is_marked():
     assert printable("a\x1b[31mb\u202ec\udcff\r\n\td°é") == "a\ufffd[31mb\ufffdc\ufffd \n\td°é"
+
+
+MANY = 3000
+MASSES = "".join(f"  m{k}: {{type: Mass, mass: 1 kg}}\n" for k in range(3))
+
+
+@pytest.mark.parametrize("mistakes", [
+    "".join(f"  c{k}: {{type: Nope{k}}}\n" for k in range(MANY)),
+    "".join(f"  c{k}: {{type: Mass, mas{k}: 1 kg}}\n" for k in range(MANY)),
+    "connections: [" + ", ".join(f"[m0.flan{k}, m1.flan{k}]" for k in range(MANY)) + "]\n",
+    "record: {signals: [" + ", ".join(f"m0.x{k}" for k in range(MANY)) + "]}\n",
+    "limits: {" + ", ".join(f"m0.x{k}: {{above: 1}}" for k in range(MANY)) + "}\n",
+    "initial: {" + ", ".join(f"m0.x{k}: 1" for k in range(MANY)) + "}\n",
+    "effects: {" + ", ".join(f"m{k}: on" for k in range(MANY)) + "}\n",
+    "friction: {" + ", ".join(f"m{k}: 1" for k in range(MANY)) + "}\n",
+])  # fmt: skip
+def test_of_many_mistakes_of_one_sort_some_are_told(tmp_path, mistakes):
+    (tmp_path / "a.yaml").write_text(f"schema: 1\ncomponents:\n{MASSES}{mistakes}run: {{stop: 1 s}}\n")
+    with pytest.raises(ModelError) as caught:
+        fairlead.load(tmp_path / "a.yaml").check()
+    assert len(caught.value.faults) < 900
+    answer = check(tmp_path / "a.yaml", "--json").stdout
+    assert len(json.loads(answer)["faults"]) == len(caught.value.faults)
+
+
+def test_a_brace_left_open_is_told_where_it_opens(tmp_path):
+    text = "schema: 1\ncomponents:\n  a: {type: Mass, mass: 1 kg\n  b: {type: Ground}\nrun: {stop: 1 s}\n"
+    assert refused(tmp_path, text).startswith("a.yaml:3:6: not YAML: this { is not closed, as line 4 shows")
+    text = "schema: 1\nconnections:\n  - [a.b, 'c].d'\n  - [c.d, e.f]\nrun: {stop: 1 s}\n"
+    assert refused(tmp_path, text).startswith("a.yaml:3:5: not YAML: this [ is not closed, as line 4 shows")
+    comma = "schema: 1\ncomponents:\n  a: {type: Mass,\n    mass: 1 kg\n    position: 1 m}\nrun: {stop: 1 s}\n"
+    assert refused(tmp_path, comma).startswith("a.yaml:5:13: not YAML")  # closed, but for a comma
+
+
+def test_a_misspelt_path_suggests_the_nearest_one(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "tow.yaml").write_text("schema: 1\ninclude: [secnes/part.yaml]\n")
+    (tmp_path / "top.yaml").write_text("schema: 1\ninclude: [secnes/tow.yaml]\n")
+    for asked in ("sceens/tow.yaml", "scenes/two.yaml", "sceens/twoo.yaml"):
+        assert "Did you mean scenes/tow.yaml?" in check(asked).output, asked
+    assert "Did you mean scenes/tow.yaml?" in check("top.yaml").output
+    assert check("nowhere/at/all.yaml").exit_code == 1

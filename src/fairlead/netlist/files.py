@@ -10,6 +10,7 @@ from pathlib import Path
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.limits import MOST_BYTES
 
+MOST_NAMES = 200  # of a folder, looked at for a suggestion
 # What YAML (section 5.1) does not allow in a text; a file with one of these is binary or damaged.
 UNPRINTABLE = re.compile(r"[^\x09\x0a\x0d\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -32,7 +33,7 @@ def find(path: str | os.PathLike[str]) -> Path:
     if _is(asked, Path.exists):
         raise ModelError([Fault(where, "this is not a regular file")])
     near = did_you_mean(Path(asked).stem, bundled)
-    local = _neighbours(Path(asked).parent, Path(asked).name) if os.sep in asked or "." in asked else ""
+    local = _nearest(Path(), asked) or _neighbours(Path(asked).parent, Path(asked).name) if _is_path(asked) else ""
     models = f"Bundled models are {listing(sorted(bundled))}." if bundled else ""
     raise ModelError(
         [Fault(where, "there is no such file or bundled model", f"{local or near} {models}".strip())]
@@ -73,7 +74,7 @@ def inside(folder: Path, base: Path, text: str, where: Location | None) -> Path:
         advice = f"Files of a netlist lie in its folder or below, links followed: {display(folder)}."
         raise ModelError([Fault(where, f"{shown(text)} leads out of the folder of the netlist", advice)])
     if not _is(str(file), Path.is_file):
-        advice = _neighbours(file.parent, file.name)
+        advice = _nearest(base, text) or _neighbours(file.parent, file.name)
         raise ModelError([Fault(where, f"{shown(text)}: there is no such file", advice)])
     return file
 
@@ -122,9 +123,30 @@ def display(file: Path) -> str:
         return str(file)
 
 
+def _is_path(asked: str) -> bool:
+    """Whether a text is meant as a path, not as the name of a bundled model."""
+    return os.sep in asked or "." in asked
+
+
+def _nearest(base: Path, asked: str) -> str:
+    """The sentence "Did you mean models/belt.yaml?" for a path of which folders or the file are misspelt."""
+    at = Path(Path(asked).anchor)
+    for word in Path(asked).parts[len(at.parts) :]:
+        if not _is(str(base / at / word), Path.exists):
+            try:
+                names = sorted(each.name for each in (base / at).iterdir())[:MOST_NAMES]
+            except (OSError, ValueError):
+                return ""
+            word = did_you_mean(word, names).removeprefix("Did you mean ").removesuffix("?")
+        if not word:
+            return ""
+        at = at / word
+    return f"Did you mean {at}?" if _is(str(base / at), Path.is_file) else ""
+
+
 def _neighbours(folder: Path, name: str) -> str:
     try:
-        names = sorted(file.name for file in folder.glob("*.yaml"))[:200]
+        names = sorted(file.name for file in folder.glob("*.yaml"))[:MOST_NAMES]
     except (OSError, ValueError):
         return ""
     return did_you_mean(name, names) or (f"There are {listing(names)}." if names else "")

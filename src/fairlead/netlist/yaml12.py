@@ -205,11 +205,29 @@ def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
     mark = error.problem_mark or error.context_mark
     if mark is None:
         return Fault(Location(file), f"not YAML: {error.problem}")
+    opened = error.context_mark
+    if opened is not None and opened.line < mark.line and _stays_open(text, opened.index):
+        bracket, close = (("{", "}"), ("[", "]"))[text[opened.index] == "["]
+        what = f"not YAML: this {bracket} is not closed, as line {mark.line + 1} shows"
+        way_out = f"Put {close} where it ends."
+        return Fault(Location(file, opened.line + 1, opened.column + 1), what, way_out)
     lines = text.splitlines()
     line = lines[mark.line] if mark.line < len(lines) else ""
     context = f" {error.context}" if error.context else ""
     what = f"not YAML: {error.problem}{context}"
     return Fault(Location(file, mark.line + 1, mark.column + 1), what, _advice(line, mark.column))
+
+
+def _stays_open(text: str, start: int) -> bool:
+    """Whether the bracket at `start` has no other that closes it; what stands in quotes or a comment is passed over."""
+    if text[start : start + 1] not in ("{", "["):
+        return False
+    depth = 0
+    for found in re.finditer(r"[\[\]{}]|'[^'\n]*'|\"[^\"\n]*\"|#[^\n]*", text[start:]):
+        depth += {"{": 1, "[": 1, "}": -1, "]": -1}.get(found[0], 0)
+        if depth == 0:
+            return False
+    return True
 
 
 def _advice(line: str, column: int) -> str:
