@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import pathlib
 import time
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
+from fairlead.analysis.event_rows import EventRows, Rows
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
 from fairlead.analysis.remarks import remarks
@@ -35,10 +35,8 @@ if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording
     from fairlead.system.system import System
 
-BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
 SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
 MOST_JUMPS_TOLD = 5
-LITTLE = 1e-9  # of whatever unit: less is nothing
 CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none
 
 
@@ -53,12 +51,8 @@ class Watch:
     creep: WorstCreep
     limits: Limits
     progress: Callable[[float, float, Any], None] | None
-    on_grid: bool
     interruption: Interruption
-    least_jump: NDArray[np.float64]  # by recorded signal: share of its largest value from which a difference is a jump
-    largest: NDArray[np.float64] = field(default_factory=lambda: np.zeros(1))
-    kept_jumps: int = 0  # events that have two rows on a grid
-    jumps: Counter[str] = field(default_factory=Counter)  # of every signal
+    event_rows: EventRows | None  # what of events is kept; None: everything
     creeping: NDArray[np.int64] = field(init=False)  # columns of what `creep` watches
     metered: NDArray[np.int64] | None = field(init=False, default=None)  # and of what `ledger` does
 
@@ -81,16 +75,8 @@ class Watch:
         self.interruption.due()
 
     def _take(self, block: Block) -> None:
-        rows: Any = slice(None)
-        if self.on_grid:
-            values = block.values[:, : self.chosen]
-            if len(values):
-                self.largest = np.maximum(self.largest, np.maximum(values.max(axis=0), -values.min(axis=0)))
-            rows, jumped = worth_keeping(values, block.side, self.least_jump * (self.largest + LITTLE))
-            self.kept_jumps += len(jumped)
-            for k in np.flatnonzero(counts := jumped.sum(axis=0)):
-                self.jumps[self.recording.recorded[k].name] += int(counts[k])
-        self.sink.append(block.t[rows], block.values[rows, : self.chosen], SIDES[block.side[rows]])
+        rows = Rows(block.t, block.values[:, : self.chosen], block.side)
+        self._write(rows if self.event_rows is None else self.event_rows.take(rows))
         self.sink.events(_named(self.system, row) for row in block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.limits.watch(block.t, block.values)
@@ -98,6 +84,22 @@ class Watch:
             self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
+
+    def _write(self, rows: Rows) -> None:
+        self.sink.append(rows.t, rows.values, SIDES[rows.side])
+
+    def finish(self) -> None:
+        """Write what still waits; no block follows."""
+        if self.event_rows is not None and (rest := self.event_rows.rest()) is not None:
+            self._write(rest)
+
+    def jumps(self) -> dict[str, Any]:
+        """For run.json: events that have two rows on a grid, and the signals that jump at most of them."""
+        if self.event_rows is None:
+            return {"kept": 0, "most": {}}
+        counts = self.event_rows.jumps
+        most = [k for k in np.argsort(-counts, kind="stable")[:MOST_JUMPS_TOLD].tolist() if counts[k]]
+        return {"kept": self.event_rows.kept, "most": {self.recording.recorded[k].name: int(counts[k]) for k in most}}
 
 
 def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float) -> NDArray[np.float64]:
@@ -111,23 +113,6 @@ def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float)
         stairs = set(range(len(s.outputs))) - {k for k, _ in s.d_signals} if s.period else set()
         held |= {f"{instance.path}.{s.outputs[k]}" for instance in block.instances for k in stairs}
     return np.array([np.inf if one.name in held else CONTINUOUS * accuracy for one in chosen])
-
-
-def worth_keeping(
-    values: NDArray[np.float64], side: NDArray[np.int8], least: NDArray[np.float64]
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Rows (k,) to write when a grid was asked for, and which value jumps, (events at which one does, values).
-
-    The two sides of events at which no recorded value jumps, by more than its `least`, are left out: a kink needs no
-    row of its own, and a long line switches thousands of times.
-    """
-    keep = np.ones(len(side), dtype=bool)
-    left = np.flatnonzero((side[:-1] == BEFORE) & (side[1:] == AFTER))
-    jump = np.abs(values[left + 1] - values[left]) > least
-    sharp = jump.any(axis=1)
-    smooth = left[~sharp]
-    keep[smooth] = keep[smooth + 1] = False
-    return keep, jump[sharp]
 
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path | None, *, force: bool,
@@ -150,9 +135,11 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     header = {**_header(netlist, settings, system), "limits": limits.plain()}
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
         on_grid = netlist.record.every is not None
-        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits, progress, on_grid,
-                      interruption, least_jumps(system, recording.chosen, settings.accuracy))  # fmt: skip
+        event_rows = EventRows(least_jumps(system, recording.chosen, settings.accuracy)) if on_grid else None
+        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits, progress,
+                      interruption, event_rows)  # fmt: skip
         outcome = integrate(system, _engine_settings(netlist, settings, system, patterns), watch)
+        watch.finish()
         interruption.between_blocks = False
         outcome = _explained(outcome)
         if outcome.status == Status.INTERRUPTED and interruption.ended_by is not None:
@@ -263,7 +250,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
         "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(),
-        "jumps": {"kept": watch.kept_jumps, "most": dict(watch.jumps.most_common(MOST_JUMPS_TOLD))},
+        "jumps": watch.jumps(),
     }  # fmt: skip
 
 

@@ -28,6 +28,7 @@ class WorstCreep:
         if not rows.size:
             return
         speed = np.abs(rows)
+        speed[np.isnan(speed)] = 0.0  # says nothing, and must not hide the rows handed over with it
         k = speed.argmax(axis=0)
         now = speed[k, np.arange(len(k))]
         higher = now > self.worst

@@ -28,7 +28,8 @@ class Ledger:
         if self.first is None:
             self.first = rows[0].copy()
         self.last = rows[-1].copy()
-        self.most = max(self.most, float(np.abs(rows - self.first).max()), float(np.abs(rows[:, 2]).max()))
+        for sizes in (np.abs(rows - self.first), np.abs(rows[:, 2])):
+            self.most = max(self.most, float(np.fmax.reduce(sizes, axis=None)))  # what is no number says nothing
 
     def summary(self) -> dict[str, float | None]:
         """For run.json; closure is None when nothing passed through."""

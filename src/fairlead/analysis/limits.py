@@ -49,6 +49,7 @@ class Limit:
         if not len(rows):
             return
         beyond = self.sense * (rows[:, self.columns] - self.bound)
+        beyond[np.isnan(beyond)] = -np.inf  # says nothing, and must not hide the rows handed over with it
         k, j = divmod(int(beyond.argmax()), beyond.shape[1])
         if beyond[k, j] > self.worst:
             self.worst = float(beyond[k, j])

@@ -1,0 +1,73 @@
+"""Which rows a run on a grid keeps: those of the grid, and both sides of every event at which a recorded value jumps.
+
+    jumps     |right - left| > least (largest + LITTLE)      largest: of that value up to this very row
+
+A kink needs no row of its own, and a long line switches thousands of times. What is kept follows from the rows before
+and not from how they were handed over: a left side that ends a block waits for its right side in the next.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+BEFORE, AFTER = 1, 2  # sides of an event, as the engine numbers them
+LITTLE = 1e-9  # of whatever unit: less is nothing
+
+
+class Rows(NamedTuple):
+    """Recorded rows: times [k], values [k, m], side of an event [k] as the engine numbers them."""
+
+    t: NDArray[np.float64]
+    values: NDArray[np.float64]
+    side: NDArray[np.int8]
+
+    def where(self, which: NDArray[np.bool_] | slice) -> Rows:
+        """Some of them."""
+        return Rows(self.t[which], self.values[which], self.side[which])
+
+
+class EventRows:
+    """Takes rows block by block and gives back those to write."""
+
+    def __init__(self, least: NDArray[np.float64]) -> None:
+        """`least` [m]: share of its largest value from which a difference across an event is a jump; inf: never."""
+        self.least = least
+        self.largest = np.zeros(len(least))
+        self.kept = 0
+        """Events that have two rows."""
+        self.jumps = np.zeros(len(least), dtype=np.int64)
+        """By value: events at which it jumps."""
+        self._waiting: Rows | None = None
+
+    def take(self, rows: Rows) -> Rows:
+        """The rows to write of these and of one that waited."""
+        if self._waiting is not None:
+            rows = Rows(*(np.concatenate(pair) for pair in zip(self._waiting, rows, strict=True)))
+        ends_left = len(rows.side) > 0 and rows.side[-1] == BEFORE
+        self._waiting = rows.where(slice(-1, None)) if ends_left else None
+        if ends_left:
+            rows = rows.where(slice(0, -1))
+        return rows.where(self._worth_keeping(rows)) if len(rows.t) else rows
+
+    def rest(self) -> Rows | None:
+        """The row that waits, when no more will follow: the run ended at an event."""
+        return self._waiting
+
+    def _worth_keeping(self, rows: Rows) -> NDArray[np.bool_]:
+        """By row; counts what jumps."""
+        size = np.abs(rows.values)
+        np.fmax(size[0], self.largest, out=size[0])
+        largest = np.fmax.accumulate(size, axis=0)
+        self.largest = largest[-1].copy()
+        left = np.flatnonzero((rows.side[:-1] == BEFORE) & (rows.side[1:] == AFTER))
+        jump = np.abs(rows.values[left + 1] - rows.values[left]) > self.least * (largest[left + 1] + LITTLE)
+        sharp = jump.any(axis=1)
+        self.kept += int(np.count_nonzero(sharp))
+        self.jumps += jump.sum(axis=0)
+        keep = np.ones(len(rows.side), dtype=bool)
+        smooth = left[~sharp]
+        keep[smooth] = keep[smooth + 1] = False
+        return keep
