@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 
 from fairlead.integrate.codes import KNOWN_ZONES
@@ -93,17 +91,25 @@ def known_rows(problem: Instance) -> dict[str, Floats | Integers]:
         found[f"{name}_starts"] = np.concatenate([[0], np.cumsum(np.bincount(owner[entries], minlength=nz))])
         found["own_slopes" if name == "own_slope" else "own_masses"] = entries
         found[f"{name}_columns"] = columns_of(pattern)[entries]
-    kinds: dict[tuple[object, ...], int] = {}
-    counts = zip(np.diff(found["own_slope_starts"]).tolist(), np.diff(found["own_mass_starts"]).tolist(), strict=True)
-    names = [re.sub(r"\d+", "", name) for name in problem.machine_names]
-    shapes = [(names[z], tuple(problem.zone_names(z)), *each) for z, each in enumerate(counts)]
-    found["own_kind"] = np.array([kinds.setdefault(shape, len(kinds)) for shape in shapes], dtype=np.int64)
+    found["own_kind"] = own_kinds(problem, np.diff(found["own_slope_starts"]), np.diff(found["own_mass_starts"]))
     found["only_kinks"] = only_kinks(problem)
     found["known_of_kind"] = np.zeros(KNOWN_ZONES * nz, dtype=np.int64)
     found["known_slopes"] = np.zeros(KNOWN_ZONES * len(found["own_slopes"]))
     found["known_masses"] = np.zeros(KNOWN_ZONES * len(found["own_masses"]))
     found["known_constants"], found["known"] = np.zeros(KNOWN_ZONES * nz), np.zeros(KNOWN_ZONES * nz, dtype=np.int64)
     return found
+
+
+def own_kinds(problem: Instance, slopes: Integers, masses: Integers) -> Integers:
+    """The kind of every machine: rows of one kind have as many entries in J (`slopes`) and in M (`masses`).
+
+    The problem says which machines follow the same laws (`machine_kind`). Of one that does not, every machine is
+    a kind of its own: what is learnt of one then says nothing about others, which is safe.
+    """
+    laws = np.asarray(getattr(problem, "machine_kind", np.arange(len(problem.zones))), dtype=np.int64)
+    numbers: dict[tuple[int, ...], int] = {}
+    shapes = zip(laws.tolist(), slopes.tolist(), masses.tolist(), strict=True)
+    return np.array([numbers.setdefault(shape, len(numbers)) for shape in shapes], dtype=np.int64)
 
 
 def only_kinks(problem: Instance) -> Integers:

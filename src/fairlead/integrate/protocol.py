@@ -35,10 +35,12 @@ limit or an acceleration against the friction (settling.py). And `kink_guard` [n
 nothing but its slope jumps, as between two pieces of a table; `rodas` steps a hair past those instead of on them.
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
-that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `beyond_row`
-names the machines whose switch changes more rows of J and M than the one they hold: these are evaluated then. And
-whether `at_time` takes `samples` of the unknowns: they are then made consistent before. Any engine heeds its
-`longest_step`, s: what swings in time alone shows in no unknown while all rests.
+that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `machine_kind`
+[nz] is equal for machines that follow the same laws: what is learnt of one is then a guess for the others; without it
+every machine is of a kind of its own, whatever its name. `beyond_row` names the machines whose switch changes more rows
+of J and M than the one they hold: these are evaluated then. And whether `at_time` takes `samples` of the unknowns: they
+are then made consistent before. Any engine heeds its `longest_step`, s: what swings in time alone shows in no unknown
+while all rests.
 And `narrowing`, which tells what moves and cuts it out as a problem of its own that records for all (parts.py):
 
     possible                     whether that may be asked

@@ -18,7 +18,7 @@ from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
-from fairlead.system.switching import guards, holders, kinks, limits, machine_owners, machine_zones
+from fairlead.system.switching import guards, holders, kinks, limits, machine_kinds, machine_owners, machine_zones
 from fairlead.system.system import Pattern, System
 from fairlead.system.timing import first_pieces, samplers
 from fairlead.system.tolerances import scales
@@ -78,6 +78,7 @@ def build(
         kink_guard=kinks(blocks),
         linear=all(_is_linear(block, numbering) for block in blocks),
         machine_names=list(machines),
+        machine_kind=machine_kinds(blocks, len(machines)),
         guard_names=[name for name, _ in slots],
         machine_zones=machine_zones(blocks, len(machines)),
         machine_guards=machine_owners(blocks, len(machines)),

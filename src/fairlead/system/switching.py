@@ -123,3 +123,13 @@ def machine_owners(blocks: Sequence[Block], count: int) -> list[tuple[Block, int
     """Block and instance of every machine."""
     owner = {int(machine): (block, i) for block in blocks for i, row in enumerate(block.machines) for machine in row}
     return [owner[machine] for machine in range(count)]
+
+
+def machine_kinds(blocks: Sequence[Block], count: int) -> Integers:
+    """A number for every machine, the same for machines at the same place of instances of one class variant."""
+    numbers: dict[tuple[int, int], int] = {}
+    kinds = np.zeros(count, dtype=np.int64)
+    for block in blocks:
+        for place, machines in enumerate(block.machines.T):
+            kinds[machines[machines >= 0]] = numbers.setdefault((block.kernel.address, place), len(numbers))
+    return kinds

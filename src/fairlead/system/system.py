@@ -80,6 +80,7 @@ class System:
     kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
     machine_names: Sequence[str]
+    machine_kind: Integers  # per machine: equal for the same place in instances of one class variant
     guard_names: Sequence[str]
     machine_zones: list[Sequence[str]]
     machine_guards: list[Any]  # per machine: the block and the instance it belongs to
