@@ -94,10 +94,11 @@ def line(row: dict[str, Any]) -> str:
     head = f"{row['engine']:9} {row['elements']:5} elements: "
     if "per_second" not in row:
         return head + row["failed"]
+    rejected = sum(number for name, number in row["counters"].items() if name.startswith("rejected_"))
     count, found = row["counters"], "no reference" if row["error"] is None else f"error {row['error']:.1e}"
     return (
         f"{head}{row['per_second']:8.3f} s per simulated second at accuracy {row['accuracy']:g}, {found}; "
-        f"{count['steps']} steps, {count['rejected_error'] + count['rejected_nan']} rejected, "
+        f"{count['steps']} steps, {rejected} rejected, "
         f"{count['solves']} solves, {count['switches']} switches"
     )
 

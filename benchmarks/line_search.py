@@ -122,7 +122,7 @@ def cost_of(text: str, step: float | None) -> Cost:
     run = Run(stop=STOP, every=0.01, engine="stepping", fixed_step=step, max_steps=MOST_STEPS)
     outcome = integrate(system, run)
     counts = outcome.counters
-    return Cost(0 if outcome.ok else 1, counts.steps, counts.rejected_nan, counts.solves, outcome.loop_cpu)
+    return Cost(0 if outcome.ok else 1, counts.steps, counts.unsolved, counts.solves, outcome.loop_cpu)
 
 
 def scenes() -> dict[str, list[str]]:

@@ -18,12 +18,10 @@ from fairlead.integrate.foreign import at_time_at, compiled, copy, indices, next
 from fairlead.integrate.growth import watch_growth
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
-from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, block, settle
+from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
 from fairlead.integrate.start import NOT_CONSISTENT
 from fairlead.integrate.trial import not_finite_here, smallest_step
 
-STALL_LIMIT = 5
-"""Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 """Newton iterations allowed from the guess of a user, and from a point consistent before a switch."""
 
@@ -103,7 +101,6 @@ def find_next_time(m):
 def settle_here(m):
     """Settle at the point; then any time event of this instant; then the step to begin with."""
     starting = m.steps == 0 and m.companion == 0 and m.crossed == 0
-    watch_progress(m)
     status = settle(m, START_ITERATIONS if starting else SETTLE_ITERATIONS)
     if status == INACCURATE:
         return REPLAN
@@ -124,23 +121,6 @@ def settle_here(m):
             return GO_ON
     finish_settling(m, starting)
     return GO_ON
-
-
-@compiled
-def watch_progress(m):
-    """Count switches that do not advance; when there are too many, hold the machines for a dwell."""
-    if m.passes > 0 or m.n_fired == 0:
-        return
-    m.stalls = m.stalls + 1 if m.t - m.t_last_switch < m.progress_floor else 0
-    m.t_last_switch = m.t
-    if m.stalls >= STALL_LIMIT:
-        fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
-        chatters = indices(m.at_chatters, m.n_zones)
-        for k in range(m.n_fired):
-            z = machine[fired[k]]
-            if z >= 0:
-                block(m, z)
-                chatters[z] += 1
 
 
 @compiled

@@ -12,6 +12,10 @@ COUNTS = (
     "rejected_error",
     "rejected_nan",
     "rejected_companion",
+    "rejected_switch",
+    "rejected_cycling",
+    "rejected_diverged",
+    "rejected_singular",
     "rhs",
     "jacobians",
     "factorisations",
@@ -34,9 +38,19 @@ class Counters:
     steps: int
     """Accepted steps, each up to its end or to the first switch inside it."""
     rejected_error: int
+    """Steps tried in vain because their error was too large."""
     rejected_nan: int
+    """The same because it was not a finite number."""
     rejected_companion: int
     """Steps given up because a guard turned out positive without having crossed."""
+    rejected_switch: int
+    """Steps of `stepping` taken again to end at a switch: a law jumps there, or an impulse was missed."""
+    rejected_cycling: int
+    """Steps of `stepping` whose zones went in a circle."""
+    rejected_diverged: int
+    """Steps of `stepping` whose iteration did not converge."""
+    rejected_singular: int
+    """Steps with a matrix that could not be factorised."""
     rhs: int
     jacobians: int
     factorisations: int
@@ -55,9 +69,16 @@ class Counters:
     """Steps in which only what moves was computed, see parts.py."""
     switches_by_machine: NDArray[np.int64]
     rejections_by_unknown: NDArray[np.int64]
-    """How often each unknown had the largest error of a rejected step."""
+    """How often each unknown had the largest error of a step that was rejected, or ended at a switch, for its error."""
 
     @property
     def rejected(self) -> int:
         """Steps tried in vain, for any reason."""
-        return self.rejected_error + self.rejected_nan + self.rejected_companion
+        return (
+            self.rejected_error + self.rejected_nan + self.rejected_companion + self.rejected_switch + self.unsolved
+        )
+
+    @property
+    def unsolved(self) -> int:
+        """Steps tried in vain because their equations, zones among them, were not solved."""
+        return self.rejected_cycling + self.rejected_diverged + self.rejected_singular

@@ -33,8 +33,10 @@ from fairlead.integrate.tableau import TABLEAUS, Tableau
 SLICE = 0.05
 """Seconds between two returns to Python, aimed at."""
 FIRST_ATTEMPTS = 16
-BLOCK_NUMBERS = 1 << 17
-"""Recorded numbers a block may hold."""
+BLOCK_NUMBERS, LEAST_ROWS, MOST_ROWS = 1 << 17, 64, 1 << 16
+"""Recorded numbers a block may hold; rows it may hold at least, 5 are needed, and at most."""
+EVENTS = 4096
+"""Zone changes a block may hold, if four passes of a settlement are no more."""
 LEAST_PASSES, PATTERN_NUMBERS = 100, 1 << 22
 """Passes that a settling may take in any case, and how many zones the patterns that it remembers may have together."""
 NEVER = 1e308
@@ -158,8 +160,8 @@ def prepare(problem: Instance, run: Run, tableau: Tableau) -> Memory:
     n_outputs = problem.n_outputs if problem.callbacks.get("outputs") else n
     plan = ordering.plan(problem)
     most_perturbed = MOST_PERTURBED if run.engine == "stepping" and not plan.dense else 0
-    rows = max(64, min(65536, BLOCK_NUMBERS // max(n_outputs, 1)))
-    events = max(4096, 4 * (nz + ng))
+    rows = max(LEAST_ROWS, min(MOST_ROWS, BLOCK_NUMBERS // max(n_outputs, 1)))
+    events = max(EVENTS, 4 * (nz + ng))
     s = tableau.stages
     sizes = {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),

@@ -49,8 +49,9 @@ INTEGERS = (
     "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row", "limits_vary",
     "n_own_slopes", "n_own_masses", "n_known", "n_switched", "n_free_guards",
     # counters, in the order of counters.COUNTS
-    "steps", "rejected_error", "rejected_nan", "rejected_companion", "rhs", "jacobians", "factorisations",
-    "solves", "guards", "switches", "located", "settling_passes", "time_events", "replans", "partial_steps",
+    "steps", "rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
+    "rejected_diverged", "rejected_singular", "rhs", "jacobians", "factorisations", "solves", "guards", "switches",
+    "located", "settling_passes", "time_events", "replans", "partial_steps",
 )  # fmt: skip
 """Whole numbers of the struct; those beginning with call_ are addresses of C functions."""
 

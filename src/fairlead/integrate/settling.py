@@ -29,6 +29,8 @@ from fairlead.integrate.start import consistent
 NOT_SETTLED, NO_ROOM = 4, 5
 CHATTER_STREAK = 8
 """Toggles in a row, each within a dwell of the one before, that make a machine chatter."""
+STALL_LIMIT = 5
+"""Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
 WARN, HOLD, STOP = 0, 1, 2
 ROUNDING = 1e-3
 """How far below zero, in guard tolerances, a guard still counts as at its limit: further down it is inside
@@ -71,13 +73,34 @@ def settle(m, iterations):
 
 @compiled
 def begin_settling(m):
-    """Forget the last settlement and remember the zones in force as the first pattern of this one."""
+    """Forget the last settlement and remember the zones in force as the first pattern of this one.
+
+    What counts once a settlement is done here: `settle` is left and entered again for other pivots or empty buffers.
+    """
     m.passes = 0
     m.one_by_one = 0
     m.stage, m.stage_from, m.fewest, m.waited = ALL, 0, m.n_guards + 1, 0
     m.look = 0.0
     m.nearness = 1.0
     copy(indices(m.at_zones, m.n_zones), indices(m.at_zones_history, m.n_zones))
+    watch_progress(m)
+
+
+@compiled
+def watch_progress(m):
+    """Count switches that do not advance; when there are too many, hold the machines for a dwell."""
+    if m.n_fired == 0:
+        return
+    m.stalls = m.stalls + 1 if m.t - m.t_last_switch < m.progress_floor else 0
+    m.t_last_switch = m.t
+    if m.stalls >= STALL_LIMIT:
+        fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
+        chatters = indices(m.at_chatters, m.n_zones)
+        for k in range(m.n_fired):
+            z = machine[fired[k]]
+            if z >= 0:
+                block(m, z)
+                chatters[z] += 1
 
 
 @compiled

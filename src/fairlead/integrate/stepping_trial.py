@@ -168,7 +168,7 @@ def goes_past_switch(m, h):
 def end_at_switch(m):
     """Repeat a step up to `t_switch`."""
     give_back_zones(m)
-    m.rejected_error += 1
+    m.rejected_switch += 1
     if m.worst >= 0:
         indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
     m.retried += 1
@@ -183,6 +183,7 @@ def landed(m, h):
     switched = m.passes > 0
     give_back_zones(m)
     if m.t_jump - m.t <= max(1e-9 * (m.stop - m.start), smallest_step(m)):
+        m.rejected_switch += 1
         m.n_fired = give
         m.seeking = 0
         m.crossed = 1
@@ -194,16 +195,28 @@ def landed(m, h):
         return True
     if switched and m.seeking >= LANDINGS:
         m.t_jump = m.t + 0.5 * h
+    m.rejected_switch += 1
     m.seeking += 1
     m.h_next = min(m.t_jump - m.t, h)
     return False
 
 
 @compiled
+def count_unsolved(m, status):
+    """Count a step that was not solved, by its cause."""
+    if status == CYCLES:
+        m.rejected_cycling += 1
+    elif status == SINGULAR:
+        m.rejected_singular += 1
+    else:
+        m.rejected_diverged += 1
+
+
+@compiled
 def repeat_shorter(m, h, status):
     """Halve a step whose zones cycle or whose iteration fails; end the run at the step floor."""
     give_back_zones(m)
-    m.rejected_nan += 1
+    count_unsolved(m, status)
     m.retried += 1
     if status == CYCLES and m.expecting == 1:
         m.failed += 1  # the same step again, without guessing

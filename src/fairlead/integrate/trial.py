@@ -134,7 +134,9 @@ def smallest_step(m):
 def reject(m, h, status):
     """Shrink the step, and say whom it is due to; end the run at the step floor."""
     indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
-    if isfinite(m.error):
+    if status == SINGULAR:
+        m.rejected_singular += 1
+    elif isfinite(m.error):
         m.rejected_error += 1
     else:
         m.rejected_nan += 1
