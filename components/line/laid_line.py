@@ -29,7 +29,8 @@ from fairlead.components.route.tow import SeaDrag, TailEnd
 from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.window import Reach, Window, total
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.alike import Parts, agree
+from fairlead.component.instantiate import PortRef, with_other
 from fairlead.errors import Fault
 
 FIXED_DEVICE = 1e9  # kg; what a body bound to a fixed device counts as
@@ -77,6 +78,11 @@ class LaidLine:
     def margin(self, sea: Any) -> float:
         """Line in a sea that moves by itself before the rest moves as one, if that is wanted [m]."""
         return float(self.slips_over() + LEAST_MARGIN if sea.margin is None else sea.margin)
+
+    def handed_on(self, now: LaidLine) -> Parts | None:
+        """Parts of which laying is to know nothing, and what stands in their place in `now`; None if more differs."""
+        parts: Parts = {}
+        return parts if agree(self.values, now.values, parts) else None
 
     def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
         """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""
@@ -358,8 +364,9 @@ class _On:
         for one in self.route.of_type("Winch"):
             if one.station.layers == "on":
                 wound = one.station.filled + max(one.end - p.start, 0.0)
-                drum = self.to.assembly.instances[f"{self.path}.{one.name}.layers"]
-                drum.values.given["radius"] = one.station.wound().over_angle(wound, one.station.crossover)
+                path, instances = f"{self.path}.{one.name}.layers", self.to.assembly.instances
+                radius = one.station.wound().over_angle(wound, one.station.crossover)
+                instances[path] = with_other(instances[path], radius=radius)
 
     def loops(self) -> None:
         """Elements that run through a tensioner take the loop into their stretch."""

@@ -10,7 +10,8 @@ from fairlead.components.friction.contact import Contact
 from fairlead.components.mechanics.ground import Ground
 
 from fairlead.component.declare import Input
-from fairlead.component.instantiate import Join, PortRef
+from fairlead.component.instantiate import HandedOn, Join, PortRef
+from fairlead.component.values import Values
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,8 @@ class Laying:
         key = (kind, *((name, value if isinstance(value, float) else id(value)) for name, value in given.items()))
         if key not in self.shared:
             self.shared[key] = self.assembly.scene.make(kind, **given)
+            if any(isinstance(value, Values) for value in given.values()):
+                self.assembly.handed_on.append(HandedOn(self.shared[key], kind, given))
         return self.shared[key]
 
     def exchange(self, name: str, entry: str, other: str) -> None:

@@ -13,6 +13,7 @@ from fairlead.components.route.placing import Placed
 from fairlead.components.route.station import Machinery
 from fairlead.components.route.window import Window
 
+from fairlead.component.alike import Parts, agree
 from fairlead.component.scene import Scene
 
 STANDING = "surface.flange"  # below the route: what does not move
@@ -85,6 +86,23 @@ class RouteLine:
                     Surface("" if first else one.name, STANDING, curve, one.station.all_round(), ((one, 1.0),))
                 )
         return made
+
+    def handed_on(self, now: RouteLine) -> Parts | None:
+        """Curves of which laying is to know nothing, and what stands in their place in `now`; None if more differs."""
+        parts: Parts = {}
+        if len(self.placed) != len(now.placed) or self._said() != now._said():
+            return None
+        pairs = zip(self.placed, now.placed, strict=True)
+        return parts if all(agree(one.station, other.station, parts) for one, other in pairs) else None
+
+    def _said(self) -> list[Any]:
+        """What laying is to know beside the parameters of the stations."""
+        places = [(one.name, one.number, one.begin, one.end) for one in self.placed]
+        movers = [(name, list(m.children), m.joins, m.ports, m.outputs, m.surface, m.clamp, m.total)
+                  for name, m in self.machinery.items()]  # fmt: skip
+        touched = [(one.name, one.flange, one.all_round, [(at.number, grip) for at, grip in one.devices])
+                   for one in self.surfaces]  # fmt: skip
+        return [places, movers, touched]
 
     def squeezing(self) -> Iterator[tuple[Placed, str]]:
         """Devices whose clamps press on the line, and the output that says how much."""

@@ -65,6 +65,8 @@ class Model:
         from fairlead.netlist.load import worked_out
 
         self.libraries = libraries
+        self.rebuilt = ""
+        """Of a model made by `with_values`: why it shares no structure with the one it comes from, if it does not."""
         self._sources, self._overrides = sources, overrides
         netlist, self._faults = worked_out(sources, overrides)
         if netlist is None:
@@ -83,13 +85,19 @@ class Model:
         return assembly
 
     @functools.cached_property
+    def flattened(self) -> FlatModel:
+        """Nodes, groups and links as they are before lines are cut for `profile: statics`."""
+        from fairlead.flatten.flatten import flatten
+
+        return flatten(self.assembly)
+
+    @functools.cached_property
     def flat(self) -> FlatModel:
         """Nodes, groups and links. Raises ModelError with everything that `check` would tell."""
         from fairlead.analysis.start_profile import laid_under_statics
-        from fairlead.flatten.flatten import flatten
 
         try:
-            return laid_under_statics(flatten(self.assembly))
+            return laid_under_statics(self.flattened)
         except ModelError:
             self.check()
             raise
@@ -128,7 +136,7 @@ class Model:
         if faults:
             faults += without_echoes(untraceable(flat), faults)
         else:
-            self.assembly, self.flat = assembly, flat
+            self.assembly, self.flattened = assembly, flat
             try:
                 self.flat = laid_under_statics(flat)
                 assert self.system is not None
@@ -180,14 +188,35 @@ class Model:
             force=force, progress=progress, profile=profile, begun=begun,
         )  # fmt: skip
 
+    def with_values(self, **values: float | str) -> Model:
+        """A model with other values of scene parameters (`mu=0.6`) and settings (`**{"pad.normal_force": "20 N"}`).
+
+        Numbers are in SI, texts are as `load(path, set=...)` takes them, and the model is the one that `load` would
+        give. It shares structure and kernels with this one, which stays as it is; if the structure depends on the
+        values, all is made anew, and `rebuilt` says why. This model is compiled if it is not yet. Raises ModelError
+        for names and values as `load` and `check` do.
+        """
+        from fairlead.renewal import renew
+
+        new = Model(self._sources, {**self._overrides, **_as_text(values)}, self.libraries)
+        if new._faults:
+            new.check()
+        renew(self, new)  # type: ignore[arg-type]  # mypy takes cached properties for read-only
+        return new
+
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle holds: no stage, and of the libraries where they lie."""
-        kept = ("netlist", "_sources", "_overrides", "_faults")
+        kept = ("netlist", "rebuilt", "_sources", "_overrides", "_faults")
         return {"libraries": tuple(map(os.path.abspath, self.libraries)), **{name: vars(self)[name] for name in kept}}
 
     def __repr__(self) -> str:
         """Name and size of the netlist."""
         return f"<Model {self.netlist.name}: {len(self.netlist.components)} components>"
+
+
+def _as_text(values: Mapping[str, float | str]) -> dict[str, str]:
+    """Values as a command line has them; a text keeps its place, if it knows it."""
+    return {name: value if isinstance(value, str) else str(value) for name, value in values.items()}
 
 
 def _in_order(faults: Iterable[Fault]) -> list[Fault]:

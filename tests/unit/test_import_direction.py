@@ -32,7 +32,7 @@ ALLOWED = {
     "interruption": set(),
     "report": {"errors", "quantities", "results", "analysis"},
 }
-LAST = {"", "run", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before
+LAST = {"", "run", "renewal", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before
 
 
 def source_files() -> dict[str, pathlib.Path]:

@@ -15,8 +15,7 @@ from fairlead.analysis.laid_route import LaidRoute, laid_routes
 from fairlead.analysis.schedule import LOOKS, STILL
 from fairlead.analysis.states import State
 from fairlead.analysis.statics import state
-from fairlead.component.instantiate import Instance
-from fairlead.component.values import Values
+from fairlead.component.instantiate import Instance, with_other
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 
@@ -55,7 +54,5 @@ def _cut(laid: LaidRoute, found: State) -> dict[str, Instance]:
         free = length / (1 + max(tension, 0.0) / laid.stiffness)
         for layer in laid.line.line.layers:
             old = laid.flat.assembly.instances[f"{laid.line.path}.{layer}[{k}]"]
-            values = Values(old.type, {**old.values.given, "length": free})
-            values.variant, values.effects = old.values.variant, old.values.effects
-            made[old.path] = replace(old, values=values)
+            made[old.path] = with_other(old, length=free)
     return made

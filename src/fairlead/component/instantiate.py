@@ -7,9 +7,8 @@ Composites are expanded here, so that the next stage sees leaves only. All mista
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
@@ -20,7 +19,6 @@ from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_
 from fairlead.component.stand_in import stand_in
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
-from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
 
 
@@ -40,6 +38,14 @@ class Instance:
 
     def __str__(self) -> str:
         return f"{self.path}: {self.variant.label}    {self.where}"
+
+
+def with_other(instance: Instance, **given: Any) -> Instance:
+    """The same component with some other values, of the same variant."""
+    old = instance.values
+    values = Values(old.type, {**old.given, **given})
+    values.variant, values.effects = old.variant, old.effects
+    return replace(instance, values=values)
 
 
 class PortRef(NamedTuple):
@@ -70,6 +76,15 @@ class Line:
     where: Location
 
 
+@dataclass(frozen=True)
+class HandedOn:
+    """Values of a child that were made with parts of a line or a route, such as a curve: of what kind, from what."""
+
+    made: Values
+    kind: type[Declared]
+    given: dict[str, Any]
+
+
 @dataclass
 class Assembly:
     """All leaves of a model with their joins; lines and routes wait for the flattening."""
@@ -84,6 +99,9 @@ class Assembly:
     effects: dict[str, dict[str, str]] = field(default_factory=dict)  # component -> its effects, on or off
     broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
     stand_ins: set[str] = field(default_factory=set)  # made with other values, for there are mistakes in their own
+    entries: dict[str, Values] = field(default_factory=dict)  # of the components of the netlist
+    expansions: dict[str, Expansion] = field(default_factory=dict)  # of composites, however deep
+    handed_on: list[HandedOn] = field(default_factory=list)  # where laying passed on parts as they are
     excused: set[PortRef] = field(
         default_factory=set
     )  # ports joined to what could not be read: not open, if unconnected
@@ -128,33 +146,29 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
     scene, faults = sound(netlist, types)
     assembly = Assembly(netlist, scene)
     for entry in netlist.components.values():
-        if len(faults) > MOST_FAULTS:  # nobody mends more in one go
-            assembly.broken.add(entry.name)
-            continue
         kind = types.get(entry.type)
         if kind is None:
             near = did_you_mean(entry.type, types) or f"There are {listing(sorted(types), 30)}."
             what = f"{entry.name}: there is no component type {shown(entry.type)}. {near}"
             faults.append(Fault(entry.type_where, what, "--library adds types from a file of yours."))
-        found = _read(assembly, kind, entry.parameters, entry.name, entry.where, faults) if kind else None
+        found = read_entry(assembly, kind, entry.parameters, entry.name, entry.where, faults) if kind else None
         if found is None:
             assembly.broken.add(entry.name)
         else:
+            assembly.entries[entry.name] = found
             faults += _expanded(assembly, entry.name, found, entry.where)
     faults += _unknown_effects(assembly, types)
     for ends in netlist.connections:
-        if len(faults) > MOST_FAULTS:
-            assembly.excuse(assembly.instances)
-            break
         faults += _connect(assembly, ends)
     faults += _open_paths(assembly)
     return assembly, sorted(faults, key=lambda f: (f.where is None, f.where))
 
 
-def _read(
+def read_entry(
     assembly: Assembly, kind: type[Declared], given: Mapping[str, Value], name: str, where: Location,
     faults: list[Fault],
 ) -> Values | None:  # fmt: skip
+    """Values of an entry of the netlist; its mistakes are added to `faults`."""
     scene = assembly.scene
     member = scene.member(kind, given)
     if is_head(member):
@@ -194,6 +208,7 @@ def _place(assembly: Assembly, path: str, values: Values, where: Location) -> No
         assembly.add(path, values, where)
         return
     expansion: Expansion = values.type.expand(values, assembly.scene)  # type: ignore[attr-defined]
+    assembly.expansions[path] = expansion
     for name, child in expansion.children.items():
         _place(assembly, f"{path}.{name}", child, where)
     for ends in expansion.connections:
@@ -319,7 +334,7 @@ def _unknown_effects(assembly: Assembly, types: Mapping[str, type[Declared]]) ->
     declared |= {name for kind in named for name in kind.declaration.effects}  # of those too that could not be made
     known = sorted({*FRAMEWORK_EFFECTS, *declared})
     faults = []
-    for name, value in itertools.islice(assembly.netlist.effects.items(), MOST_FAULTS):
+    for name, value in assembly.netlist.effects.items():
         if name not in known:
             what = f"effects.{name}: nothing in this scene has such an effect. {did_you_mean(name, known)}"
             faults.append(Fault(value.named_at, what.rstrip(), f"It has {listing(known)}."))

@@ -47,7 +47,7 @@ class Values:
         self.type = type
         self.variant: Variant | None = None
         self.effects: dict[str, str] = {}  # what is on and off, also when a limiting model has taken its place
-        self.given = {name: _Group(value) if isinstance(value, Mapping) else value for name, value in given.items()}
+        self.given = {name: Group(value) if isinstance(value, Mapping) else value for name, value in given.items()}
 
     def __getattr__(self, name: str) -> Any:
         """A parameter, a derived number (computed once) or, for a part, one of its functions."""
@@ -86,7 +86,7 @@ def parameter(values: Values, key: str) -> float:
     return float(getattr(value.sine, of_sine) if of_sine else value)
 
 
-class _Group:
+class Group:
     """A nested map of parameters, read by attribute."""
 
     def __init__(self, given: Mapping[str, Any]) -> None:

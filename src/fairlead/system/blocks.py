@@ -89,7 +89,7 @@ def build_blocks(
 def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering: Numbering, ranks: dict[str, int],
            tables: Tables, machines: list[tuple[str, int]], tau: float) -> Block:  # fmt: skip
     s = kernel.structure
-    inputs = [[_input(flat, numbering, instance, key) for key in s.inputs] for instance in instances]
+    inputs = [[place_of_input(flat, numbering, instance, key) for key in s.inputs] for instance in instances]
     flows = [[_target(flat, numbering, instance, target) for target in s.targets] for instance in instances]
     slots = []
     for instance in instances:
@@ -98,7 +98,7 @@ def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering
     signals = [[_signal(numbering, PortRef(i.path, name)) for name in s.outputs] for i in instances]
     return Block(
         kernel, instances, [ranks.get(i.path, 0) for i in instances],
-        _floats([[_parameter(flat, i, name, tau) for name in s.parameters] for i in instances]),
+        _floats([[parameter_of(flat, i, name, tau) for name in s.parameters] for i in instances]),
         _integers([[z for z, _, _ in row] for row in inputs]), _floats([[c for _, c, _ in row] for row in inputs]),
         _floats([[o for _, _, o in row] for row in inputs]), _integers(slots),
         _integers([[tables.place(polynomial(i.values.path(name))) for name in s.tables] for i in instances]),
@@ -121,7 +121,7 @@ def _signal(numbering: Numbering, output: PortRef) -> int:
     return numbering.dump if place is None else numbering.n + place
 
 
-def _input(flat: FlatModel, numbering: Numbering, instance: Instance, key: str) -> tuple[int, float, float]:
+def place_of_input(flat: FlatModel, numbering: Numbering, instance: Instance, key: str) -> tuple[int, float, float]:
     """Where an input lies in z, its coefficient and its offset."""
     kind, _, rest = key.partition(":")
     if kind == "t":
@@ -183,7 +183,8 @@ def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: s
     return numbering.n + numbering.reactions[index], ratio
 
 
-def _parameter(flat: FlatModel, instance: Instance, name: str, tau: float) -> float:
+def parameter_of(flat: FlatModel, instance: Instance, name: str, tau: float) -> float:
+    """What a kernel reads under a name: of the component, of the body at one of its ports, or `tau` [s] for @tau."""
     if name == "@tau":
         return tau
     if name.endswith(".inverse_mass"):

@@ -29,8 +29,7 @@ def compile(flat: FlatModel) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
     kernels = _kernels(flat)
     structures = {path: made.structure for path, made in kernels.items()}
-    effect = flat.assembly.netlist.effects.get("energy")
-    numbering = number(flat, structures, energy=effect is None or effect.plain() != "off")
+    numbering = number(flat, structures, energy=energy_counted(flat))
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
     begin, faults = starts(flat, numbering)
@@ -39,6 +38,12 @@ def compile(flat: FlatModel) -> System:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
     return dataclasses.replace(system, narrows=Narrowing)
+
+
+def energy_counted(flat: FlatModel) -> bool:
+    """Whether the scene has its ledger of energy."""
+    effect = flat.assembly.netlist.effects.get("energy")
+    return effect is None or effect.plain() != "off"
 
 
 def untraceable(flat: FlatModel) -> list[Fault]:

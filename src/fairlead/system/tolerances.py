@@ -69,20 +69,30 @@ class Scales:
 def scales(flat: FlatModel, numbering: Numbering, units: Sequence[str]) -> Scales:
     """The scales of a model; `units` are those of its guards."""
     unknowns = numbering.unknowns
-    creep, width = np.full(len(unknowns), np.inf), np.full(len(unknowns), np.inf)
+    creep, width = slow_speeds(flat, numbering)
+    return Scales(
+        np.array([nominal(u) for u in unknowns]),
+        np.array([0.0 if u.kind in ("position", "ledger") else 1.0 for u in unknowns]),
+        creep, width, np.array([GUARD_ROUNDING.get(unit, 1e-9) for unit in units]),
+    )  # fmt: skip
+
+
+def slow_speeds(flat: FlatModel, numbering: Numbering) -> tuple[Floats, Floats]:
+    """By unknown the smallest creep and the largest weight at which curves are seen, see `Scales`; shape (n,) each."""
+    creep, width = np.full(numbering.n, np.inf), np.full(numbering.n, np.inf)
+    known: dict[int, tuple[float, float]] = {}
     for instance in flat.instances:
-        for least, most in zip((creep, width), _most(instance), strict=True):
+        key = id(instance.values)  # nodes of a line share theirs
+        if key not in known:
+            known[key] = _most(instance)
+        for least, most in zip((creep, width), known[key], strict=True):
             if most == np.inf:
                 continue
             for port in ("a", "b"):
                 rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
                 if rate is not None:
                     least[rate] = min(least[rate], most)
-    return Scales(
-        np.array([nominal(u) for u in unknowns]),
-        np.array([0.0 if u.kind in ("position", "ledger") else 1.0 for u in unknowns]),
-        creep, width, np.array([GUARD_ROUNDING.get(unit, 1e-9) for unit in units]),
-    )  # fmt: skip
+    return creep, width
 
 
 def _most(instance: Instance) -> tuple[float, float]:

@@ -1,0 +1,61 @@
+"""A model with other values: what it shares with the one it comes from, and what is made again.
+
+    renew(old, new)      gives `new` its stages, and says in `new.rebuilt` if it shares none of them
+
+What is found first, serves:
+
+1. the assembly and the graph of `old`, with the children made again that have other values (component/again.py)
+2. the structure of `old`: netlist to flat model are made again, and agree with it (flatten/same_wiring.py)
+3. nothing: all stages are made again
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Protocol
+
+from fairlead.analysis.start_profile import laid_under_statics
+from fairlead.component.again import again
+from fairlead.component.instantiate import Assembly
+from fairlead.component.registry import known_types
+from fairlead.flatten.collection import collected_later
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.flatten.same_wiring import difference
+from fairlead.netlist.netlist import Netlist
+from fairlead.system.compile import energy_counted
+from fairlead.system.refresh import refreshed
+from fairlead.system.system import System
+
+
+class Stages(Protocol):
+    """A `simulate.Model`: its stages, each made when first asked for unless it was given."""
+
+    libraries: tuple[str, ...]
+    netlist: Netlist
+    assembly: Assembly
+    flattened: FlatModel
+    flat: FlatModel
+    system: System
+    rebuilt: str
+
+
+@collected_later
+def renew(old: Stages, new: Stages) -> None:
+    """Make the stages of `new`, of one netlist with `old` but for its values. Raises ModelError as they do."""
+    system = old.system
+    made = again(old.assembly, old.flattened.instances, new.netlist, known_types(new.libraries))
+    if made is not None:
+        instances = tuple(made.instances.values())
+        new.assembly, new.flattened = made, replace(old.flattened, assembly=made, instances=instances)
+        new.flat = laid_under_statics(new.flattened)
+    why = difference(old.flat, new.flat) or _ledger(old.flat, new.flat)
+    if why:
+        new.rebuilt = f"All stages were made anew: {why}."
+    else:
+        new.system = refreshed(system, new.flat)
+
+
+def _ledger(one: FlatModel, other: FlatModel) -> str:
+    """What is left of the structure: whether energy is counted."""
+    counted = energy_counted(other)
+    return "" if energy_counted(one) == counted else f"energy is {'counted' if counted else 'not counted'} now"

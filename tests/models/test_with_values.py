@@ -1,0 +1,271 @@
+"""`model.with_values(...)` is bit by bit the model that `load(path, set=...)` gives, and says if it shares nothing."""
+
+import concurrent.futures
+import dataclasses
+import itertools
+import pickle
+import random
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.component.alike import agree
+from fairlead.errors import ModelError
+from fairlead.netlist.files import bundled_models
+from fairlead.netlist.load import load
+from fairlead.quantities import NUMBER
+from fairlead.system import layout
+from fairlead.system.context import ADDRESSES
+from fairlead.system.working import CHANGED
+
+SEED, SAMPLE = 20261123, 3
+LONG = {"long_deployment", "long_route", "guidance_route", "guidance_route_electric", "guidance_route_ideal",
+        "slack_start", "weak_clamp"}  # fmt: skip
+
+
+def settings_of(name):
+    """Every parameter of a bundled model that is a number, with another value: {path: value}."""
+    netlist = load(name)
+    found = {name: other(value.content) for name, value in netlist.parameters.items()}
+    for entry in netlist.components.values():
+        for parameter, value in entry.parameters.items():
+            found |= inside(f"{entry.name}.{parameter}", value)
+    for block in ("friction", "initial", "limits", "effects"):
+        for parameter, value in getattr(netlist, block).items():
+            found |= inside(f"{block}.{parameter}", value) if "[" not in parameter and "." not in parameter else {}
+    found |= {"run.stop": "0.07 s", "run.start": "0.01 s", "run.accuracy": 1e-5}
+    return {path: value for path, value in found.items() if value is not None}
+
+
+def inside(path, value):
+    """The numbers in a value, however deep."""
+    if value.entries:
+        each = ((f"{path}.{name}", one) for name, one in value.entries.items())
+    elif isinstance(value.content, list):
+        each = ((f"{path}[{k}]", one) for k, one in enumerate(value.content))
+    else:
+        return {path: other(value.content)}
+    return dict(itertools.chain.from_iterable(inside(*one).items() for one in each))
+
+
+def other(content):
+    """Another value like this one: a number a little larger, a switch turned; None for what is no number."""
+    if isinstance(content, bool) or content is None:
+        return None
+    if isinstance(content, int | float):
+        return content + 1 if isinstance(content, int) and content > 3 else content * 1.0625
+    match = NUMBER.match(content)
+    if match is None:
+        return {"on": "off", "off": "on"}.get(content)
+    return f"{float(match[0]) * 1.0625!r}{content[match.end() :]}"
+
+
+def same(one, two):
+    """Assert that two compiled models are the same to the last bit, addresses apart."""
+    assert one.flat.nodes == two.flat.nodes
+    assert one.flat.groups == two.flat.groups
+    for a, b in zip(one.flat.instances, two.flat.instances, strict=True):
+        assert (a.path, a.variant) == (b.path, b.variant)
+        assert agree(a.values, b.values), (a, b)
+    assert one.numbering == two.numbering
+    for name in ("initial", "timed", "zones", "differential", "quadrature", "stiff", "guard_machine", "guard_inertia",
+                 "holder", "limit_guard", "kink_guard", "accuracy", "start", "linear", "machine_names", "guard_names",
+                 "machine_zones", "signals", "pattern", "mass_pattern"):  # fmt: skip
+        assert plain(getattr(one, name)) == plain(getattr(two, name)), name
+    for name in ("nominal", "follows", "creep", "width", "rounding"):
+        assert plain(getattr(one.scales, name)) == plain(getattr(two.scales, name)), name
+    for a, b in zip(one.blocks, two.blocks, strict=True):
+        assert [i.path for i in a.instances] == [i.path for i in b.instances]
+        for array in dataclasses.fields(a):
+            if array.name not in ("kernel", "instances"):
+                assert plain(getattr(a, array.name)) == plain(getattr(b, array.name)), (a.kernel.variant, array.name)
+    same_memory(one, two)
+    tables = [[(t.path, t.machine, t.base, plain(t.polynomial.rows)) for t in s.timed_tables] for s in (one, two)]
+    assert tables[0] == tables[1]
+    owners = [[(b.instances[i].path, i) for b, i in s.machine_guards] for s in (one, two)]
+    assert owners[0] == owners[1]
+
+
+def same_memory(one, two):
+    assert one.memory.keys() == two.memory.keys()
+    for name, array in one.memory.items():
+        mine, other = array.copy(), two.memory[name].copy()
+        if name == "context":
+            apart = [getattr(layout, each.upper()) for each in (*ADDRESSES, *CHANGED)]
+            mine[apart], other[apart] = 0, 0
+        if name == "blocks":
+            mine[:, : layout.D_SIGNALS], other[:, : layout.D_SIGNALS] = 0, 0
+        assert plain(mine) == plain(other), name
+    assert one.working.places == two.working.places
+    begin = [{name: plain(array) for name, array in s.working.begin.items()} for s in (one, two)]
+    assert begin[0] == begin[1]
+    for system in (one, two):  # every address is that of an array of its own
+        for name in ADDRESSES:
+            assert system.memory["context"][getattr(layout, name)] == system.memory[name.lower()].ctypes.data, name
+        for row, block in zip(system.memory["blocks"], system.blocks, strict=True):
+            assert row[layout.PAR] == block.parameters.ctypes.data
+            assert row[layout.IN_OFFSET] == block.in_offset.ctypes.data
+            assert row[layout.TABLE_BASE] == block.table_base.ctypes.data
+
+
+def plain(value):
+    if isinstance(value, np.ndarray):
+        return value.dtype.str, value.shape, value.tobytes()
+    return tuple(map(plain, value)) if isinstance(value, tuple) else value
+
+
+def mistakes(call):
+    """What a call refuses; nothing if it does not."""
+    try:
+        call()
+    except ModelError as error:
+        return [str(fault) for fault in error.faults]
+    return []
+
+
+def compare(model, path, value):
+    """Another value by both ways, compared; None if it was refused, by both alike, else why it was rebuilt."""
+    fresh = fairlead.load(model.netlist.path, set={path: str(value)})
+    refused = mistakes(lambda: fresh.system)
+    if refused:
+        assert mistakes(lambda: model.with_values(**{path: value})) == refused
+        return None
+    want = fresh.system
+    made = model.with_values(**{path: value})
+    assert made.netlist == fresh.netlist
+    same(made.system, want)
+    return made.rebuilt
+
+
+MODELS = {}
+
+
+def model_of(name):
+    if name not in MODELS:
+        MODELS[name] = fairlead.load(name)
+    return MODELS[name]
+
+
+def sampled():
+    rng = random.Random(SEED)
+    for name in sorted(set(bundled_models()) - LONG):
+        settings = settings_of(name)
+        for path in rng.sample(sorted(settings), min(SAMPLE, len(settings))):
+            yield pytest.param(name, path, settings[path], id=f"{name}-{path}")
+
+
+@pytest.mark.parametrize(("name", "path", "value"), [*sampled()])
+def test_another_value_of_a_bundled_model_is_that_of_a_fresh_one(name, path, value):
+    compare(model_of(name), path, value)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(bundled_models()))
+def test_every_other_value_of_a_bundled_model_is_that_of_a_fresh_one(name):
+    model = model_of(name)
+    for path, value in settings_of(name).items():
+        compare(model, path, value)
+
+
+@pytest.mark.parametrize(("name", "path", "value"), [
+    ("long_route", "mu", 0.5), ("long_route", "line.bulkhead_friction.stiction", 0.6),
+    ("belt", "pad.normal_force", "12 N"), ("belt", "run.start", "0.1 s"), ("sandwich", "creep", "1e-4 m/s"),
+])  # fmt: skip
+def test_a_new_friction_shares_the_structure(name, path, value):
+    assert compare(model_of(name), path, value) == ""
+
+
+@pytest.mark.parametrize(("name", "path", "value", "why"), [
+    ("hundred_blocks", "blocks", 101, "other components"),
+    ("single_bend", "method", "hold", "of another kind"),
+    ("single_bend", "element", "0.5 m", "other components"),
+    ("belt", "effects.energy", "off", "energy is not counted now"),
+    ("guidance_route_ideal", "route.stations[0].radius", "0.6 m", "moves with other bodies, or otherwise"),
+])  # fmt: skip
+def test_what_changes_the_structure_is_said_to_be_rebuilt(name, path, value, why):
+    assert why in compare(model_of(name), path, value)
+
+
+@pytest.mark.parametrize("wrong", [
+    {"nothing": 1}, {"mu": "1 kg"}, {"pad.normal_force": "-3 N"}, {"pad.normal": 3}, {"run.stop": -1},
+    {"spring.stiffness": "{mu"},
+])  # fmt: skip
+def test_mistakes_are_those_of_load(wrong):
+    want = mistakes(lambda: fairlead.load("belt", set={name: str(value) for name, value in wrong.items()}).check())
+    assert want
+    assert mistakes(lambda: model_of("belt").with_values(**wrong)) == want
+
+
+@pytest.mark.parametrize(("name", "values"), [
+    ("belt", {"pad.normal_force": "12 N"}), ("single_bend", {"mu": 0.6}), ("guidance_route", {"mu": 0.5}),
+])  # fmt: skip
+def test_it_runs_to_the_same_rows(name, values):
+    model = fairlead.load(name, set={"run.stop": "0.05 s"})
+    given = {key: str(value) for key, value in values.items()}
+    fresh = fairlead.load(name, set={"run.stop": "0.05 s", **given}).run(out=None)
+    before = model.run(out=None).columns()
+    made = model.with_values(**values).run(out=None)
+    assert made.run["digest"] == fresh.run["digest"]
+    assert made.events == fresh.events
+    assert np.array_equal(made.columns(), fresh.columns(), equal_nan=True)
+    assert np.array_equal(model.run(out=None).columns(), before, equal_nan=True)  # the first is what it was
+
+
+def test_parts_made_again_are_not_counted_as_more_parts_of_the_scene():
+    model = model_of("single_bend")
+    made = model.with_values(mu=0.4).with_values(mu=0.5)
+    assert made.rebuilt == ""
+    assert made.assembly.scene.tally.parts <= model.assembly.scene.tally.parts
+
+
+def test_values_add_up_along_a_chain_of_models():
+    chain = model_of("long_route").with_values(mu=0.5).with_values(tail="200 N").with_values(mu=0.4)
+    same(chain.system, fairlead.load("long_route", set={"mu": "0.4", "tail": "200 N"}).system)
+
+
+def test_the_first_model_stays_as_it_was():
+    model = fairlead.load("single_bend")
+    assert model.system.n > 0
+    for path, value in (("mu", 0.6), ("line.start", "1.6 m"), ("haul.velocity.ramp.over", "2 s")):
+        model.with_values(**{path: value})
+    same(model.system, fairlead.load("single_bend").system)
+
+
+OWN = """
+class Pusher(Component):
+    flange = Translational("what is pushed")
+    force = Parameter("N", "What it pushes with.")
+
+    def law(p, flange):
+        return Law(flange=-p.force, supplied=p.force * flange.v)
+"""
+PUSHED = """
+parameters: {push: 3 N}
+components:
+  body: {type: Mass, mass: 2 kg}
+  pusher: {type: Pusher, force: "{push}"}
+connections: [[pusher.flange, body.flange]]
+run: {stop: 0.2 s}
+"""
+
+
+def test_a_component_of_a_library_takes_other_values(scene, library):
+    libraries = (library(OWN),)
+    model = scene(PUSHED, libraries)
+    made = model.with_values(push="4 N")
+    assert made.rebuilt == ""
+    same(made.system, fairlead.load(model.netlist.path, {"push": "4 N"}, libraries).system)
+
+
+def test_models_made_in_threads_are_those_made_one_by_one():
+    model, frictions = fairlead.load("single_bend"), [0.2, 0.3, 0.4, 0.5]
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        made = list(pool.map(lambda mu: model.with_values(mu=mu), frictions))
+    for one, mu in zip(made, frictions, strict=True):
+        same(one.system, fairlead.load("single_bend", set={"mu": str(mu)}).system)
+
+
+def test_it_pickles_with_its_values():
+    made = pickle.loads(pickle.dumps(model_of("belt").with_values(**{"pad.normal_force": "12 N"})))
+    same(made.system, fairlead.load("belt", set={"pad.normal_force": "12 N"}).system)
