@@ -10,8 +10,8 @@ file changes, and reading it costs the import of numba (0.3 s). Here an entry is
 the hash of everything it depends on; it holds the object code and whatever the builder wants to
 remember (`meta`). Loading takes llvmlite only, about 20 ms.
 
-The folder is private to the user, because what it holds is executed. An entry that is torn or
-foreign, and a folder that cannot be written, mean one warning and a compile in memory.
+The folder is private to the user, because what it holds is executed. An entry that is torn, foreign
+or of another name (see `sealed.py`), and a folder that cannot be written, mean one warning and a compile in memory.
 
 Code is made for the processor it runs on (`processor.py`), and the key says so, so that the builds
 for two processors lie side by side.
@@ -29,15 +29,15 @@ import pathlib
 import platform
 import struct
 import sys
-import tempfile
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+import fairlead.sealed as sealed
 from fairlead.processor import processor
 
-MAGIC = b"fairlead-native-1\n"
+MAGIC = b"fairlead-native-2\n"
 # numba refers to these only on paths that raise or count references; compiled laws do neither.
 UNREACHED = (
     "NRT_Free", "NRT_MemInfo_call_dtor", "NRT_decref", "NRT_incref", "numba_do_raise", "numba_gil_ensure",
@@ -136,16 +136,14 @@ def cache_folder() -> pathlib.Path | None:
 def _read(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, _ObjectCode]] | None:
     """Entry at `path`, or None when it is absent or not whole."""
     try:
-        data = path.read_bytes()
+        body = sealed.read(path, MAGIC)
     except FileNotFoundError:
+        return None
+    except sealed.BrokenSealError as error:
+        _warn_once(f"kernel cache entry {error}; compiling again")
         return None
     except OSError as error:
         _warn_once(f"kernel cache entry cannot be read: {error}; compiling again")
-        return None
-    start = len(MAGIC) + 32
-    body = data[start:]
-    if data[: len(MAGIC)] != MAGIC or hashlib.sha256(body).digest() != data[len(MAGIC) : start]:
-        _warn_once(f"kernel cache entry {path.name} is torn or foreign; compiling again")
         return None
     (length,) = struct.unpack_from("<Q", body)
     header = json.loads(body[8 : 8 + length])
@@ -157,19 +155,13 @@ def _read(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, _ObjectCode]] |
 
 
 def _write(path: pathlib.Path, meta: dict[str, Any], objects: dict[str, _ObjectCode]) -> None:
-    """Store an entry under a temporary name and rename it, so that readers see all or nothing."""
+    """Store an entry; a disk that refuses means a warning."""
     header = json.dumps({"meta": meta, "objects": [(n, o.symbol, len(o.code)) for n, o in objects.items()]}).encode()
     body = struct.pack("<Q", len(header)) + header + b"".join(o.code for o in objects.values())
-    temporary = None
     try:
-        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as file:
-            temporary = pathlib.Path(file.name)
-            file.write(MAGIC + hashlib.sha256(body).digest() + body)
-        temporary.replace(path)
+        sealed.write(path, MAGIC, body)
     except OSError as error:
         _warn_once(f"kernel cache cannot be written: {error}; compiled code is kept in memory")
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
 
 
 @functools.cache

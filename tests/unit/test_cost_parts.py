@@ -110,6 +110,15 @@ def test_a_run_is_kept_whole_or_not_at_all(tmp_path):
     assert (again.events, again.cpu) == (timed.events, 0.5)
     (tmp_path / "one.npz").write_bytes((tmp_path / "one.npz").read_bytes()[:100])
     assert kept.get("one", 1.0) is None
+    assert [file.name for file in tmp_path.iterdir()] == ["one.npz"]
+
+
+def test_a_run_under_the_name_of_another_is_not_taken(tmp_path):
+    kept = KeptRuns(tmp_path)
+    kept.put("one", Timed("finished", cpu=0.5))
+    kept.put("two", Timed("finished", cpu=0.7))
+    (tmp_path / "two.npz").replace(tmp_path / "one.npz")
+    assert kept.get("one", 1.0) is None
 
 
 def test_a_run_that_was_cut_off_is_made_again_when_there_is_more_time(tmp_path):

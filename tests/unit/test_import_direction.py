@@ -12,13 +12,15 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# stage -> what it may import beside itself. `native` is the cache of compiled code, `processor` what it is made for;
+# stage -> what it may import beside itself. `sealed` is the files of caches, `native` the cache of compiled code,
+# `processor` what it is made for;
 # `testing` is the contract suite that ships with the package; the empty name is `fairlead/__init__.py` itself.
 ALLOWED = {
     "errors": set(),
     "quantities": {"errors"},
     "processor": {"errors"},
-    "native": {"errors", "processor"},
+    "sealed": set(),
+    "native": {"errors", "processor", "sealed"},
     "patterns": set(),
     "netlist": {"errors", "quantities"},
     "component": {"errors", "quantities", "netlist"},
@@ -27,7 +29,7 @@ ALLOWED = {
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native", "patterns"},
     "integrate": {"errors", "native", "processor"},
     "results": {"errors", "quantities", "patterns"},
-    "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results", "patterns"},
+    "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results", "patterns", "sealed"},
     "choice": set(),
     "interruption": set(),
     "report": {"errors", "quantities", "results", "analysis"},

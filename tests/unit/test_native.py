@@ -86,6 +86,16 @@ def test_a_spoilt_entry_means_one_warning_and_is_replaced(cache, monkeypatch, sp
     assert tension(compiled, monkeypatch) == pytest.approx(-10.0)
 
 
+def test_an_entry_under_the_name_of_another_is_not_taken(cache, monkeypatch):
+    damper = make(known_types()["Damper"], damping=3.0)
+    native.load_or_compile("damper", lambda: _build(variant_of(damper)))
+    spring_kernel()
+    (cache / "spring.native").write_bytes((cache / "damper.native").read_bytes())
+    compiled, said = warned(spring_kernel)
+    assert said == ["kernel cache entry spring.native is torn or foreign; compiling again"]
+    assert tension(compiled, monkeypatch) == pytest.approx(-10.0)
+
+
 @pytest.mark.skipif(os.name != "posix" or os.getuid() == 0, reason="root writes where it likes")
 def test_a_folder_that_cannot_be_written_means_one_warning(cache, monkeypatch):
     cache.mkdir(mode=0o500)

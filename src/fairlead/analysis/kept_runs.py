@@ -10,20 +10,21 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib.util
+import io
 import json
 import os
 import pathlib
 import platform
-import tempfile
-import zipfile
 from collections.abc import Iterable
 
 import numpy as np
 
+import fairlead.sealed as sealed
 from fairlead.analysis.timed_run import Timed
 
 MOST_BYTES = 500_000_000
-FORMAT = "fairlead-timed-1"
+FORMAT = "fairlead-timed-2"
+KIND = f"{FORMAT}\n".encode()
 
 
 class KeptRuns:
@@ -38,14 +39,12 @@ class KeptRuns:
             return None
         path = self.folder / f"{key}.npz"
         try:
-            with np.load(path, allow_pickle=False) as stored:
-                meta = json.loads(str(stored["meta"]))
-                values = stored["values"]
+            body = sealed.read(path, KIND)
             os.utime(path)
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile):
+        except (OSError, sealed.BrokenSealError):
             return None
-        if meta.pop("format") != FORMAT:
-            return None
+        with np.load(io.BytesIO(body), allow_pickle=False) as stored:
+            meta, values = json.loads(str(stored["meta"])), stored["values"]
         events = tuple((float(t), *names) for t, *names in meta.pop("events"))
         timed = Timed(**meta, values=values, events=events)
         return timed if timed.finished or timed.cap >= cap or timed.status != "budget" else None
@@ -54,12 +53,12 @@ class KeptRuns:
         """Keep a run; whole or not at all, so that Ctrl-C leaves no torn entry."""
         if self.folder is None:
             return
-        meta = json.dumps({**timed.plain(), "events": timed.events, "format": FORMAT})
+        body = io.BytesIO()
+        meta = json.dumps({**timed.plain(), "events": timed.events})
+        np.savez_compressed(body, meta=np.array(meta), values=timed.values)
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.NamedTemporaryFile(dir=self.folder, suffix=".part", delete=False) as file:
-                np.savez_compressed(file, meta=np.array(meta), values=timed.values)
-            pathlib.Path(file.name).replace(self.folder / f"{key}.npz")
+            sealed.write(self.folder / f"{key}.npz", KIND, body.getvalue())
             self._drop_oldest()
         except OSError:
             return
