@@ -1,6 +1,8 @@
 """Play any number of damaged inputs by hand, and leave those that were answered badly in a folder.
 
     python -m tests.fuzz netlists --count 5000 --seed 7 --only belt --keep /tmp/found
+    python -m tests.fuzz results --count 500 --seed 7        folders of results
+    python -m tests.fuzz cache --count 500                   entries of the cache of compiled code
 
 Without a seed a fresh one is taken and printed, so that what was found can be had again.
 """
@@ -8,6 +10,7 @@ Without a seed a fresh one is taken and printed, so that what was found can be h
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import random
 import resource
@@ -15,16 +18,17 @@ import sys
 import tempfile
 from collections import Counter
 
-from tests.fuzz import netlists
+from tests.fuzz import cache, netlists, results
 from tests.fuzz.verdict import judge
 
 MOST_MEMORY = 4 << 30  # bytes of address space: what wants more is told as a MemoryError
+PLAYED = {"cache": cache.play, "results": results.play}
 
 
 def main() -> int:
     """Play, print each class of bad answers once with the mutant that showed it; 1 if there are any."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=["netlists"])
+    parser.add_argument("what", choices=["netlists", *PLAYED])
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=None)
     parser.add_argument("--only", default="", help="names of the netlists to damage, separated by commas")
@@ -32,6 +36,8 @@ def main() -> int:
     asked = parser.parse_args()
     seed = random.SystemRandom().randrange(10**6) if asked.seed is None else asked.seed
     print(f"seed {seed}")
+    if asked.what in PLAYED:
+        return play(asked.what, seed, asked.count)
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, resource.RLIM_INFINITY))
     told: Counter[str] = Counter()
     codes: Counter[object] = Counter()
@@ -49,6 +55,19 @@ def main() -> int:
     print("exit codes:", ", ".join(f"{code}: {count}" for code, count in sorted(codes.items(), key=str)))
     for complaint, count in told.most_common():
         print(f"{count:6} {complaint}")
+    return 1 if told else 0
+
+
+def play(what: str, seed: int, count: int) -> int:
+    """Play what keeps its own verdicts, and print each bad answer; 1 if there are any."""
+    told = 0
+    with tempfile.TemporaryDirectory() as folder:
+        if what == "cache":
+            os.environ["FAIRLEAD_CACHE"] = folder
+        for complaint in PLAYED[what](pathlib.Path(folder), seed, count):
+            told += 1
+            print(complaint, flush=True)
+    print(f"{told} of {count} were answered badly")
     return 1 if told else 0
 
 

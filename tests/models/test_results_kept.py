@@ -58,18 +58,21 @@ def test_where_jumps_make_the_rows_the_signals_that_jump_are_named(tmp_path: Pat
 
 @pytest.mark.skipif(os.name == "nt", reason="SIGKILL is of POSIX")
 def test_a_rerun_that_is_killed_at_once_leaves_the_results_it_was_to_replace(tmp_path: Path) -> None:
+    """At every single file operation: `test_results_claim.py`. Here the whole command, from the shell."""
     command = [sys.executable, "-m", "fairlead", "run", "belt", "-q", "--out", str(tmp_path / "run")]
     subprocess.run([*command, "--set", "run.stop=1 s"], check=True, timeout=300)
     with subprocess.Popen([*command, "--force", "--set", "run.stop=1e5 s"]) as process:
         deadline = time.monotonic() + 300
-        while not (tmp_path / "run" / "earlier" / "run.json").exists():
+        while not (tmp_path / "run" / "earlier").exists():
             assert time.monotonic() < deadline
             assert process.poll() is None
             time.sleep(0.005)
         process.send_signal(signal.SIGKILL)
     assert Result.open(tmp_path / "run" / "earlier").t[-1] == 1.0
     answer = CliRunner().invoke(app, ["margins", str(tmp_path / "run")])
-    assert answer.exit_code == 2 or "killed" in answer.output  # killed before its first rows, or after some
-    assert "HDF5" not in answer.output
-    assert "Unable" not in answer.output
-    assert (answer.exit_code == 0) or "was to replace are in" in " ".join(answer.output.split())
+    said = " ".join(answer.output.split())
+    if answer.exit_code == 2:  # killed before its first rows
+        assert "was to replace are in" in said
+    else:  # after some, or before it had touched the results that it was to replace
+        assert answer.exit_code == 0
+        assert "killed" in said or "finished" in said

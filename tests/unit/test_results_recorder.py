@@ -10,6 +10,7 @@ import pytest
 
 from fairlead.errors import FairleadError, UsageError
 from fairlead.results import Result, RunDirectory, Signal, recorder, run_file
+from fairlead.results.damage import DamagedResultsError
 
 SIGNALS = (Signal("block.v", "m/s", "speed of the block"),)
 
@@ -27,10 +28,10 @@ def run_that_raises(path: Path, error: BaseException) -> None:
 
 
 def pretend_killed(path: Path) -> None:
-    """Leave run.json as a killed process leaves it: status running, and no such process any more."""
+    """Leave run.json as a killed process leaves it: status running, and nobody who holds the lock."""
     record = run_file.read(path)
     assert record is not None
-    run_file.write(path, {**record, "status": "running", "process": 2**22 + 1})  # beyond Linux's pid_max
+    run_file.write(path, {**record, "status": "running"})
 
 
 @pytest.mark.parametrize("status", ["finished", "interrupted", "budget"])
@@ -165,9 +166,7 @@ def test_a_run_is_finished_once(tmp_path: Path) -> None:
 def rerun(path: Path, status: str) -> None:
     """A forced second run that ends in a way, or is killed in its first second."""
     run = RunDirectory.create(path, SIGNALS, {"name": "second"}, force=True)
-    if status == "killed":
-        pretend_killed(path)
-    else:
+    if status != "killed":
         run.finish(status, {})
 
 
@@ -195,10 +194,10 @@ def test_what_a_user_put_beside_kept_results_stays(tmp_path: Path) -> None:
 def test_a_run_killed_before_its_first_rows_is_told_in_a_sentence(tmp_path: Path, force: bool) -> None:
     if force:
         finished(tmp_path / "run")
-    RunDirectory.create(tmp_path / "run", SIGNALS, {}, force=force)
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {}, force=force)
     with pytest.raises(UsageError, match="has not written a row yet"):
         Result.open(tmp_path / "run")
-    pretend_killed(tmp_path / "run")
+    del run  # and with it the lock, as the end of the process would do
     with pytest.raises(UsageError) as caught:
         Result.open(tmp_path / "run")
     said = str(caught.value)
@@ -209,5 +208,5 @@ def test_a_run_killed_before_its_first_rows_is_told_in_a_sentence(tmp_path: Path
 def test_a_damaged_series_is_told_in_a_sentence(tmp_path: Path) -> None:
     finished(tmp_path / "run")
     (tmp_path / "run" / "series.nc").write_bytes(b"\x89HDF\r\n\x1a\n and no more")
-    with pytest.raises(UsageError, match=r"\(finished\) cannot be read: series\.nc is damaged\."):
+    with pytest.raises(DamagedResultsError, match=r"run/series\.nc: the file is damaged .*\n.*run the netlist again\."):
         Result.open(tmp_path / "run")

@@ -134,7 +134,7 @@ def test_a_result_shows_itself(result: Result) -> None:
 
 
 def test_a_folder_without_a_run_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match=r"no readable run\.json"):
+    with pytest.raises(UsageError, match=r"there is no run\.json in it"):
         Result.open(tmp_path)
 
 

@@ -7,8 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.analysis.recorded_line import numbers
 from fairlead.patterns import matcher
 from fairlead.results import Result
+from fairlead.results.run_file import RUN_FILE
+from fairlead.results.run_schema import limits
 
 
 @dataclass(frozen=True)
@@ -25,8 +28,9 @@ class Judged:
 
 
 def judged(result: Result) -> list[Judged]:
-    """All limits of the netlist that the run was made with."""
-    return [found for limit in result.run.get("limits") or () if (found := _judge(result, limit)) is not None]
+    """All limits of the netlist that the run was made with. Raises DamagedResultsError."""
+    kept = limits(result.named(RUN_FILE), result.run)
+    return [found for limit in kept if (found := _judge(result, limit)) is not None]
 
 
 def _judge(result: Result, limit: dict[str, Any]) -> Judged | None:
@@ -37,7 +41,7 @@ def _judge(result: Result, limit: dict[str, Any]) -> Judged | None:
     names = [*filter(matcher(limit["signal"]), (signal.name for signal in result.signals))]
     if not names or not len(result.t):
         return None
-    values = result.columns(names)
+    values = numbers(result, names)
     beyond = limit["sense"] * (values - limit["bound"])
     row, k = np.unravel_index(int(beyond.argmax()), beyond.shape)
     value = float(values[row, k])

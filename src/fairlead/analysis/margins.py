@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.recorded_line import Floats, RecordedLine
 from fairlead.results import Result
+from fairlead.results.run_file import RUN_FILE
+from fairlead.results.run_schema import routes
 
 
 @dataclass(frozen=True)
@@ -73,8 +75,8 @@ class LineMargins:
 
 
 def margins(result: Result) -> list[LineMargins]:
-    """Margins of every line on a route, of a finished or an unfinished run."""
-    return [_Judge(result, record).margins() for record in result.run.get("routes") or ()]
+    """Margins of every line on a route, of a finished or an unfinished run. Raises DamagedResultsError."""
+    return [_Judge(result, record).margins() for record in routes(result.named(RUN_FILE), result.run)]
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,7 @@ class _Judge(RecordedLine):
     def _whole(self, stations: tuple[StationMargins, ...]) -> StationMargins:
         """Over all of the line, drum and sea as well, but for what moves as one body out there and has no waves."""
         found: dict[str, Worst | None] = {}
-        if self.total is not None:
+        if self.total is not None and len(self.total):
             judged, end = np.ones(self.total.shape, dtype=bool), self.record.get("rigid_from")
             if end is not None and self.places is not None:
                 judged = self.places <= end
@@ -122,7 +124,7 @@ class _Judge(RecordedLine):
             here = [one for each in stations if (one := getattr(each, name)) is not None]
             found[name] = max(here, key=lambda one: one.value, default=None)
         apart = self.some("registration", "d")
-        if apart is not None:
+        if apart is not None and len(apart[1]):
             names, values = apart
             found["registration"] = self._worst(np.abs(values), np.ones(values.shape, dtype=bool), names.__getitem__)
         return StationMargins("line", **found)

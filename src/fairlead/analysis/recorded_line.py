@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,8 +11,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.results import Result
+from fairlead.results.damage import DamagedResultsError
+from fairlead.results.store import SERIES_FILE
 
 Floats = NDArray[np.float64]
+
+
+def numbers(result: Result, names: Sequence[str]) -> Floats:
+    """Several signals side by side, (rows, names). Raises DamagedResultsError where one is no number."""
+    values = result.columns(names)
+    if not np.isfinite(values).all():
+        row, k = np.argwhere(~np.isfinite(values))[0]
+        what = f"{names[k]} = {values[row, k]} at t = {result.t[row]:g} s, of which nothing can be told."
+        raise DamagedResultsError(result.named(SERIES_FILE), what)
+    return values
 
 
 @dataclass(frozen=True)
@@ -26,8 +39,10 @@ class RecordedLine:
 
     def every(self, child: str, output: str, count: int) -> Floats | None:
         """One output of all elements or nodes, side by side; None unless all were recorded."""
+        if count > len(self.result):
+            return None
         names = [f"{self.record['line']}.{child}[{i}].{output}" for i in range(count)]
-        return self.result.columns(names) if all(name in self.result for name in names) else None
+        return numbers(self.result, names) if all(name in self.result for name in names) else None
 
     @functools.cached_property
     def layers(self) -> list[Floats] | None:
@@ -54,7 +69,7 @@ class RecordedLine:
         """One output of those nodes that have such a child: names, and values (rows, names); None if none has."""
         named = [(i, f"{self.name(child, i)}.{output}") for i in range(self.record["nodes"])]
         names = [name for _, name in named if name in self.result]
-        return ([name.rpartition(".")[0] for name in names], self.result.columns(names)) if names else None
+        return ([name.rpartition(".")[0] for name in names], numbers(self.result, names)) if names else None
 
     def of_nodes(self, child: str, output: str) -> Floats | None:
         """One output for every node, zero where a node has no such child."""

@@ -79,7 +79,7 @@ def _compare_with_statics(model: "Model", result: "Result") -> None:
     from fairlead.results import run_file
 
     result.run["against_statics"] = against_statics(model.flat, result)
-    run_file.write(result.folder, result.run)
+    run_file.amend(result.folder, result.run)
 
 
 def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> list[pathlib.Path]:
@@ -113,7 +113,9 @@ def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bo
 
 def _say_what_is_kept(result: "Result", quiet: bool) -> None:
     """Results that are large, and earlier ones that this run was to replace."""
-    from fairlead.results.claim import EVENT_FILE, SERIES_FILE, earlier
+    from fairlead.results.events import EVENT_FILE
+    from fairlead.results.kept import earlier
+    from fairlead.results.store import SERIES_FILE
 
     size = sum(file.stat().st_size for name in (SERIES_FILE, EVENT_FILE) for file in result.folder.glob(name))
     if size > LARGE and not quiet:

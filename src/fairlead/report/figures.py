@@ -7,6 +7,7 @@ Signals of one unit share a panel; the panels of a figure stand above each other
 
 from __future__ import annotations
 
+import io
 import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
@@ -17,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from fairlead.errors import UsageError, did_you_mean
 from fairlead.report.map import draw_map
 from fairlead.report.panel import draw_panel
+from fairlead.results.placing import place
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -78,7 +80,9 @@ def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
             # The mark tells a later run in this directory that the picture may go.
             mark = {"Software": "fairlead"}
             # Figure.savefig draws twice, the first time for the layout alone, which the second finds by itself.
-            FigureCanvasAgg(_figure(result, picture)).print_png(path, metadata=mark, pil_kwargs=FAST)
+            drawn = io.BytesIO()
+            FigureCanvasAgg(_figure(result, picture)).print_png(drawn, metadata=mark, pil_kwargs=FAST)
+            place(path, drawn.getvalue())
             paths.append(path)
     return paths
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fairlead.report.figures import draw
+from fairlead.results.placing import place
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def write(result: Result, plots: Iterable[Any] = ()) -> Path:
         signals=_signals(result),
     )
     path = result.folder / PAGE_FILE
-    path.write_text(page, encoding="utf-8")
+    place(path, page)
     return path
 
 

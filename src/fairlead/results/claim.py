@@ -1,97 +1,124 @@
 """Which directories a new run may use, and what it removes from them.
 
-Results that are replaced with `force` are kept in the folder `earlier` below until the new run has finished: one that
-is killed, fails or is interrupted does not cost them.
+    claimed = Claim.take(path, force)      holds the lock of the directory; what is replaced is in `earlier` by now
+    claimed.clear()                        after run.json is that of the new run: files of the old one go
+    claimed.release(finished)              at its end: what was replaced goes, if the run has finished
+
+A process that is killed at any instant leaves the old results in the directory itself or in the folder `earlier` below
+it (see `kept.py`), or the new ones. What a run has not written stays where it is; where it has the name of a file that
+a run writes, it is in `earlier` in the end.
 """
 
 from __future__ import annotations
 
-import shutil
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+import fairlead.results.kept as kept
 import fairlead.results.run_file as run_file
-from fairlead.errors import UsageError
-from fairlead.results.events import EVENT_FILE
-from fairlead.results.store import SERIES_FILE, TEMPORARY
+from fairlead.errors import UsageError, shown
+from fairlead.results.lock import LOCK_FILE, Held, Lock
+from fairlead.results.store import SERIES_FILE
 
 FINISHED = "finished"
 REPLACEABLE = (run_file.KILLED, "failed")
-OWN_FILES = (SERIES_FILE, TEMPORARY, EVENT_FILE, "report.html")
-EARLIER = "earlier"
-FIGURE_MARK = b"Software\0fairlead"
 WAY_OUT = "Choose another directory with --out, or replace it with --force."
 
 
-def claim(path: Path, force: bool) -> None:
-    """Create `path`, or clear an earlier run from it; raise UsageError when that would lose something."""
-    if path.exists() and not path.is_dir():
-        raise UsageError(f"{path} is a file, not a directory.\n    Choose another place for the results.")
-    if not force:
-        _refuse_what_would_be_lost(path)
-    path.mkdir(parents=True, exist_ok=True)
-    _set_aside(path)
-    for file in _own(path):
-        file.unlink(missing_ok=True)
+class Claim:
+    """A directory that this process alone writes a run into."""
+
+    def __init__(self, path: Path, lock: Lock) -> None:
+        self.path = path
+        self._lock = lock
+
+    @classmethod
+    def take(cls, path: Path, force: bool) -> Claim:
+        """Make `path` ready for a new run. Raises UsageError when that would lose something, OSError from the disk."""
+        if path.exists() and not path.is_dir():
+            raise UsageError(f"{path} is a file, not a directory.\n    Choose another place for the results.")
+        if not force:
+            _refuse_what_would_be_lost(path, ours=False)
+        path.mkdir(parents=True, exist_ok=True)
+        try:
+            claim = cls(path, Lock.take(path))
+        except Held:
+            raise UsageError(_told_held(path)) from None
+        try:
+            if not force:
+                _refuse_what_would_be_lost(path, ours=claim.locked)  # by now another process may have begun and ended
+            kept.remove_parts(path)
+            if _worth_keeping(path, ours=claim.locked):
+                kept.set_aside(path)
+        except BaseException:
+            claim.release(finished=False)
+            raise
+        return claim
+
+    @property
+    def locked(self) -> bool:
+        """False where the filesystem has no locks, so that the process id has to do."""
+        return self._lock.supported
+
+    def clear(self) -> None:
+        """Remove the files of the run before; run.json is that of the new one already."""
+        for file in kept.files_of_run(self.path):
+            if file.name != run_file.RUN_FILE:
+                file.unlink(missing_ok=True)
+
+    def release(self, *, finished: bool) -> None:
+        """Let the directory go; a run that has finished has replaced the earlier one for good."""
+        if finished:
+            kept.drop(self.path)
+        self._lock.release()
 
 
-def earlier(path: Path) -> Path | None:
-    """Where the results lie that a run in `path` was to replace, if it has not finished; a run directory itself."""
-    kept = path / EARLIER
-    return kept if run_file.read(kept) is not None else None
+def _worth_keeping(path: Path, *, ours: bool) -> bool:
+    """Return whether what is to be replaced is kept until the new run has finished; of several the last that finished.
 
-
-def drop_earlier(path: Path) -> None:
-    """Remove the results that a run in `path` has replaced, now that it has finished."""
-    kept = path / EARLIER
-    if earlier(path) is None:
-        return
-    for file in [*_own(kept), kept / run_file.RUN_FILE]:
-        file.unlink(missing_ok=True)
-    if not any(kept.iterdir()):
-        kept.rmdir()
-
-
-def _set_aside(path: Path) -> None:
-    """Keep what is to be replaced until the new run has finished; of several the last that finished."""
-    record = run_file.read(path)
-    status = None if record is None else run_file.status(record)
-    if status is None or status in (*REPLACEABLE, run_file.RUNNING) or not (path / SERIES_FILE).exists():
-        return
-    if earlier(path) is not None and status != FINISHED:
-        return
-    drop_earlier(path)
-    kept = path / EARLIER
-    kept.mkdir(exist_ok=True)
-    shutil.copyfile(path / run_file.RUN_FILE, kept / run_file.RUN_FILE)  # that of the new run will replace it
-    for file in _own(path):
-        if file.exists():
-            file.replace(kept / file.name)
-
-
-def _own(path: Path) -> list[Path]:
-    """Files of a run that a new one removes; run.json is replaced."""
-    return [path / name for name in OWN_FILES] + [png for png in path.glob("*.png") if _is_figure(png)]
-
-
-def _refuse_what_would_be_lost(path: Path) -> None:
+    Files of that name beside a run.json that is not ours, or cannot be read, may be somebody else's: they are kept.
+    """
     record = run_file.read(path)
     if record is None:
-        if path.is_dir() and any(path.iterdir()):
-            raise UsageError(f"{path} is not empty and holds no run of fairlead.\n    {WAY_OUT}")
+        return bool(kept.files_of_run(path))
+    status = run_file.status(path, record, ours)
+    if status in (*REPLACEABLE, run_file.RUNNING) or not (path / SERIES_FILE).exists():
+        return False
+    return kept.earlier(path) is None or status == FINISHED
+
+
+def _refuse_what_would_be_lost(path: Path, *, ours: bool) -> None:
+    record = run_file.read(path)
+    if record is None:
+        if path.is_dir() and any(file.name != LOCK_FILE for file in path.iterdir()):
+            raise UsageError(f"{path} is not empty and holds no run of fairlead that can be read.\n    {WAY_OUT}")
         return
-    status = run_file.status(record)
+    status = run_file.status(path, record, ours)
     if status == run_file.RUNNING:
-        raise UsageError(f"{path} is being written by process {record.get('process')}.\n    {WAY_OUT}")
+        raise UsageError(_told_running(path, record))
     if status not in REPLACEABLE:
-        when = record.get("ended", record.get("started", ""))
+        when = shown(record.get("ended") or record.get("started") or "an unknown time")
         raise UsageError(f"{path} holds a run that was {_told(status)} at {when}.\n    {WAY_OUT}")
 
 
+def _told_running(path: Path, record: Mapping[str, Any]) -> str:
+    what = f"{path} is being written by process {record.get('process')}"
+    if record.get("locked") and run_file.is_here(record):
+        return f"{what}.\n    End that process, or choose another directory with --out."
+    if run_file.is_here(record):
+        return f"{what}, or there is another process of that number by now.\n    {WAY_OUT}"
+    return f"{what} of {shown(record.get('host'))}, unless that has ended: it cannot be seen from here.\n    {WAY_OUT}"
+
+
+def _told_held(path: Path) -> str:
+    record = run_file.read(path) or {}
+    who = f"process {record['process']}" if record.get("process") else "another process"
+    return (
+        f"{path} is being written by {who}, which --force does not replace.\n"
+        "    End that process, or choose another directory with --out."
+    )
+
+
 def _told(status: str) -> str:
-    return {"budget": "stopped by a budget"}.get(status, status)
-
-
-def _is_figure(png: Path) -> bool:
-    """Return whether fairlead drew this picture; a user's own picture stays."""
-    with png.open("rb") as file:
-        return FIGURE_MARK in file.read(1024)
+    return {"budget": "stopped by a budget"}.get(status, shown(status))

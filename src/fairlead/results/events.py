@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
+
+from fairlead.errors import shown
+from fairlead.results.damage import DamagedResultsError, reading
+from fairlead.results.placing import create
 
 EVENT_FILE = "events.csv"
 HEADER = ("t [s]", "component", "from", "to", "guard")
@@ -26,7 +31,7 @@ class EventWriter:
     """Appends events to a new `events.csv`; only whole lines ever reach the file."""
 
     def __init__(self, path: Path) -> None:
-        self._file = path.open("wb")
+        self._file = create(path)
         self._lines = io.StringIO(newline="")
         self._csv = csv.writer(self._lines, lineterminator="\n")
         self._csv.writerow(HEADER)
@@ -52,11 +57,32 @@ class EventWriter:
 
 
 def read_events(path: Path) -> list[Event]:
-    """Return the events of a file; a last line that a kill cut short is left out."""
-    if not path.exists():
-        return []
-    with path.open(encoding="utf-8", newline="") as file:
-        text = file.read()
-    whole = text[: text.rfind("\n") + 1]
-    rows = list(csv.reader(io.StringIO(whole, newline="")))[1:]
-    return [Event(float(row[0]), *row[1:]) for row in rows]
+    """Return the events of a file; a last line that a kill cut short is left out.
+
+    Raises DamagedResultsError, which names the line, for a file that no run has written.
+    """
+    with reading(path):
+        text = path.read_bytes().decode("utf-8")
+        lines = csv.reader(io.StringIO(text[: text.rfind("\n") + 1], newline=""), strict=True)
+        if next(lines, None) != list(HEADER):
+            raise DamagedResultsError(path, f"line 1: it is not the head of a file of events, {','.join(HEADER)}.")
+        events: list[Event] = []
+        try:
+            for row in lines:
+                events.append(_event(path, lines.line_num, row))
+        except csv.Error as error:
+            raise DamagedResultsError(path, f"line {lines.line_num}: {error}.") from error
+    return events
+
+
+def _event(path: Path, line: int, row: list[str]) -> Event:
+    """Return one line as an event."""
+    if len(row) != len(HEADER):
+        raise DamagedResultsError(path, f"line {line} has {len(row)} columns; there are {len(HEADER)} of them.")
+    try:
+        t = float(row[0])
+    except ValueError:
+        raise DamagedResultsError(path, f"line {line}: the time {shown(row[0])} is no number.") from None
+    if not math.isfinite(t):
+        raise DamagedResultsError(path, f"line {line}: {shown(row[0])} is no time.")
+    return Event(t, *row[1:])

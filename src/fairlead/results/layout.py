@@ -74,19 +74,58 @@ def variable_name(signal: str) -> str:
 
 
 def read_signals(file: h5py.File) -> tuple[Signal, ...]:
-    """Return the signals of a file in the order in which they were declared."""
+    """Return the signals of a file in the order in which they were declared. Raises ValueError for another layout."""
+    layout = file.attrs.get("layout")
+    if file.attrs.get("format") != FORMAT or layout not in ("matrix", "columns"):
+        raise ValueError("it holds no signals of fairlead")
+    _require(file, TIME, "f", 1)
+    _require(file, SIDE, "i", 1)
+    signals = _read_matrix(file) if layout == "matrix" else _read_columns(file)
+    if len({signal.name for signal in signals}) < len(signals):
+        raise ValueError("two signals have the same name")
+    if is_matrix(signals) != (layout == "matrix"):
+        raise ValueError(f"{len(signals)} signals are not laid out as {layout}")
+    return signals
+
+
+def _read_matrix(file: h5py.File) -> tuple[Signal, ...]:
+    names, units, meanings = (file[name].asstr()[:].tolist() for name in ("signal", "units", "long_name"))
+    _require(file, MATRIX, "f", 2)
+    if not len(names) == len(units) == len(meanings) == file[MATRIX].shape[1]:
+        raise ValueError(f"{MATRIX} has not as many columns as there are signals")
+    return tuple(map(Signal, names, units, meanings))
+
+
+def _read_columns(file: h5py.File) -> tuple[Signal, ...]:
     from h5py import h5d
 
-    if file.attrs["layout"] == "matrix":
-        names, units, meanings = (file[name].asstr()[:] for name in ("signal", "units", "long_name"))
-        return tuple(map(Signal, names, units, meanings))
-    found = {}
+    found: dict[int, Signal] = {}
     for name in file:  # HDF5 lists them by name.
-        if name not in (TIME, SIDE):
-            column = h5d.open(file.id, name.encode())
-            signal = Signal(*(_text(column, key) for key in ("signal", "units", "long_name")))
-            found[int(_attribute(column, "position"))] = signal
-    return tuple(found[position] for position in sorted(found))
+        if name in (TIME, SIDE):
+            continue
+        column = h5d.open(file.id, name.encode())
+        signal = Signal(*(_text(column, key) for key in ("signal", "units", "long_name")))
+        position = int(_attribute(column, "position"))
+        if variable_name(signal.name) != name or position in found or not _is_number(column, "f", 1):
+            raise ValueError(f"{name} is no signal")
+        found[position] = signal
+    if sorted(found) != list(range(len(found))):
+        raise ValueError(f"{len(found)} signals are left of {max(found) + 1}")
+    return tuple(found[position] for position in range(len(found)))
+
+
+def _require(file: h5py.File, name: str, kind: str, dimensions: int) -> None:
+    """Raise ValueError unless a variable holds such numbers."""
+    from h5py import h5d
+
+    if not _is_number(h5d.open(file.id, name.encode()), kind, dimensions):
+        raise ValueError(f"{name} does not hold numbers as a run writes them")
+
+
+def _is_number(variable: Any, kind: str, dimensions: int) -> bool:
+    """Return whether a variable holds what `_add_columns` gives it: doubles, or signed bytes, in so many dimensions."""
+    found = variable.dtype
+    return found.kind == kind and found.itemsize == {"f": 8, "i": 1}[kind] and len(variable.shape) == dimensions
 
 
 def _add_columns(file: h5py.File, signals: tuple[Signal, ...], kind: str, rows_in_chunk: int) -> None:

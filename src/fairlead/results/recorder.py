@@ -7,7 +7,7 @@
 
 `status` is `running` from the start; the end of the run replaces it by `finished`, `interrupted`
 (Ctrl-C), `budget` (a budget was used up) or `failed`. A directory whose status is still `running`
-although its process is gone was killed.
+although its process is gone was killed (see `lock.py`).
 
 Signals and events reach the disk at most every `FLUSH_PERIOD` of wall time and at the end, so a
 killed run loses no more than that. Flushing never takes more than a small share of the time.
@@ -15,6 +15,7 @@ killed run loses no more than that. Flushing never takes more than a small share
 
 from __future__ import annotations
 
+import os
 import time as clock
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -23,9 +24,9 @@ from typing import Any
 
 import numpy as np
 
-import fairlead.results.claim as claim
 import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError
+from fairlead.results.claim import FINISHED, Claim
 from fairlead.results.events import EVENT_FILE, Event, EventWriter
 from fairlead.results.signal import Signal
 from fairlead.results.sink import Block, Sink, without_twins
@@ -39,17 +40,21 @@ MOST_BYTES_IN_MEMORY = 2**24
 class RunDirectory(Sink):
     """Takes the signals and events of one run and writes them; `create` it, `finish` it."""
 
-    def __init__(self, path: Path, signals: tuple[Signal, ...], header: Mapping[str, Any]) -> None:
+    def __init__(self, claimed: Claim, signals: tuple[Signal, ...], header: Mapping[str, Any]) -> None:
         super().__init__(signals, header)
-        self.path = path
+        self.path = claimed.path
+        self._claim = claimed
+        self._record["locked"] = claimed.locked
+        self._own = run_file.Watched(self.path, self._record)
         self._blocks: list[Block] = []
         self._bytes = 0
         self._flushed = clock.monotonic()
         self._pause = FLUSH_PERIOD
-        with _disk(path):
-            run_file.write(path, self._record)
-            self._series = SeriesWriter(path / SERIES_FILE, signals)
-            self._events = EventWriter(path / EVENT_FILE)
+        run_file.write(self.path, {**self._record, "status": run_file.CLAIMED})
+        claimed.clear()
+        self._series = SeriesWriter(self.path / SERIES_FILE, signals)
+        self._events = EventWriter(self.path / EVENT_FILE)
+        run_file.write(self.path, self._record)
 
     @classmethod
     def create(
@@ -58,14 +63,18 @@ class RunDirectory(Sink):
         """Make the directory `path` ready for a new run and return its writer.
 
         A killed or failed run is replaced. A run with results to keep (finished, interrupted, out
-        of budget), a run that is still going on and a folder of something else are not: UsageError,
-        unless `force`. Only files that a run writes are ever removed, and results that are replaced
-        only when the new run has finished; until then they are in the folder `earlier`.
+        of budget) and a folder of something else are not: UsageError, unless `force`. A run that is
+        still going on never is. Only files that a run writes are ever removed, and results that are
+        replaced only when the new run has finished; until then they are in the folder `earlier`.
         """
         path, signals = Path(path), without_twins(signals)
         with _disk(path):
-            claim.claim(path, force)
-        return cls(path, signals, header)
+            claimed = Claim.take(path, force)
+            try:
+                return cls(claimed, signals, header)
+            except BaseException:
+                claimed.release(finished=False)
+                raise
 
     def events(self, rows: Iterable[Sequence[Any]]) -> None:
         """Log zone changes: rows of (t [s], component, zone before, zone after, guard)."""
@@ -81,6 +90,7 @@ class RunDirectory(Sink):
         if not at_once and start - self._flushed < self._pause:
             return
         with _disk(self.path):
+            self._own.check()
             self._write_blocks()
             self._events.flush()
         self._flushed = clock.monotonic()
@@ -99,19 +109,30 @@ class RunDirectory(Sink):
         return f"The run in {self.path}"
 
     def _close(self, status: str, summary: Mapping[str, Any]) -> None:
-        """Write what is left, close the files and put `status` and `summary` into run.json."""
-        with _disk(self.path):
-            try:
-                self._write_blocks(last=True)
-            except BaseException:
-                status = "failed"  # Rows are missing.
-                raise
-            finally:
-                run_file.write(self.path, self._ended(status, summary))
-                self._events.close()
-                self._series.close()
-            if status == claim.FINISHED:
-                claim.drop_earlier(self.path)
+        """Write what is left, close the files and put `status` and `summary` into run.json.
+
+        Raises FairleadError when the disk refuses, or when another run has taken the directory.
+        """
+        try:
+            with _disk(self.path):
+                self._own.check()
+                self._write_all(status, summary)
+                self._claim.release(finished=status == FINISHED)
+        finally:
+            self._claim.release(finished=False)
+
+    def _write_all(self, status: str, summary: Mapping[str, Any]) -> None:
+        """Rows and events first: a run.json that says `finished` has all of them beside it."""
+        try:
+            self._write_blocks(last=True)
+            self._events.flush()
+        except BaseException:
+            status = "failed"  # Rows are missing.
+            raise
+        finally:
+            run_file.write(self.path, self._ended(status, summary))
+            self._events.close()
+            self._series.close()
 
     def _write_blocks(self, last: bool = False) -> None:
         if not self._blocks:
@@ -128,6 +149,9 @@ def _disk(path: Path) -> Iterator[None]:
         yield
     except (OSError, RuntimeError) as error:  # h5py raises either.
         reason = getattr(error, "strerror", None) or str(error)
+        named = getattr(error, "filename", None)
+        if isinstance(named, str | os.PathLike) and Path(named).name != path.name:
+            reason = f"{reason} ({Path(named).name})"
         raise FairleadError(
             f"Results cannot be written to {path}: {reason}.\n"
             "    Make room or choose another directory with --out; what was written before is kept."

@@ -1,48 +1,71 @@
-"""Reads `series.nc`, of a finished run, of one that goes on, or of one that was killed."""
+"""Reads `series.nc`, of a finished run, of one that goes on, or of one that was killed.
+
+The file may be damaged, or not ours at all: what it says of itself is checked when it is opened, and its times when
+they are read. Whatever HDF5 makes of the rest becomes DamagedResultsError (see `damage.py`).
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import fairlead.results.layout as layout
+from fairlead.results.damage import DamagedResultsError, reading
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
 
 if TYPE_CHECKING:
     import h5py
 
 
+LARGEST_COMPRESSION = 1100
+"""Bytes that one byte of a file may stand for; deflate reaches 1032."""
+
+
 class SeriesReader:
     """The recorded signals of one file, which is open only while something is being read."""
 
     def __init__(self, path: Path) -> None:
+        """Look at the signals of a file. Raises DamagedResultsError."""
         self.path = path
-        with open_file(path, "r") as file:
+        with reading(path), open_file(path, "r") as file:
             self.signals = layout.read_signals(file)
             self.rows = self._whole_rows(file)
+            size = path.stat().st_size
+        if 8 * self.rows > LARGEST_COMPRESSION * size:
+            raise DamagedResultsError(path, f"it says that it holds {self.rows} rows, in {size} bytes.")
         self._position = {signal.name: index for index, signal in enumerate(self.signals)}
 
     def time(self) -> NDArray[np.float64]:
         """Return the recorded times (n,) [s]; an event's time occurs twice."""
-        with open_file(self.path, "r") as file:
+        with reading(self.path), open_file(self.path, "r") as file:
             times: NDArray[np.float64] = file[TIME][: self.rows]
-            return times
+        self._require_all(times, np.isfinite(times) & (np.diff(times, prepend=times[:1]) >= 0), "the time")
+        return times
 
     def side(self) -> NDArray[np.int8]:
         """Return -1 left of an event, +1 right of it, 0 elsewhere (n,)."""
-        with open_file(self.path, "r") as file:
+        with reading(self.path), open_file(self.path, "r") as file:
             sides: NDArray[np.int8] = file[SIDE][: self.rows]
-            return sides
+        self._require_all(sides, np.abs(sides.astype(int)) <= 1, "the side")
+        return sides
 
     def values(self, names: list[str]) -> NDArray[np.float64]:
         """Return the values (n, len(names)) of signals that the file has."""
-        with open_file(self.path, "r") as file:
+        with reading(self.path), open_file(self.path, "r") as file:
             if layout.is_matrix(self.signals):
                 return self._matrix_columns(file, names)
             return self._single_columns(file, names)
+
+    def _require_all(self, values: NDArray[Any], right: NDArray[np.bool_], what: str) -> None:
+        """Name the first row that is not right."""
+        wrong = np.flatnonzero(~right)
+        if len(values) != self.rows:
+            raise DamagedResultsError(self.path, f"{what} has {len(values)} rows of {self.rows}.")
+        if wrong.size:
+            raise DamagedResultsError(self.path, f"row {wrong[0] + 1}: {what} is {values[wrong[0]]}, out of its order.")
 
     def _single_columns(self, file: h5py.File, names: list[str]) -> NDArray[np.float64]:
         """Read one variable per name through the low-level interface, which is 3 times as fast."""

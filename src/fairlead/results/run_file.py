@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 import os
 import platform
+import uuid
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,27 +15,40 @@ from typing import Any
 
 import numpy as np
 
+import fairlead.results.lock as lock
+from fairlead.errors import FairleadError, UsageError, shown
+from fairlead.results.damage import DamagedResultsError, reading
+from fairlead.results.placing import place
+
 RUN_FILE = "run.json"
 FORMAT = "fairlead-run-1"
+CLAIMED = "claimed"
+"""Status of a run whose directory may still hold series and events of the run before; readers are told `running`."""
 RUNNING = "running"
 KILLED = "killed"
+MOST_BYTES = 2**26
+GIVE = "Give a directory that a run has left, such as results/NAME."
+IDENTITY = ("id", "started", "process", "host")
 
 
 def write(directory: Path, record: Mapping[str, Any]) -> None:
     """Replace run.json in one go: a reader sees the old or the new one, never half of it."""
     text = json.dumps(_plain(record), indent=2, ensure_ascii=False, allow_nan=False)
-    temporary = directory / f".{RUN_FILE}.{os.getpid()}"
-    temporary.write_text(text + "\n", encoding="utf-8")
-    temporary.replace(directory / RUN_FILE)
+    place(directory / RUN_FILE, text + "\n")
+
+
+def amend(directory: Path, record: Mapping[str, Any]) -> None:
+    """Write what has been added to a finished run, unless another run has taken its place. Raises UsageError."""
+    refuse_another(directory, record)
+    write(directory, record)
 
 
 def read(directory: Path) -> dict[str, Any] | None:
     """Return run.json as a dict, or None when there is none that can be read."""
     try:
-        record = json.loads((directory / RUN_FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        return load(directory)
+    except FairleadError:
         return None
-    return record if isinstance(record, dict) and record.get("format") == FORMAT else None
 
 
 def as_read(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -42,9 +57,71 @@ def as_read(record: Mapping[str, Any]) -> dict[str, Any]:
     return plain
 
 
-def stamp() -> dict[str, Any]:
-    """Return what tells this run from others: format, start, and the process that writes it."""
-    return {"format": FORMAT, "started": now(), "process": os.getpid(), "host": platform.node()}
+def load(directory: Path) -> dict[str, Any]:
+    """Return run.json as a dict. Raises UsageError when there is none, DamagedResultsError when it cannot be read."""
+    from fairlead.results.run_schema import check_head
+
+    file = directory / RUN_FILE
+    try:
+        size = file.stat().st_size
+    except OSError:
+        raise UsageError(f"{directory} holds no run of fairlead: there is no {RUN_FILE} in it.\n    {GIVE}") from None
+    if size > MOST_BYTES:
+        raise DamagedResultsError(file, f"the file has {size} bytes, more than any run leaves ({MOST_BYTES}).")
+    with reading(file):
+        try:
+            record = json.loads(file.read_text(encoding="utf-8"))
+        except RecursionError:
+            raise DamagedResultsError(file, "its entries lie too deep in one another.") from None
+    if not isinstance(record, dict):
+        raise DamagedResultsError(file, "it does not hold the entries of a run.")
+    check_head(file, record)
+    return record
+
+
+def refuse_another(directory: Path, record: Mapping[str, Any]) -> None:
+    """Raise UsageError when the run in a directory is not, or not any more, the one of `record`."""
+    now_there = read(directory)
+    if now_there is None:
+        raise UsageError(f"The run in {directory} is not there any more.\n    Run it again.")
+    if any(now_there.get(key) != record.get(key) for key in IDENTITY):
+        begun = shown(now_there.get("started") or "an unknown time")
+        raise UsageError(
+            f"The run in {directory} was replaced by another one, begun at {begun}.\n"
+            "    Open the directory again, or give each run a directory of its own with --out."
+        )
+
+
+class Watched:
+    """The run.json of one run, looked at time and again; it is read only when the file is another one."""
+
+    def __init__(self, directory: Path, record: Mapping[str, Any]) -> None:
+        self._directory = directory
+        self._record = {key: record.get(key) for key in IDENTITY}
+        self._seen: tuple[int, ...] = ()
+
+    def check(self) -> None:
+        """Raise UsageError when another run has taken the place of this one."""
+        seen = self._look()
+        if not seen or seen != self._seen:
+            refuse_another(self._directory, self._record)
+            self._seen = seen
+
+    def _look(self) -> tuple[int, ...]:
+        try:
+            found = (self._directory / RUN_FILE).stat()
+        except OSError:
+            return ()
+        return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
+
+
+def stamp(locked: bool = False) -> dict[str, Any]:
+    """Return what tells this run from others: format, start, and the process that writes it.
+
+    `locked`: the process holds the lock of the directory (see `lock.py`).
+    """
+    who = {"process": os.getpid(), "host": platform.node(), "boot": _boot(), "locked": locked}
+    return {"format": FORMAT, "id": uuid.uuid4().hex, "started": now(), **who}
 
 
 def now() -> str:
@@ -52,18 +129,32 @@ def now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
-def status(record: Mapping[str, Any]) -> str:
-    """Return the status, `killed` when the process of a running run is gone."""
+def status(directory: Path, record: Mapping[str, Any], ours: bool = False) -> str:
+    """Return the status, `killed` when the process of a running run is gone. `ours`: we hold its lock."""
     written = str(record.get("status", KILLED))
-    return KILLED if written == RUNNING and not _is_alive(record) else written
+    if written not in (CLAIMED, RUNNING):
+        return written
+    return RUNNING if _is_alive(directory, record, ours) else KILLED
 
 
-def _is_alive(record: Mapping[str, Any]) -> bool:
-    """Return whether the writing process may still be there; on another host nobody can tell."""
-    if record.get("host") != platform.node():
+def is_here(record: Mapping[str, Any]) -> bool:
+    """Return whether a run was begun on this machine, where one can tell whether it goes on."""
+    return record.get("host") == platform.node() or bool(_boot() and record.get("boot") == _boot())
+
+
+def _is_alive(directory: Path, record: Mapping[str, Any], ours: bool) -> bool:
+    """Return whether the writing process may still be there; of one on another machine nobody can tell."""
+    held = None
+    if record.get("locked"):
+        held = False if ours else lock.held(directory)
+    if held or not is_here(record):
         return True
-    process = record.get("process")
-    if not isinstance(process, int) or process <= 0:
+    return _process_exists(record.get("process")) if held is None else False
+
+
+def _process_exists(process: object) -> bool:
+    """Return whether there is a process of that number, perhaps another one by now."""
+    if not isinstance(process, int) or not 0 < process < 2**31:
         return False
     if os.name == "nt":  # Signal 0 would end the process there.
         return True
@@ -74,6 +165,15 @@ def _is_alive(record: Mapping[str, Any]) -> bool:
     except PermissionError:
         return True
     return True
+
+
+@functools.cache
+def _boot() -> str | None:
+    """What tells this start of this machine from others, where the system says so."""
+    try:
+        return Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+    except (OSError, ValueError):
+        return None
 
 
 def _plain(value: Any) -> Any:

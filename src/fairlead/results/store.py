@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 import fairlead.results.layout as layout
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
+from fairlead.results.placing import create
 from fairlead.results.signal import Signal
 
 SERIES_FILE, TEMPORARY = "series.nc", "series.nc.new"
@@ -91,6 +92,7 @@ class SeriesWriter:
         """Replace the file by a copy that has room for `room` rows, with the block appended."""
         temporary = self.path.with_name(TEMPORARY)
         self._probe(room)
+        temporary.unlink(missing_ok=True)  # a link there is not followed
         layout.create(temporary, self._signals, room)
         with open_file(temporary, "r+") as successor:
             if self._file is not None:
@@ -110,7 +112,7 @@ class SeriesWriter:
         if not hasattr(os, "posix_fallocate"):
             return
         probe = self.path.with_name(TEMPORARY)
-        with probe.open("wb") as file:
+        with create(probe) as file:
             size = rows * self._bytes_in_row + BYTES_OF_LAYOUT * (len(self._signals) + 10)
             try:
                 os.posix_fallocate(file.fileno(), 0, size)

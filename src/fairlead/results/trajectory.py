@@ -13,18 +13,19 @@ How it is used:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
-from fairlead.results.claim import earlier
+from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
+from fairlead.results.kept import earlier
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.signal import Signal, matching
 from fairlead.results.store import SERIES_FILE
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     import xarray
 
 Side = Literal["left", "right", "both"]
+T = TypeVar("T")
 
 
 class UnknownSignalError(FairleadError, KeyError):
@@ -62,6 +64,9 @@ class Result:
     """One run directory, read lazily: a signal is read when it is first asked for.
 
     `path` is the directory; None for a run that stayed in memory (`run(out=None)`).
+
+    A run that has taken the place of this one in the directory is never read instead: UsageError. Files that are
+    damaged are told by name: DamagedResultsError; what else there is can still be read.
     """
 
     def __init__(self, path: Path | None, run: Mapping[str, Any], series: Series) -> None:
@@ -70,23 +75,23 @@ class Result:
         self._series = series
         self._signals = {signal.name: signal for signal in series.signals}
         self._cache: dict[str, NDArray[np.float64]] = {}
+        self._own = None if path is None else run_file.Watched(path, run)
 
     @classmethod
     def open(cls, path: str | Path) -> Result:
         """Open a run directory, of a finished, running, failed or killed run.
 
-        Raises UsageError when there is no such directory or no series in it.
+        Raises UsageError when there is no such directory or no series in it, DamagedResultsError when one of the
+        two cannot be read.
         """
         path = Path(path)
-        run = run_file.read(path)
-        if run is None:
-            raise UsageError(f"{path} holds no run of fairlead: there is no readable run.json in it.")
-        status = run_file.status(run)
-        try:
-            series = SeriesReader(path / SERIES_FILE)
-        except (OSError, KeyError) as error:
-            raise UsageError(_unreadable(path, status)) from error
-        return cls(path, {**run, "status": status}, series)
+        run = run_file.load(path)
+        status = run_file.status(path, run)
+        if run["status"] == run_file.CLAIMED or not (path / SERIES_FILE).exists():
+            raise UsageError(_unreadable(path, status))
+        result = cls(path, {**run, "status": status}, SeriesReader(path / SERIES_FILE))
+        result._refuse_another()
+        return result
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -96,17 +101,17 @@ class Result:
     @cached_property
     def t(self) -> NDArray[np.float64]:
         """Recorded times (n,) [s]; never decreasing, an event's time occurs twice."""
-        return self._series.time()
+        return self._mine(self._series.time)
 
     @cached_property
     def side(self) -> NDArray[np.int8]:
         """Return -1 in rows on the left of an event, +1 on its right, 0 elsewhere (n,)."""
-        return self._series.side()
+        return self._mine(self._series.side)
 
     @cached_property
     def events(self) -> list[Event]:
         """Zone changes in order: (t, component, zone_from, zone_to, guard)."""
-        return self._read_events()
+        return self._mine(self._read_events)
 
     def _read_events(self) -> list[Event]:
         return read_events(self.folder / EVENT_FILE)
@@ -118,6 +123,10 @@ class Result:
             what = f"The run of {self.run.get('name', 'this model')} stayed in memory, so it has no folder."
             raise UsageError(f"{what}\n    Run it without out=None, or with out=FOLDER, to have files of it.")
         return self.path
+
+    def named(self, file: str) -> Path:
+        """What messages call a file of the run, also of one that stayed in memory."""
+        return Path(self._place) / file
 
     @property
     def _place(self) -> str:
@@ -184,10 +193,18 @@ class Result:
         return to_pandas(self, names)
 
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
-        """Write the signals (all, or those named) with units in the header; every digit is kept."""
-        from fairlead.results.export import to_csv
+        """Write the signals (all, or those named) with units in the header; every digit is kept.
 
-        to_csv(self, path, names)
+        In the run directory a link of that name is replaced, and what it points to stays as it is.
+        """
+        from fairlead.results.export import to_csv
+        from fairlead.results.placing import placing
+
+        if self.path is None or Path(path).parent.resolve() != self.path.resolve():
+            to_csv(self, path, names)
+            return
+        with placing(Path(path)) as part:
+            to_csv(self, part, names)
 
     def columns(self, names: Iterable[str] | None = None) -> NDArray[np.float64]:
         """Return several signals (all, or those named) side by side, (n, m)."""
@@ -196,7 +213,7 @@ class Result:
     def _columns(self, names: list[str]) -> NDArray[np.float64]:
         missing = list(dict.fromkeys(self._signal(name).name for name in names if name not in self._cache))
         if missing:
-            values = np.asfortranarray(self._series.values(missing))
+            values = np.asfortranarray(self._mine(lambda: self._series.values(missing)))
             values.flags.writeable = False  # The cache is handed out; a caller must not change it.
             self._cache.update(zip(missing, values.T, strict=True))
         if len(names) == 1:
@@ -204,6 +221,20 @@ class Result:
         if not names:
             return np.empty((len(self.t), 0))
         return np.stack([self._cache[name] for name in names], axis=1)
+
+    def _mine(self, read: Callable[[], T]) -> T:
+        """Return what `read` gives, if it is of this run: its run.json is replaced before its other files are."""
+        try:
+            found = read()
+        except DamagedResultsError:
+            self._refuse_another()
+            raise
+        self._refuse_another()
+        return found
+
+    def _refuse_another(self) -> None:
+        if self._own is not None:
+            self._own.check()
 
     def _signal(self, name: str) -> Signal:
         if name in self._signals:
@@ -240,8 +271,6 @@ def _unreadable(path: Path, status: str) -> str:
     """Why a run has no series, in words."""
     kept = earlier(path)
     way_out = f"The results that it was to replace are in {kept}." if kept else "Run it again."
-    if (path / SERIES_FILE).exists():
-        return f"The signals of the run in {path} ({status}) cannot be read: {SERIES_FILE} is damaged.\n    {way_out}"
     if status == run_file.RUNNING:
         return f"The run in {path} has not written a row yet.\n    Wait a second; rows come every half second."
     if status != run_file.KILLED:

@@ -1,0 +1,112 @@
+"""Damaged results: each file is told by name with its place, and what can be read is read.
+
+A random sample is here; `python -m tests.fuzz results` plays any number.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import h5py
+import pytest
+from typer.testing import CliRunner
+
+from fairlead.cli import app
+from fairlead.results import Result
+from fairlead.results.damage import DamagedResultsError
+from tests.fuzz import results
+
+
+def test_a_damaged_folder_is_answered_in_words(tmp_path: Path) -> None:
+    assert list(results.play(tmp_path, seed=5, count=8)) == []
+
+
+@pytest.fixture
+def sound(tmp_path: Path) -> Path:
+    results.template(tmp_path / "run")
+    return tmp_path / "run"
+
+
+def refused(path: Path) -> str:
+    """What `margins` says of a folder that it refuses, in one line."""
+    answer = CliRunner().invoke(app, ["margins", str(path)])
+    assert answer.exit_code == 1, answer.output
+    return " ".join(answer.output.split())
+
+
+def edit(path: Path, *place: str | int, value: object) -> None:
+    """Put another value into run.json."""
+    record = held = json.loads((path / "run.json").read_text())
+    for key in place[:-1]:
+        held = held[key]
+    held[place[-1]] = value
+    (path / "run.json").write_text(json.dumps(record))
+
+
+def test_an_entry_of_run_json_is_told_by_its_path(sound: Path) -> None:
+    edit(sound, "routes", 0, "nodes", value="x")
+    assert f"{sound / 'run.json'}: routes.0.nodes = x: input should be a valid integer." in refused(sound)
+    assert len(Result.open(sound).t) == 11  # signals are read all the same
+    edit(sound, "status", value=3)
+    assert "run.json: status = 3:" in refused(sound)
+
+
+def test_a_run_json_that_is_cut_off_is_not_taken_for_none(sound: Path) -> None:
+    (sound / "run.json").write_bytes((sound / "run.json").read_bytes()[:100])
+    assert "run.json: the file is damaged (" in refused(sound)
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("x,pad,stuck,forward,slides", "line 3: the time x is no number."),
+        ("nan,pad,stuck,forward,slides", "line 3: nan is no time."),
+        ("0.1,pad,stuck", "line 3 has 3 columns; there are 5 of them."),
+    ],
+)
+def test_a_line_of_events_is_told_by_its_number_and_signals_are_read(sound: Path, line: str, told: str) -> None:
+    lines = (sound / "events.csv").read_text().splitlines()
+    lines[2] = line
+    (sound / "events.csv").write_text("\n".join(lines) + "\n")
+    result = Result.open(sound)
+    with pytest.raises(DamagedResultsError, match=f"events\\.csv: {told}"):
+        assert result.events is None
+    assert len(result["line.outer[0].slip"]) == 11
+
+
+def test_a_limit_is_not_judged_by_what_is_no_number(sound: Path) -> None:
+    with h5py.File(sound / "series.nc", "r+") as file:
+        file["line.core[1].tension"][4] = math.nan
+    assert "series.nc: line.core[1].tension = nan at t = 0.4 s" in refused(sound)
+    assert len(Result.open(sound)["line.core[0].tension"]) == 11
+
+
+def test_times_out_of_order_are_told_by_their_row(sound: Path) -> None:
+    with h5py.File(sound / "series.nc", "r+") as file:
+        file["time"][4] = -1.0
+    with pytest.raises(DamagedResultsError, match=r"series\.nc: row 5: the time is -1\.0, out of its order\."):
+        assert Result.open(sound).t is None
+
+
+@pytest.mark.parametrize("name", ["line.core[1].tension", "side", "time"])
+def test_a_variable_that_is_missing_is_not_passed_over(sound: Path, name: str) -> None:
+    with h5py.File(sound / "series.nc", "r+") as file:
+        del file[name]
+    assert "series.nc: the file is damaged (" in refused(sound)
+
+
+def test_a_run_without_rows_has_no_margins(sound: Path) -> None:
+    with h5py.File(sound / "series.nc", "r+") as file:
+        for name in file:
+            file[name].resize(0, axis=0)
+    answer = CliRunner().invoke(app, ["margins", str(sound)])
+    assert answer.exit_code == 0, answer.output
+    assert "no row" in answer.output
+
+
+def test_a_foreign_file_of_hdf5_is_told_as_such(sound: Path) -> None:
+    with h5py.File(sound / "series.nc", "w") as file:
+        file["time"] = [1.0]
+    assert "series.nc: the file is damaged (it holds no signals of fairlead)" in refused(sound)
