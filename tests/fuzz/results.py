@@ -70,10 +70,19 @@ def play(folder: pathlib.Path, seed: int, count: int) -> Iterator[str]:
         dice = Dice(f"{seed} {case}")
         path = folder / f"run{case}"
         shutil.copytree(sound, path)
-        done = [_damage(dice, path) for _ in range(dice.choice([1, 1, 1, 2, 4]))]
-        for complaint in apart(lambda path=path: complaints(path)):
-            yield f"case {case} of seed {seed}: {', '.join(done)}: {complaint}"
+        for complaint in apart(lambda dice=dice, path=path: damaged(dice, path)):
+            yield f"case {case} of seed {seed}: {complaint}"
         shutil.rmtree(path)
+
+
+def damaged(dice: Dice, path: pathlib.Path) -> list[str]:
+    """Damage a folder and say what was answered badly."""
+    chosen = dice.choices(list(DAMAGES), k=dice.choice([1, 1, 1, 2, 4]))
+    chosen.sort(key=lambda name: DAMAGES[name] not in BY_HDF5)  # which must find a file that it can open
+    for name in chosen:
+        with contextlib.suppress(OSError, KeyError, ValueError, TypeError, RuntimeError, AttributeError, IndexError):
+            DAMAGES[name](dice, path)  # a second damage may find nothing left to damage
+    return [f"{', '.join(chosen)}: {complaint}" for complaint in complaints(path)]
 
 
 def complaints(path: pathlib.Path) -> list[str]:
@@ -162,13 +171,6 @@ def apart(action: Callable[[], list[str]]) -> list[str]:
         told = pipe.read()
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     return json.loads(told) if code == 0 and told else [f"the process ended with {code}"]
-
-
-def _damage(dice: Dice, path: pathlib.Path) -> str:
-    name = dice.choice(list(DAMAGES))
-    with contextlib.suppress(OSError, KeyError, ValueError, TypeError, RuntimeError, AttributeError, IndexError):
-        DAMAGES[name](dice, path)  # a second damage may find nothing left to damage
-    return name
 
 
 def _some_file(dice: Dice, path: pathlib.Path) -> pathlib.Path:
@@ -267,7 +269,7 @@ def _variable(dice: Dice, path: pathlib.Path) -> None:
         kept = dict(file[name].attrs)
         kind = dice.randrange(9)
         if kind == 0:
-            file[name].resize(dice.choice([0, 3, 12, 1000, 2**39]), axis=0)
+            file[name].resize(dice.choice([0, 3, 12, 1000, 10**6]), axis=0)
         elif kind == 1:
             file[name][dice.randrange(11)] = dice.choice([math.nan, math.inf, -1e300, -1.0])
         else:
@@ -317,3 +319,4 @@ DAMAGES: dict[str, Callable[[Dice, pathlib.Path], None]] = {
     "deep run.json": _deep, "a line of events.csv": _line, "a variable of series.nc": _variable,
     "more variables of series.nc": _variable, "an attribute of series.nc": _attribute, "foreign series.nc": _foreign,
 }  # fmt: skip
+BY_HDF5 = (_variable, _attribute, _foreign)
