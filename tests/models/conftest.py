@@ -2,11 +2,12 @@
 
 import pytest
 
-from fairlead.system import carried, probing
+from fairlead.integrate import parts
+from fairlead.system import entrained
 
 
 @pytest.fixture
 def brief(monkeypatch):
     """Little margin, so that much is woken and left out again in a short run."""
-    monkeypatch.setattr(carried, "KEPT_FREE", 4)
-    monkeypatch.setattr(probing, "NEAR", 0.5)
+    monkeypatch.setattr(entrained, "KEPT_FREE", 4)
+    monkeypatch.setattr(parts, "MARGIN", 2)

@@ -115,7 +115,7 @@ def test_a_rope_that_lies_slack_off_the_drum_comes_taut_again(simulate):
 def test_nothing_is_carried_while_one_layer_goes_over_to_the_next(simulate, monkeypatch):
     """The drum begins between two layers: its radius falls by a hundredth within half a second, in one zone."""
     text = SCENE.format(**LAYERS).replace("length: 40 m", "length: 80 m").replace("start: -34 m", "start: -70 m")
-    text = text.replace("stop: 7 s", "stop: 1 s")
+    text = text.replace("stop: 7 s", "stop: 1.5 s")
     part = simulate(text)
     monkeypatch.setattr(parts, "LEAST", 10**9)
     whole = simulate(text)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, integrate, parts
-from fairlead.system import probing
-from fairlead.system.asking import aligned, call
-from fairlead.system.influence import answers, influence, paths
+from fairlead.system.answers import answers, laws
+from fairlead.system.asking import call, guards_at
+from fairlead.system.entrained import nothing_entrained
 from tests.models.test_carried import CLASSES, CONTROLLED, SCENE
 
 PAIR = """
@@ -23,14 +23,12 @@ PAIR = """
 def test_a_spring_whose_ends_move_alike_answers_to_nothing(scene, ratio, answering):
     """Its ends are `ratio` times as far from where they were; None: each by itself."""
     system = scene(PAIR).system.instance()
-    found = influence(system)
-    call(system, "jacobian", 0.0, np.zeros(system.n), np.zeros(len(system.pattern.rows)), np.zeros(system.n))
     a, b = (system.unknown_names.index(name) for name in ("a.x", "b.x"))
-    place, factor = np.arange(len(system.memory["z"])), np.ones(len(system.memory["z"]))
+    along = nothing_entrained(system)
     if ratio is not None:
-        place[b], factor[b] = a, ratio
-    which = answers(paths(found, place, factor), [system.memory["partials"]])
-    assert bool(np.isin(which.z, (a, b)).any()) == answering
+        along.place[b], along.ratio[b] = a, ratio
+    found = answers(system, laws(system), along, guards_at(system, 0.0, np.zeros(system.n)))
+    assert bool(np.isin(found.value_z, (a, b)).any()) == answering
 
 
 @pytest.fixture
@@ -66,9 +64,8 @@ def test_less_is_left_out_than_lies_on_the_drum_by_the_margin(wound):
     assert 136 - 24 - 2 <= len(part.carried.groups) <= 136 - 24
 
 
-def test_what_is_left_does_not_depend_on_how_much_is_wound_on(wound, monkeypatch):
-    """But by the way to the next look, which is longer where a look costs more."""
-    monkeypatch.setattr(probing, "AT", 10**9)
+def test_what_is_left_does_not_depend_on_how_much_is_wound_on(wound):
+    """Neither unknowns nor laws."""
     few, many = (wound(length)[-1].problem.n for length in (40.0, 160.0))
     assert few == many
 
@@ -80,7 +77,7 @@ def test_the_equations_of_the_part_are_those_of_the_whole_wherever_it_goes(wound
     for _ in range(3):
         y = now.copy()
         y[part.unknowns] += 1e-4 * chance.uniform(-1, 1, len(part.unknowns))
-        whole = aligned(system, part.carried, t, y)
+        whole = part.carried.aligned(system, t, y)
         call(system, "rhs", t, whole, np.zeros(system.n))
         rows = part.carried.added_up(system.memory["w"])
         f = np.zeros(part.problem.n)

@@ -268,7 +268,7 @@ class Zones(tuple[str, ...]):
 class Carries:
     """In `zone` the port `by` carries the port `node` along: their speeds keep a ratio, whatever acts on the node.
 
-    What is carried may then be counted as part of what carries it (`docs/integrator.md`, "Only what moves").
+    What is carried may then be counted as part of what carries it (`docs/integrator.md`, "Entrained nodes").
     """
 
     node: str

@@ -34,7 +34,7 @@ def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
     files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
-    text = "kernels kernel_text held_pairs lowering lowered_values layout structure"
+    text = "kernels kernel_text dependence held_pairs lowering lowered_values layout structure"
     files += [here.parent / "system" / f"{name}.py" for name in text.split()]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 

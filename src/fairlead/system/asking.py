@@ -1,4 +1,4 @@
-"""The callbacks of a System asked from Python, at a time and for unknowns."""
+"""The callbacks and kernels of a System called from Python."""
 
 from __future__ import annotations
 
@@ -7,27 +7,19 @@ import ctypes
 import numpy as np
 
 from fairlead.system.driver import callbacks
-from fairlead.system.moving import Following
-from fairlead.system.rest import Floats
+from fairlead.system.rest import Booleans, Floats
 from fairlead.system.system import Instance
 
 POINTER = ctypes.c_void_p
 CALLS = {k: ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, *(k + 1) * [POINTER]) for k in (1, 2)}
 """Callbacks at (t, y), by how many vectors they fill."""
+KERNEL = ctypes.CFUNCTYPE(None, *(ctypes.c_int64, POINTER), *2 * (ctypes.c_int64,), *4 * (POINTER,))
 
 
 def call(system: Instance, name: str, t: float, y: Floats, *out: Floats) -> None:
     """Call one of the callbacks that fill vectors at (t, y)."""
     y = np.ascontiguousarray(y)
     CALLS[len(out)](callbacks().address[name])(system.context, t, y.ctypes.data, *(one.ctypes.data for one in out))
-
-
-def aligned(system: Instance, what: Following, t: float, y: Floats) -> Floats:
-    """Put all that is carried where its carrier is at t, and as fast; the unknowns [n] then."""
-    call(system, "rhs", t, y, np.zeros(system.n))
-    made, u = y.copy(), what.unknowns
-    made[u] = what.ratio[u] * system.memory["z"][what.place[u]] + what.offset[u]
-    return made
 
 
 def partials_at(system: Instance, t: float, y: Floats) -> Floats:
@@ -41,3 +33,13 @@ def guards_at(system: Instance, t: float, y: Floats) -> Floats:
     made = np.zeros(len(system.guard_tolerance))
     call(system, "guards", t, y, made)
     return made
+
+
+def ask(system: Instance, block: int, mode: int, which: Booleans, out: Floats) -> None:
+    """Ask these instances of a block what they give in a mode (layout.py), for what stands in z."""
+    memory = system.memory
+    kernel, row = KERNEL(system.blocks[block].kernel.address), memory["blocks"][block].ctypes.data
+    last = [*(memory[name].ctypes.data for name in ("z", "zones", "tables")), out.ctypes.data]
+    borders = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]]).astype(np.int8)))
+    for start, stop in borders.reshape(-1, 2).tolist():
+        kernel(mode, row, start, stop, *last)

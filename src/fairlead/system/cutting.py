@@ -1,9 +1,9 @@
 """The part of a System that moves, as a System of its own: what rests is left out, and stands in it as numbers.
 
     unknowns that rest      numbers behind `dump` in z
-    laws of those alone     left out; what they add to forces on prescribed nodes and to the ledger is `f_rest`
+    laws of those alone     left out; what they add to rows that are kept, which is constant, is `f_rest`
     outputs                 those of the whole, whose unknowns `spread` finds
-    what is carried         its places and rows are those of what carries it, whose inertia has its own in it
+    what is entrained       its places and rows are those of its carrier, whose inertia has its own in it
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ import numpy as np
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
-from fairlead.system.asking import aligned, call
+from fairlead.system.asking import ask, call
 from fairlead.system.blocks import Block
 from fairlead.system.build import build
-from fairlead.system.driver import SPREAD
-from fairlead.system.moving import Following, Moving
+from fairlead.system.entrained import Entrained
+from fairlead.system.moving import Moving
 from fairlead.system.part import Part, hand_over
 from fairlead.system.recording import Recording, recording
 from fairlead.system.rest import Floats, Integers
@@ -30,13 +30,10 @@ from fairlead.system.system import Instance, System, begun
 from fairlead.system.tolerances import Weights
 from fairlead.system.unknowns import Numbering
 
-AGREE, EPSILON = 1e-6, 1e-14
-"""An equation of the part may differ from that of the whole by such a share of itself, and of its terms."""
-
 
 @collected_later
-def cut(system: Instance, t: float, y: Floats, moving: Moving) -> Part | None:
-    """The System of what moves at (t, y [n]); None if its equations differ from those of the whole there."""
+def cut(system: Instance, t: float, y: Floats, moving: Moving) -> Part:
+    """The System of what moves at (t, y [n])."""
     whole, n, carried = system.numbering, system.n, moving.carried
     kept, machines, rim = moving.kept, moving.machines, moving.rim
     unknowns = np.flatnonzero(kept)
@@ -57,8 +54,7 @@ def cut(system: Instance, t: float, y: Floats, moving: Moving) -> Part | None:
     made.zones[:] = system.zones[machines]
     _tell_of_the_whole(made, system, y, unknowns, machines, z_of, carried)
     hand_over(system, made)
-    if not _say_what_rests(system, made, t, y, unknowns, moving, rests):
-        return None
+    _say_what_rests(system, made, t, y, moving, rests)
     return Part(made, unknowns, machines, guards, rim[machines].astype(np.int64), system, carried)
 
 
@@ -77,7 +73,7 @@ def _shown(part: System, system: Instance) -> Recording:
 
 def _tell_of_the_whole(
     part: Instance, system: Instance, y: Floats, unknowns: Integers, machines: Integers, z_of: Integers,
-    carried: Following,
+    carried: Entrained,
 ) -> None:  # fmt: skip
     """What `spread` must know (the names are explained in layout.py)."""
     count = len(carried.unknowns) // 2
@@ -103,8 +99,8 @@ def _tell_of_the_whole(
     )  # fmt: skip
 
 
-def _heavier(flat: FlatModel, carried: Following) -> FlatModel:
-    """The model with the inertia of what is carried at what carries it."""
+def _heavier(flat: FlatModel, carried: Entrained) -> FlatModel:
+    """The model with the inertia of what is entrained at its carriers."""
     groups = list(flat.groups)
     for index, mass in carried.masses.items():
         groups[index] = dataclasses.replace(groups[index], mass=groups[index].mass + mass)
@@ -178,7 +174,7 @@ def _pieces(system: System, moving: Moving) -> list[tuple[int, Block, Piece]]:
 
 
 def _part_of(
-    block: Block, piece: Piece, dump: int, carried: Following, z_of: Integers, w_of: Integers, machine_of: Integers
+    block: Block, piece: Piece, dump: int, carried: Entrained, z_of: Integers, w_of: Integers, machine_of: Integers
 ) -> Block:
     """These instances of a block, with places in the vectors of the part."""
     which = piece.which
@@ -207,42 +203,21 @@ def _guards(system: System, pieces: Sequence[tuple[int, Block, Piece]]) -> Integ
     return np.concatenate([*of_piece, np.zeros(0, np.int64)]).astype(np.int64)
 
 
-def _say_what_rests(
-    system: Instance, part: Instance, t: float, y: Floats, unknowns: Integers, moving: Moving, rests: Integers
-) -> bool:
-    """Write the numbers of the rest into the part; False if the equations of the part are not those of the whole."""
-    of_part, carried, n = np.zeros(part.n), moving.carried, system.n
-    without_slip = aligned(system, carried, t, y)
-    call(system, "outputs", t, without_slip, np.zeros(system.n_outputs))  # whatever a law may read
-    z, w, whole_y = part.memory["z"], part.memory["w"], y.copy()
-    z[part.numbering.dump + 1 :] = system.memory["z"][rests]
-    call(part, SPREAD, t, y[unknowns], whole_y)
-    call(system, "rhs", t, without_slip, np.zeros(n))  # no damper at the border of what is carried feels a slip
-    smooth = carried.added_up(system.memory["w"])
-    call(system, "rhs", t, whole_y, np.zeros(n))  # the bonds pass on what acts on what is carried
-    rows = carried.added_up(system.memory["w"])
-    rounding = EPSILON * carried.added_up(_terms(system, t, whole_y))
-    call(part, "rhs", t, y[unknowns], of_part)
-    if "dissipated" in system.numbering.ledger:  # the bonds of what is carried let nothing slip in the part
-        rates = carried.unknowns[len(carried.mass) :]
-        leak = (carried.bond * (whole_y[rates] - without_slip[rates]) ** 2).sum()
-        rows[system.numbering.ledger["dissipated"]] -= leak
-    meters = part.quadrature
-    missing = rows[unknowns] - of_part
-    differs = np.minimum(np.abs(missing), np.abs(smooth[unknowns] - of_part))
-    size = np.abs(rows[unknowns]) + np.abs(of_part) + np.abs(part.absolute)
-    if (differs > AGREE * size + rounding[unknowns])[~meters].any():
-        return False
-    rest = part.memory["f_rest"]
-    rest[: part.n][meters] = missing[meters]
-    rest[part.n : -1] = rows[n:-1] - w[part.n : -1]
-    return True
+def _say_what_rests(system: Instance, part: Instance, t: float, y: Floats, moving: Moving, rests: Integers) -> None:
+    """Write the numbers of the rest into the part: what its laws read, and what laws left out give to its rows.
 
-
-def _terms(system: Instance, t: float, y: Floats) -> Floats:
-    """By row of w: the sum of its terms without their signs, as far as it is linear in the unknowns."""
-    values, made = np.zeros(len(system.pattern.rows)), np.zeros(system.numbering.w_dump + 1)
-    call(system, "jacobian", t, y, values, np.zeros(system.n))
-    column = np.repeat(np.arange(system.n), np.diff(system.pattern.starts))
-    np.add.at(made, system.pattern.rows, np.abs(values * y[column]))
-    return made
+    Nothing slips where something is entrained; the bonds there give nothing, since the carrier stands for their nodes.
+    """
+    call(system, "outputs", t, moving.carried.aligned(system, t, y), np.zeros(system.n_outputs))  # all that is read
+    part.memory["z"][part.numbering.dump + 1 :] = system.memory["z"][rests]
+    given, first, bonds = np.zeros(system.numbering.w_dump + 1), 0, np.array(moving.carried.laws, dtype=np.int64)
+    for number, (block, acts) in enumerate(zip(system.blocks, moving.laws, strict=True)):
+        out = ~acts
+        out[bonds[(bonds >= first) & (bonds < first + block.count)] - first] = False
+        for mode in (layout.FLOWS, layout.LEDGER):
+            if mode in block.kernel.structure.modes:
+                ask(system, number, mode, out, given)
+        first += block.count
+    rows, rest = moving.carried.added_up(given), part.memory["f_rest"]
+    rest[: part.n] = rows[: system.n][moving.kept]
+    rest[part.n : -1] = rows[system.n : -1]

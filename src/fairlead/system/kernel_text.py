@@ -22,6 +22,7 @@ from sympy.printing.pycode import PythonCodePrinter
 from fairlead.component.piecewise import DEGREE, STRIDE
 from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, read_in_python, symbol
 from fairlead.system import layout
+from fairlead.system.dependence import carried_ratio, reads
 from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
 
@@ -78,6 +79,7 @@ class KernelText:
         self.d_ledger = self._pairs(self._ledger_values)
         self.mass = sorted({(u, self.inputs.index(s)) for z in self.zones for u, h in z.holds.items() for s in h.rates})
         self.slots = max((len(z.guards) for z in self.zones), default=0)
+        self.members = max((len(_of_groups(z)) for z in self.zones), default=0)
         # Kinds of derivatives: where they go, which, the values by zone, and which of them never change.
         self.kinds = [
             (layout.D_SIGNALS, self.d_signals, self._fit_outputs),
@@ -102,6 +104,7 @@ class KernelText:
             layout.GUARD: self._guards,
             layout.OUTPUT: self._all_outputs,
             layout.SAMPLE: self._sample,
+            layout.MEMBERS: self._members,
         }
         loops = {mode: self._loop(mode, [what(zone) for zone in self.zones]) for mode, what in modes.items()}
         for kind, mode in enumerate((layout.FIXED_SIGNALS, layout.FIXED_FLOWS, layout.FIXED_LEDGER)):
@@ -191,6 +194,11 @@ class KernelText:
         used = [(place.format(s=s), _group(g)) for s, g in enumerate(zone.guards)]
         idle = [(place.format(s=s), sympy.Float(layout.NOT_IN_FORCE)) for s in range(len(zone.guards), self.slots)]
         return used + idle
+
+    def _members(self, zone: TracedZone) -> list[Statement]:
+        """Every value of the guards that are groups."""
+        place = f"out[i*{self.members} + {{k}}] = {{{{}}}}"
+        return [(place.format(k=k), value) for k, value in enumerate(_of_groups(zone))]
 
     def _all_outputs(self, zone: TracedZone) -> list[Statement]:
         names = [*self.outputs, *layout.OUTPUT_LINES]
@@ -348,11 +356,19 @@ class KernelText:
             linear=not self._curved(self.d_flows, self._target_values),
             curved=self._curved(self.d_signals, self._fit_outputs), guards_read=self._guards_read(),
             late=self._late(), stores=any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones),
-            modes=modes,
+            modes=modes, members=self.members,
+            carries=carried_ratio(t) if has.carries else [],
+            reads={name: self._reads(zone) for name, zone in t.zones.items()},
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
         )  # fmt: skip
+
+    def _reads(self, zone: TracedZone) -> dict[str, dict[str, Any]]:
+        """What this zone depends on, see dependence.py."""
+        values = [*self._fit_outputs(zone), *self._target_values(zone), *self._ledger_values(zone)]
+        places = [path for path in self.traced.tables if path not in self.traced.time_tables]
+        return reads(values, zone.guards, self.inputs, places)
 
     def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
         pairs = zip(self.targets, self._target_values(zone), strict=True)
@@ -369,6 +385,11 @@ def _is_late(value: Any) -> bool:
     """True if it reads an acceleration or a reaction."""
     names = (s.name for s in sympy.sympify(value).free_symbols)
     return any(name.startswith("port:") and name.rpartition(":")[2] in "aR" for name in names)
+
+
+def _of_groups(zone: TracedZone) -> list[sympy.Expr]:
+    """The values of the guards that are groups, in order."""
+    return [value for guard in zone.guards if len(guard.values) > 1 for value in guard.values]
 
 
 def _group(guard: TracedGuard) -> sympy.Expr:

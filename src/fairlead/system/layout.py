@@ -41,7 +41,8 @@ BLOCK = 19
 # Partial derivatives that are one number in all zones, whatever the inputs, are asked for once: FIXED_.
 SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
 FIXED_SIGNALS, FIXED_FLOWS, FIXED_LEDGER, DRIFT = range(11, 15)
-MODES = 15
+MEMBERS = 15  # of guards that are groups, one after another: (count, members) numbers from the beginning of `out`
+MODES = 16
 
 DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
 OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance

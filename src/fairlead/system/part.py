@@ -6,7 +6,7 @@ import dataclasses
 
 from fairlead.system.asking import call
 from fairlead.system.driver import SPREAD
-from fairlead.system.moving import Following
+from fairlead.system.entrained import Entrained
 from fairlead.system.rest import Floats, Integers
 from fairlead.system.system import Instance
 
@@ -22,7 +22,7 @@ class Part:
     rim: Integers
     """By machine of the part: 1 if its change ends what is true of the part."""
     whole: Instance
-    carried: Following
+    carried: Entrained
 
     @property
     def sure(self) -> bool:
@@ -30,12 +30,12 @@ class Part:
         return bool(len(self.carried.unknowns))
 
     def give_back(self, t: float, y: Floats) -> None:
-        """Give the whole, whose unknowns are y [n], what is carried at t, and what its controllers know."""
+        """Give the whole, whose unknowns are y [n], what is entrained at t, and what its controllers know."""
         call(self.problem, SPREAD, t, y[self.unknowns], y)
         hand_over(self.problem, self.whole)
 
     def carry(self, of_unknowns: Floats) -> None:
-        """Give what is carried the share of its carrier in numbers by unknown of the whole, such as slopes."""
+        """Give what is entrained the share of its carrier in numbers by unknown of the whole, such as slopes."""
         u, what = self.carried.unknowns, self.carried
         own = what.place[u] < self.whole.n
         of_unknowns[u[own]] = what.ratio[u[own]] * of_unknowns[what.place[u[own]]]

@@ -42,7 +42,16 @@ class Structure:
     late: list[int]  # places in all outputs of those that read one
     stores: bool  # an instance may have stored energy
     modes: list[int]  # what it has an answer to, of what a kernel may be asked (layout.py)
+    reads: dict[str, dict[str, dict[str, Any]]]  # zone -> kinds of its pieces -> what depends on what (dependence.py)
+    members: int  # most members that the groups among the guards of one zone have together
+    carries: list[tuple[str, float]]  # factors of the ratio of speeds where it takes a node along: ("", number) first,
+    # then (key, power) of parameters ("p:radius") and inputs; empty for a class that carries nothing
     period: str = ""  # the parameter that gives the sample period; empty without sampling
+
+    @property
+    def place_tables(self) -> list[str]:
+        """Tables that are read at a place, not in time."""
+        return [path for path in self.tables if path not in self.time_tables]
 
     @property
     def all_outputs(self) -> list[str]:
