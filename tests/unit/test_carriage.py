@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, integrate, parts
+from fairlead.system import entrained
 from fairlead.system.answers import answers, laws
 from fairlead.system.asking import call, guards_at
 from fairlead.system.entrained import nothing_entrained
@@ -100,3 +101,106 @@ def test_what_is_carried_gets_the_slip_with_which_its_bond_accelerates_it(wound)
     wanted = torque[drum] / part.problem.numbering.unknowns[drum].mass
     assert abs(wanted) > 1e-3
     np.testing.assert_allclose(list(rate.values()), wanted, rtol=1e-5)
+
+
+TIED = '''
+    class Tied(Component):
+        """The bond of a node with a rim, up to a place."""
+
+        node = Translational("the node")
+        rim = Translational("the rim")
+        place = Parameter("m", "Where it ends.")
+        zones = Zones("stored", "free")
+        carried = Carries("node", by="rim", zone="stored")
+
+        @zone("stored")
+        def on_rim(p, node, rim):
+            """As fast as the rim."""
+            force = 1e9 * (node.v - rim.v)
+            return Law(node=force, rim=-force, dissipated=force * (node.v - rim.v))
+
+        @zone("free")
+        def off_rim(p):
+            """By itself."""
+            return Law(node=0, rim=0)
+
+        @guard("stored", to="free", unit="m")
+        def leaves(p, node):
+            """Beyond the place."""
+            return node.x - p.place
+
+        @guard("free", to="stored", unit="m")
+        def comes_back(p, node):
+            """Inboard of it."""
+            return p.place - node.x
+
+
+    class Brushed(Component):
+        """A damper on a node within a window."""
+
+        node = Translational("the node")
+        window = Table("m", "1", "Share of it that is brushed, over place.")
+
+        def law(p, node):
+            """In proportion to the share."""
+            force = p.window(node.x) * node.v
+            return Law(node=force, dissipated=force * node.v)
+
+'''
+
+
+def tied(size):
+    """Sixty nodes, `size` apart, of which forty lie on a rim, and a brush a little outboard of that."""
+    nodes = range(60)
+    window = [f"{size * (45 + k)} m" for k in (0, 1, 3, 4)]
+    parts = ["rim: {type: Mass, mass: 10 kg}"]
+    joins = []
+    for k in nodes:
+        parts.append(f"node{k}: {{type: Mass, mass: 1 kg, position: {size * k} m}}")
+        parts.append(f"bond{k}: {{type: Tied, place: {size * 39.5} m}}")
+        parts.append(f"brush{k}: {{type: Brushed, window: {{x: {window}, y: [0, 1, 1, 0]}}}}")
+        joins.append(f"[rim.flange, bond{k}.rim]")
+        joins.append(f"[node{k}.flange, bond{k}.node, brush{k}.node]")
+    for k in nodes[1:]:
+        parts.append(f"spring{k}: {{type: Spring, stiffness: 100 N/m, free_length: {size} m}}")
+        joins.append(f"[node{k - 1}.flange, spring{k}.a]")
+        joins.append(f"[spring{k}.b, node{k}.flange]")
+    lines = ["components:", *(f"  {one}" for one in parts), "connections:", *(f"  - {one}" for one in joins)]
+    return "\n".join([*lines, "run: {stop: 1 s}"]).replace("'", "")
+
+
+def partition(system, speed):
+    """Names of the unknowns that stay, of what is monitored and of the laws that act, all at one speed."""
+    begin = system.instance()
+    y = begin.initial.copy()
+    y[[v for _, v in begin.numbering.pairs]] = speed
+    for block in begin.blocks:  # every bond in the zone it is in by its place
+        if block.kernel.variant.type.__name__ == "Tied":
+            place = block.kernel.structure.inputs.index("port:node:x")
+            inside = y[block.in_index[:, place]] < block.parameters[:, block.kernel.structure.parameters.index("place")]
+            begin.zones[block.machines[:, 0]] = np.where(inside, 0, 1)
+    moving = begin.narrowing.moving(0.0, y, 12, 0.5)
+
+    def named(chosen):
+        """Paths of these instances, block after block."""
+        pairs = zip(begin.blocks, chosen, strict=True)
+        return [block.instances[i].path for block, some in pairs for i in np.flatnonzero(some).tolist()]
+
+    return np.array(begin.unknown_names)[moving.kept].tolist(), named(moving.laws), named(moving.watched)
+
+
+def test_what_is_left_depends_neither_on_the_size_of_a_scene_nor_on_its_speed(scene, library, monkeypatch):
+    """Nodes a millimetre, a quarter of a metre, and a hundred metres apart, at rest and at 50 m/s."""
+    monkeypatch.setattr(entrained, "KEPT_FREE", 4)
+    found = [
+        partition(scene(tied(size), (library(TIED),)).system, speed)
+        for size, speed in ((0.25, 0.8), (0.25, 50.0), (0.25, 0.0), (1e-3, 0.8), (100.0, 50.0))
+    ]
+    kept, laws, monitored = found[0]
+    assert "node35.x" not in kept
+    assert "node36.x" in kept
+    assert {"spring36", "spring59", "brush47"} <= set(laws)
+    assert not {"spring35", "bond12"} & set(laws)
+    assert monitored
+    for other in found[1:]:
+        assert other == found[0]
