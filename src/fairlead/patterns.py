@@ -11,11 +11,18 @@ what follows. That takes the length of the name times that of the pattern at mos
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 LONGEST = 1000
 """Characters of a pattern; nothing in a model has so long a name."""
 INDEX = r"(?:\[\d+\])?"
+
+
+def picked(names: Collection[str], pattern: str) -> list[str]:
+    """The names that fit a pattern, in their own order; one without * and ? is looked up (give a set or a dict)."""
+    if "*" not in pattern and "?" not in pattern:
+        return [pattern] if pattern in names else []
+    return [*filter(matcher(pattern), names)]
 
 
 def matcher(pattern: str, *, any_index: bool = False) -> Callable[[str], bool]:

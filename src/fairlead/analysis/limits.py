@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.suggestion import suggest
 from fairlead.errors import Fault, ModelError, did_you_mean, listing
+from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
-from fairlead.patterns import matcher
+from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si
 from fairlead.system.recording import OutputSignal
 
@@ -80,9 +81,11 @@ class Limits:
 def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) -> Limits:
     """Bind the limits of a netlist to recorded columns. Raises ModelError."""
     found, faults = Limits(), []
+    column = {signal.name: k for k, signal in enumerate(recorded)}
     for pattern, value in given.items():
-        fits = matcher(pattern)
-        columns = [k for k, signal in enumerate(recorded) if fits(signal.name)]
+        if len(faults) > MOST_FAULTS:
+            break
+        columns = [column[name] for name in picked(column, pattern)]
         if not columns:
             near, way_out = suggest(pattern, [signal.name for signal in recorded])
             faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip(), way_out))

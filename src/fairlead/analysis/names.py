@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 
@@ -9,8 +10,9 @@ from fairlead.analysis.limits import read_limits
 from fairlead.analysis.suggestion import suggest
 from fairlead.component.instantiate import Assembly
 from fairlead.errors import Fault, ModelError
+from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
-from fairlead.patterns import matcher
+from fairlead.patterns import picked
 from fairlead.system.recording import OutputSignal
 from fairlead.system.unknowns import LEDGER
 
@@ -18,8 +20,9 @@ from fairlead.system.unknowns import LEDGER
 def unknown_signals(assembly: Assembly) -> list[Fault]:
     """Mistakes in `record` and `limits`, told from what the components declare; nothing is compiled for it."""
     signals = _signals(assembly)
-    names = [signal.name for signal in signals]
-    faults = [_no_such(pattern, text, names) for pattern, text in _recorded(assembly) if not _any(text, names)]
+    names = {signal.name: None for signal in signals}
+    unknown = ((value, text) for value, text in _recorded(assembly) if not picked(names, text))
+    faults = [_no_such(value, text, [*names]) for value, text in itertools.islice(unknown, MOST_FAULTS)]
     judged = {text: value for text, value in assembly.netlist.limits.items() if not _excused(assembly, text)}
     try:
         read_limits(judged, signals)
@@ -63,10 +66,6 @@ def _excused(assembly: Assembly, pattern: str) -> bool:
     if first in {path.split(".")[0] for path in assembly.lines if path not in routed}:
         return True
     return bool(assembly.broken) and (first in assembly.broken or any(c in first for c in "*?"))
-
-
-def _any(pattern: str, names: list[str]) -> bool:
-    return any(map(matcher(pattern), names))
 
 
 def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:

@@ -17,6 +17,9 @@ from fairlead.cli.exit_codes import INTERRUPTED, UNFORESEEN
 from fairlead.cli.terminal import echo
 from fairlead.errors import FairleadError, Fault, ModelError
 
+MOST_FAULTS_TOLD = 1000
+"""In JSON; on the screen it is a tenth of that, and the text of `error` says how many there are."""
+
 
 class Verbs(typer.core.TyperGroup):
     """The verbs; Ctrl-C before one of them has begun ends as it does later."""
@@ -80,7 +83,8 @@ def fault_record(fault: Fault) -> dict[str, object]:
 
 
 def _as_json(error: FairleadError) -> str:
-    faults = [fault_record(fault) for fault in error.faults] if isinstance(error, ModelError) else []
+    all_faults = error.faults if isinstance(error, ModelError) else ()
+    faults = [fault_record(fault) for fault in all_faults[:MOST_FAULTS_TOLD]]
     told = {"ok": False, "exit_code": error.exit_code, "error": str(error), "faults": faults, "warnings": []}
     return json.dumps(told, indent=2)
 

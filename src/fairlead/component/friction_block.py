@@ -9,6 +9,7 @@ from fairlead.component.mistakes import elsewhere
 from fairlead.component.parameters import read
 from fairlead.component.scene import Scene, is_head
 from fairlead.errors import Fault, did_you_mean, listing, shown
+from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Netlist, Value
 
 
@@ -18,6 +19,8 @@ def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene,
     known = {name for head in heads for m in head.members.values() for name in (*m.declaration.parameters, m.key)}
     kept, faults = {}, []
     for name, value in netlist.friction.items():
+        if len(faults) > MOST_FAULTS:
+            break
         wrong = _unknown(name, value, known) if heads else []
         for head in heads:
             wrong += _wrong_word(head, value) if name == head.key else _wrong_value(netlist, head, name, value)

@@ -7,6 +7,7 @@ Composites are expanded here, so that the next stage sees leaves only. All mista
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
@@ -19,6 +20,7 @@ from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_
 from fairlead.component.stand_in import stand_in
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
+from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
 
 
@@ -146,6 +148,9 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
     scene, faults = sound(netlist, types)
     assembly = Assembly(netlist, scene)
     for entry in netlist.components.values():
+        if len(faults) > MOST_FAULTS:  # nobody mends more in one go
+            assembly.broken.add(entry.name)
+            continue
         kind = types.get(entry.type)
         if kind is None:
             near = did_you_mean(entry.type, types) or f"There are {listing(sorted(types), 30)}."
@@ -159,6 +164,9 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
             faults += _expanded(assembly, entry.name, found, entry.where)
     faults += _unknown_effects(assembly, types)
     for ends in netlist.connections:
+        if len(faults) > MOST_FAULTS:
+            assembly.excuse(assembly.instances)
+            break
         faults += _connect(assembly, ends)
     faults += _open_paths(assembly)
     return assembly, sorted(faults, key=lambda f: (f.where is None, f.where))
@@ -334,7 +342,7 @@ def _unknown_effects(assembly: Assembly, types: Mapping[str, type[Declared]]) ->
     declared |= {name for kind in named for name in kind.declaration.effects}  # of those too that could not be made
     known = sorted({*FRAMEWORK_EFFECTS, *declared})
     faults = []
-    for name, value in assembly.netlist.effects.items():
+    for name, value in itertools.islice(assembly.netlist.effects.items(), MOST_FAULTS):
         if name not in known:
             what = f"effects.{name}: nothing in this scene has such an effect. {did_you_mean(name, known)}"
             faults.append(Fault(value.named_at, what.rstrip(), f"It has {listing(known)}."))

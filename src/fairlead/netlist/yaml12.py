@@ -29,6 +29,7 @@ HEXADECIMAL = re.compile(r"0x([0-9a-fA-F]+)")
 FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 INFINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)")
 NOT_A_NUMBER = re.compile(r"\.(?:nan|NaN|NAN)")
+LONGEST_LINE = 200  # characters on each side of a mistake that are looked at for its cause
 MOST_DIGITS = 300  # beyond that no float holds it, and Python itself refuses to read 4300
 
 Scalar = str | int | float | bool | None
@@ -231,6 +232,8 @@ def _stays_open(text: str, start: int) -> bool:
 
 def _advice(line: str, column: int) -> str:
     """The usual cause of a syntax error on this line, if it can be seen."""
+    begin = max(0, column - LONGEST_LINE)
+    line, column = line[begin : column + LONGEST_LINE], column - begin
     if "\t" in line[: column + 1]:
         return "Indent with spaces; YAML takes no tabs."
     if re.search(r":\s+\{[^}:]*\}\s*\S", line):

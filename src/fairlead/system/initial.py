@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from fairlead.component.instantiate import PortRef
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.flatten.flat_model import FlatModel
-from fairlead.patterns import matcher
+from fairlead.netlist.limits import MOST_FAULTS
+from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si
 from fairlead.system.unknowns import Numbering
 
@@ -39,7 +40,9 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
     names, faults = _names(flat, numbering), []
     said: dict[int, tuple[str, float]] = {}
     for pattern, value in given.items():
-        chosen = [*filter(matcher(pattern), names)]
+        if len(faults) > MOST_FAULTS:
+            break
+        chosen = picked(names, pattern)
         if not chosen:
             faults.append(_no_such(flat, names, pattern, value.named_at))
             continue

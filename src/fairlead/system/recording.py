@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fairlead.patterns import matcher
+from fairlead.patterns import picked
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Integers
 from fairlead.system.shares import shares
@@ -49,9 +49,9 @@ def choose(
     signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], counts: Integers
 ) -> Recording:
     """The signals whose names fit a pattern with * and ?; `counts` of the other modes are those of the System."""
-    wanted = [matcher(pattern) for pattern in patterns]
-    chosen = [s for s in signals if any(fits(s.name) for fits in wanted)]
-    names = {s.name for s in chosen}
+    known = {s.name: None for s in signals}
+    names = {name for pattern in patterns for name in picked(known, pattern)}
+    chosen = [s for s in signals if s.name in names]
     hidden = [s for s in signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
     return recording(chosen, chosen + hidden, blocks, counts)
 
