@@ -32,6 +32,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=None)
     parser.add_argument("--only", default="", help="names of the netlists to damage, separated by commas")
+    parser.add_argument("--verb", default="check", help="another verb that runs nothing: statics, graph, describe")
     parser.add_argument("--keep", type=pathlib.Path, default=None, help="folder for what was answered badly")
     asked = parser.parse_args()
     seed = random.SystemRandom().randrange(10**6) if asked.seed is None else asked.seed
@@ -43,7 +44,7 @@ def main() -> int:
     codes: Counter[object] = Counter()
     with tempfile.TemporaryDirectory() as folder:
         for mutant in netlists.mutants(pathlib.Path(folder), seed, asked.count, asked.only.split(",")):
-            verdict = judge(mutant.file)
+            verdict = judge(mutant.file, verb=asked.verb)
             codes[verdict.code] += 1
             for complaint in verdict.complaints:
                 told[complaint] += 1

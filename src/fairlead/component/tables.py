@@ -26,6 +26,7 @@ from collections.abc import Callable, Iterator, Mapping, Set
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fairlead.component.declare import Table, Waveform
 from fairlead.component.piecewise import (
@@ -337,15 +338,21 @@ def add(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
     references = [x if x > -FAR else (borders[0] if borders else 0.0) for x in starts]
     inside = [(x + y) / 2 if x > -FAR and y < FAR else (y - 1 if x <= -FAR and y < FAR else x + 1 if x > -FAR else 0.0)
               for x, y in zip(starts, [*borders, FAR], strict=True)]  # fmt: skip
-    terms = [sum(_about(p, at, r) for p in (a, b)) for at, r in zip(inside, references, strict=True)]
-    return pieces(borders, [list(t) for t in terms])
+    at, about = np.array(inside), np.array(references)
+    terms = _about(a, at, about) + _about(b, at, about)
+    return pieces(borders, terms.tolist())
 
 
-def _about(p: PiecewisePolynomial, at: float, reference: float) -> Any:
-    """Coefficients, about `reference`, of the piece that holds `at`."""
-    row = p.rows[p.piece_at(at)]
-    shifted = np.polynomial.Polynomial(row[3:])(np.polynomial.Polynomial([reference - row[2], 1.0]))
-    return np.pad(shifted.coef, (0, DEGREE + 1 - len(shifted.coef)))
+def _about(p: PiecewisePolynomial, at: NDArray[np.float64], references: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coefficients (n, DEGREE + 1), about each reference, of the pieces that hold the places `at` (n,)."""
+    number = np.clip(np.searchsorted(p.rows[:, 0], at, side="right") - 1, 0, len(p.rows) - 1)
+    given = p.rows[number]
+    shift = (references - given[:, 2])[:, None]
+    made = np.zeros((len(at), DEGREE + 1))
+    for power in range(DEGREE, -1, -1):  # Horner's scheme in y = x + shift
+        made[:, 1:] = made[:, 1:] * shift + made[:, :-1]
+        made[:, :1] = made[:, :1] * shift + given[:, 3 + power : 4 + power]
+    return made
 
 
 def table_schema(declared: Table) -> dict[str, Any]:
