@@ -133,3 +133,17 @@ def test_every_command_of_the_page_on_friction_ends_well(answer):
         said = answer(*shlex.split(line)[1:])
         assert said.exit_code == 0, said.output
     assert all(f"figures/{name}.png" in page for name in ("binding", "compare"))
+
+
+@pytest.mark.parametrize(("vary", "said"), [
+    ("pad.metod=hold,tanh", "--vary: pad.metod: Contact"),
+    ("friction.method=hold,foo", "--vary: friction.method: there is no method foo"),
+    ("pda.method=hold,tanh", "--vary: pda.method: there is no component or block pda"),
+    ("run.stop=3,soon", "--vary: run.stop = soon is not a quantity"),
+    ("nosuch=1,2", "--vary: nosuch: there is no parameter nosuch"),
+])  # fmt: skip
+def test_a_mistake_in_what_is_varied_is_told_before_anything_runs(answer, tmp_path, vary, said):
+    told = answer("compare", "block_and_spring", "--vary", vary, "--out", "c")
+    assert told.exit_code == 1
+    assert said in told.output
+    assert not (tmp_path / "c").exists()

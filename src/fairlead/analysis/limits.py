@@ -80,7 +80,7 @@ class Limits:
 
 def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) -> Limits:
     """Bind the limits of a netlist to recorded columns. Raises ModelError."""
-    found, faults = Limits(), []
+    found, faults = Limits(), list[Fault]()
     column = {signal.name: k for k, signal in enumerate(recorded)}
     for pattern, value in given.items():
         if len(faults) > MOST_FAULTS:

@@ -17,7 +17,8 @@ def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene,
     """The scene with those of its friction settings that can be used, and what is wrong with the others."""
     heads = [kind for kind in types.values() if is_head(kind)]
     known = {name for head in heads for m in head.members.values() for name in (*m.declaration.parameters, m.key)}
-    kept, faults = {}, []
+    kept: dict[str, Value] = {}
+    faults: list[Fault] = []
     for name, value in netlist.friction.items():
         if len(faults) > MOST_FAULTS:
             break

@@ -37,7 +37,7 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
     given = flat.assembly.netlist.initial
     if not given:
         return begin, []
-    names, faults = _names(flat, numbering), []
+    names, faults = _names(flat, numbering), list[Fault]()
     said: dict[int, tuple[str, float]] = {}
     for pattern, value in given.items():
         if len(faults) > MOST_FAULTS:
