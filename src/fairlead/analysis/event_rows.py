@@ -45,8 +45,9 @@ class EventRows:
     def take(self, rows: Rows) -> Rows:
         """The rows to write of these and of one that waited."""
         if self._waiting is not None:
-            (t, values, side), more = self._waiting, rows
-            rows = Rows(*map(np.concatenate, ((t, more.t), (values, more.values), (side, more.side))))
+            first, more = self._waiting, rows
+            t, values = np.concatenate([first.t, more.t]), np.concatenate([first.values, more.values])
+            rows = Rows(t, values, np.concatenate([first.side, more.side]))
         ends_left = len(rows.side) > 0 and rows.side[-1] == BEFORE
         self._waiting = rows.where(slice(-1, None)) if ends_left else None
         if ends_left:
