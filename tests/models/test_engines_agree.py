@@ -28,7 +28,8 @@ MODELS = sorted(path.stem for path in Path(fairlead.models.__file__).parent.glob
 ENGINES = ("rodas", "stepping", "ida")
 SPAN = {"belt": 5.0, "block_and_spring": 4.0, "sandwich": 2.0, "hundred_blocks": 0.5, "single_bend": 2.0,
         "guidance_route": 0.1, "guidance_route_ideal": 0.1, "guidance_route_electric": 0.1,
-        "weak_clamp": 0.1, "slack_start": 0.05, "long_deployment": 0.02, "power_unit": 0.7}  # fmt: skip
+        "weak_clamp": 0.1, "slack_start": 0.05, "long_deployment": 0.02, "long_route": 0.003,
+        "power_unit": 0.7}  # fmt: skip
 """Seconds of each model that are compared: some whole cycles, or the first hundreds of switches."""
 SHORT = 0.5
 
