@@ -97,6 +97,14 @@ def test_a_variable_that_is_missing_is_not_passed_over(sound: Path, name: str) -
     assert "series.nc: the file is damaged (" in refused(sound)
 
 
+@pytest.mark.parametrize("value", ["of no fixed length", [1, 2], 3.5])
+def test_an_attribute_of_another_kind_is_told_and_not_read_beyond_its_room(sound: Path, value: object) -> None:
+    for name in ("units", "position"):
+        with h5py.File(sound / "series.nc", "r+") as file:
+            file["line.core[1].tension"].attrs[name] = value
+        assert "is not as a run writes it" in refused(sound)
+
+
 def test_a_run_without_rows_has_no_margins(sound: Path) -> None:
     with h5py.File(sound / "series.nc", "r+") as file:
         for name in file:

@@ -105,7 +105,7 @@ def _read_columns(file: h5py.File) -> tuple[Signal, ...]:
             continue
         column = h5d.open(file.id, name.encode())
         signal = Signal(*(_text(column, key) for key in ("signal", "units", "long_name")))
-        position = int(_attribute(column, "position"))
+        position = int(_attribute(column, "position", "i"))
         if variable_name(signal.name) != name or position in found or not _is_number(column, "f", 1):
             raise ValueError(f"{name} is no signal")
         found[position] = signal
@@ -194,13 +194,16 @@ def _set_number(variable: Any, name: str, number: int) -> None:
 
 
 def _text(variable: Any, name: str) -> str:
-    return bytes(_attribute(variable, name)).rstrip(b"\0").decode()
+    return bytes(_attribute(variable, name, "S")).rstrip(b"\0").decode()
 
 
-def _attribute(variable: Any, name: str) -> Any:
+def _attribute(variable: Any, name: str, kind: str) -> Any:
+    """Return a text (kind S) or a whole number (i). Anything else would be written beyond the room for one."""
     from h5py import h5a
 
     attribute = h5a.open(variable, name.encode())
+    if attribute.shape != () or attribute.dtype.kind != kind:
+        raise ValueError(f"the attribute {name} of a signal is not as a run writes it")
     content = np.empty((), dtype=attribute.dtype)
     attribute.read(content, mtype=attribute.get_type())
     return content[()]
