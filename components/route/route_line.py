@@ -93,7 +93,11 @@ class RouteLine:
         if len(self.placed) != len(now.placed) or self._said() != now._said():
             return None
         pairs = zip(self.placed, now.placed, strict=True)
-        return parts if all(agree(one.station, other.station, parts) for one, other in pairs) else None
+        if not all(agree(one.station, other.station, parts) for one, other in pairs):
+            return None
+        curves = ((one.friction, other.friction) for one, other in zip(self.surfaces, now.surfaces, strict=True))
+        handed = all(id(one) in parts and parts[id(one)].now is other for one, other in curves)
+        return parts if handed else None  # a station may work out a curve of its own
 
     def _said(self) -> list[Any]:
         """What laying is to know beside the parameters of the stations."""

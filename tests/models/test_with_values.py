@@ -8,9 +8,12 @@ import random
 
 import numpy as np
 import pytest
+from fairlead.components.friction.coulomb import Coulomb
+from fairlead.components.route.bend import Bend
 
 import fairlead
 from fairlead.component.alike import agree
+from fairlead.component.parameters import make
 from fairlead.errors import ModelError
 from fairlead.netlist.files import bundled_models
 from fairlead.netlist.load import load
@@ -169,7 +172,7 @@ def test_every_other_value_of_a_bundled_model_is_that_of_a_fresh_one(name):
 
 
 @pytest.mark.parametrize(("name", "path", "value"), [
-    ("long_route", "mu", 0.5), ("long_route", "line.bulkhead_friction.stiction", 0.6),
+    ("long_route", "mu", 0.5), ("single_bend", "line.bulkhead_friction.stiction", 0.6),
     ("belt", "pad.normal_force", "12 N"), ("belt", "run.start", "0.1 s"), ("sandwich", "creep", "1e-4 m/s"),
 ])  # fmt: skip
 def test_a_new_friction_shares_the_structure(name, path, value):
@@ -198,7 +201,7 @@ def test_mistakes_are_those_of_load(wrong):
 
 
 @pytest.mark.parametrize(("name", "values"), [
-    ("belt", {"pad.normal_force": "12 N"}), ("single_bend", {"mu": 0.6}), ("guidance_route", {"mu": 0.5}),
+    ("belt", {"pad.normal_force": "12 N"}), ("single_bend", {"mu": 0.6}), ("guidance_route_ideal", {"mu": 0.5}),
 ])  # fmt: skip
 def test_it_runs_to_the_same_rows(name, values):
     model = fairlead.load(name, set={"run.stop": "0.05 s"})
@@ -220,8 +223,8 @@ def test_parts_made_again_are_not_counted_as_more_parts_of_the_scene():
 
 
 def test_values_add_up_along_a_chain_of_models():
-    chain = model_of("long_route").with_values(mu=0.5).with_values(tail="200 N").with_values(mu=0.4)
-    same(chain.system, fairlead.load("long_route", set={"mu": "0.4", "tail": "200 N"}).system)
+    chain = model_of("single_bend").with_values(mu=0.5).with_values(creep="0.2 mm/s").with_values(mu=0.4)
+    same(chain.system, fairlead.load("single_bend", set={"mu": "0.4", "creep": "0.2 mm/s"}).system)
 
 
 def test_the_first_model_stays_as_it_was():
@@ -256,6 +259,17 @@ def test_a_component_of_a_library_takes_other_values(scene, library):
     made = model.with_values(push="4 N")
     assert made.rebuilt == ""
     same(made.system, fairlead.load(model.netlist.path, {"push": "4 N"}, libraries).system)
+
+
+def test_a_station_that_works_out_a_curve_of_its_own_is_not_passed_over(monkeypatch):
+    def rubs(p):
+        return make(Coulomb, coulomb=2 * p.friction.coulomb)
+
+    monkeypatch.setattr(Bend, "rubs", rubs)
+    model = fairlead.load("capstan")
+    friction = next(path for path in settings_of("capstan") if path.endswith("friction") or path == "mu")
+    made = model.with_values(**{friction: 0.123})
+    same(made.system, fairlead.load("capstan", set={friction: "0.123"}).system)
 
 
 def test_models_made_in_threads_are_those_made_one_by_one():
