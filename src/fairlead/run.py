@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
 from fairlead.analysis.event_rows import EventRows, Rows
+from fairlead.analysis.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
 from fairlead.analysis.remarks import remarks
@@ -249,7 +250,8 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
         "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
-        "limits": watch.limits.plain(),
+        "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
+        "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "jumps": watch.jumps(),
     }  # fmt: skip
 

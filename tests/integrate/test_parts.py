@@ -6,7 +6,8 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith(("n_", "call_"))), "n", "stages", "context", "dense", "linear",
-    "most_perturbed", "has_limits", "weighs_guards", "samples", "max_passes", "gamma", "error_exponent",
+    "most_perturbed", "has_limits", "weighs_guards", "takes_impulses",
+    "dissipated_at", "supplied_at", "samples", "max_passes", "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "on_chatter", "start", "stop",

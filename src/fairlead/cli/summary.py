@@ -1,12 +1,13 @@
 """The table a run ends with: what it cost, and how far its numbers can be trusted."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 UNKNOWN = "not known"
+MOST_NAMED = 3
 
 
 def summary_table(run: Mapping[str, Any], directory: object) -> "Table":
@@ -33,8 +34,27 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         ("switches", f"{run.get('switches', UNKNOWN)}"),
         ("worst creep", _creep(run.get("worst_creep"))),
         ("energy closure", _closure(run.get("energy"))),
+        *_lost(run.get("lost")),
+        *_changed_starts(run.get("changed_starts")),
         *_against_statics(run.get("against_statics")),
         ("results", str(directory)),
+    ]
+
+
+def _lost(lost: Mapping[str, float] | None) -> list[tuple[str, str]]:
+    """Energy that impacts took, by component; nothing where there were none."""
+    if not lost:
+        return []
+    most = sorted(lost.items(), key=lambda item: -item[1])
+    named = ", ".join(f"{value:.3g} J in {path}" for path, value in most[:MOST_NAMED])
+    return [("lost in impacts", named + (f" and in {len(most) - MOST_NAMED} more" if len(most) > MOST_NAMED else ""))]
+
+
+def _changed_starts(changed: Sequence[Mapping[str, Any]] | None) -> list[tuple[str, str]]:
+    """Start values that did not hold; nothing where all did."""
+    return [
+        ("start changed", f"{one['name']} from {one['given']:.4g} to {one['became']:.4g} {one['unit']}")
+        for one in (changed or ())[:MOST_NAMED]
     ]
 
 

@@ -45,6 +45,7 @@ class Group:
     mass: float  # inertia at the group [kg, kg m^2, or capacity]
     start: tuple[float, float]  # position (or potential) and rate at the start
     prescribed: Prescribed | None
+    given: tuple[bool, bool] = (False, False)  # whether a component gives that position, that rate
 
     @property
     def free(self) -> bool:

@@ -155,6 +155,7 @@ def _group(nodes: list[Node], inside: list[tuple[int, float, float]], facts: Any
         name or str(nodes[inside[0][0]].ports[0]), nodes[inside[0][0]].domain,
         tuple(n for n, _, _ in inside), tuple(r for _, r, _ in inside), tuple(o for _, _, o in inside),
         mass, (position, rate), prescribed[0][1] if prescribed else None,
+        (any(s[2] is not None for s in starts), any(s[3] is not None for s in starts)),
     )  # fmt: skip
     return made, faults + wrong + also
 

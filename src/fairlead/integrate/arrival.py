@@ -149,6 +149,7 @@ def finish_settling(m, starting):
         write_row(m, m.t, m.at_y, ORDINARY if starting else AFTER)
     if starting:
         m.grid_next = 1
+        copy(reals(m.at_y, m.n), reals(m.at_begun, m.n))
     m.phase = TRY
 
 

@@ -103,6 +103,8 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         culprits=culprits,
         chattering=tuple(own.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),
         counters=count(memory),
+        begun=scope.whole.array["begun"].copy(),
+        lost=memory.array["lost"].copy(),
         wall=time.perf_counter() - begun,
         loop_wall=inside,
         loop_cpu=worked,
@@ -211,6 +213,8 @@ def prepare(problem: Instance, run: Run, tableau: Tableau) -> Memory:
     memory.number["weighs_guards"] = int(memory.array["guard_inertia"].any())
     memory.array["watched"][:] = watched(problem)
     memory.number["n_watched"] = int(memory.array["watched"].sum())
+    memory.number["takes_impulses"] = int((memory.array["takes_impulse"] == 2).any())
+    memory.number["dissipated_at"], memory.number["supplied_at"] = getattr(problem, "ledger", (-1, -1))
     memory.number["n_algebraic"] = int(n - np.count_nonzero(problem.differential))
     memory.array["last_toggle"][:] = -NEVER
     memory.array["blocked_until"][:] = -NEVER
@@ -235,6 +239,8 @@ def given_arrays(problem: Instance, tableau: Tableau, plan: ordering.Plan) -> di
         "m": tableau.m, "e": tableau.e, "H": tableau.H.ravel(),
         "zones": problem.zones, "guard_machine": problem.guard_machine,
         "kink_guard": np.asarray(getattr(problem, "kink_guard", np.zeros(len(problem.guard_machine))), np.int64),
+        "may_hold": _of_contacts(problem),
+        "takes_impulse": np.asarray(getattr(problem, "takes_impulse", np.zeros(len(problem.initial))), np.int64),
         "guard_inertia": getattr(problem, "guard_inertia", np.zeros(len(problem.guard_machine))),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
@@ -243,6 +249,12 @@ def given_arrays(problem: Instance, tableau: Tableau, plan: ordering.Plan) -> di
         "mass_columns": columns_of(problem.mass_pattern),
         **plan.arrays,
     }  # fmt: skip
+
+
+def _of_contacts(problem: Problem) -> Integers:
+    """1 for every guard of a machine that decides whether a row holds."""
+    holder = np.asarray(getattr(problem, "holder", ()), dtype=np.int64)
+    return np.isin(problem.guard_machine, holder[holder >= 0]).astype(np.int64)
 
 
 def settings(run: Run, tableau: Tableau) -> dict[str, float]:

@@ -30,6 +30,8 @@ INTEGERS = (
     # the settlement: which violators change, since which pass, the fewest there were, passes since, whether
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
+    # impacts: whether any row takes impulses, and the unknowns of the energy ledger (-1: there is none)
+    "takes_impulses", "dissipated_at", "supplied_at",
     # the core of W: which matrix is factored there, whether its factors are good, columns of the last factorisation
     "core_kind", "core_valid", "skip_meters", "n_redone", "n_perturbed", "most_perturbed",
     # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
@@ -95,6 +97,10 @@ VECTORS = {
     "guard_inertia": "n_guards", "wrong": "n_guards",
     # machines
     "switched_after": "n_zones", "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
+    # energy lost in impacts, by the row that held
+    "lost": "n",
+    # the point as it was settled at the start
+    "begun": "n",
     # what was recorded
     "row_t": "row_capacity", "row_values": "rows_outputs", "event_t": "event_capacity",
 }  # fmt: skip
@@ -103,13 +109,14 @@ VECTORS = {
 INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_columns": "n_mass", "mass_place": "n_mass",
-    "differential": "n", "quadrature": "n", "watched": "n",
+    "differential": "n", "quadrature": "n", "watched": "n", "takes_impulse": "n",
     # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
     # zones at the start of the step; machines that switched in the trial (missed_impulse.py)
     "controlled": "n", "position_of": "n", "holds": "n", "of_massless": "n", "caught": "n", "rested": "n",
     "zones_at_start": "n_zones",
     "held_position": "n_zones", "held_speed": "n_zones",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",
+    "may_hold": "n_guards",
     "may_jump": "n_guards", "suspects": "n_guards", "kind_is_smooth": "n_zones",
     "zones_probed": "n_zones", "first_guard": "n_zones", "met": "n_zones",
     "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones", "switched": "n_zones",

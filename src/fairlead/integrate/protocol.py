@@ -33,6 +33,8 @@ An instance may also have `stiff` [n]: differential unknowns that may follow wha
 resists its force; 0 for others. Settling then knows which of two wrong zones is the more so, a force beyond its
 limit or an acceleration against the friction (settling.py). And `kink_guard` [ng]: guards at which f is continuous and
 nothing but its slope jumps, as between two pieces of a table; `rodas` steps a hair past those instead of on them.
+Where rows take impulses it tells by `takes_impulse` [n] (0: it never holds, 1: none but rounding, 2: any), and by
+`ledger` the unknowns in which what is dissipated and supplied adds up, -1 for none (impulse.py).
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
 that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `machine_kind`
@@ -291,6 +293,10 @@ class Outcome:
     chattering: tuple[str, ...]
     """Machines that toggled faster than their dwell, whatever the reaction."""
     counters: Counters
+    begun: Floats
+    """[n]: the unknowns as they were settled at the start; zeros if they were not."""
+    lost: Floats
+    """[n]: energy lost in impacts, J, by the row that held."""
     wall: float
     """Seconds spent, all included."""
     loop_wall: float

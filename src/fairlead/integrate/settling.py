@@ -22,6 +22,7 @@ from __future__ import annotations
 from fairlead.integrate.controller import weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.guards import evaluate_guards
+from fairlead.integrate.impulse import RELEASED
 from fairlead.integrate.linear import DONE
 from fairlead.integrate.record import there_is_room, write_event
 from fairlead.integrate.start import consistent
@@ -62,6 +63,8 @@ def settle(m, iterations):
                 return NO_ROOM
             change_zones(m)
         status = consistent(m, iterations)
+        if status == RELEASED:
+            continue
         if status != DONE:
             return status
         judge(m)

@@ -3,9 +3,9 @@
     find (y'_d, y_a) with M y' = f(t, y):   C (dy'_d, dy_a) = f - M y',
     C = columns of M where differential, of -J where algebraic
 
-By Newton; linear problems take one iteration, and a second to know it. Held rows first project: at a
-capture C (dV, Lambda) = r with r = -v_rel on the rows that hold gives the impulse that brings them to
-rest and conserves momentum; dV is added to the differential unknowns, Lambda dropped.
+By Newton; linear problems take one iteration, and a second to know it. Impacts come first (impulse.py). Then held rows
+project: at a capture C (dV, Lambda) = r with r = -v_rel on the rows that hold gives the impulse that brings them to
+rest and conserves momentum; dV is added to the differential unknowns, Lambda dropped. It is of the size of rounding.
 
 The start is staged: the same Newton from the user's guess, then damped (halving while the residual
 norm, in units of its first value by row, grows), then settling.
@@ -17,6 +17,7 @@ from math import isfinite
 
 from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
+from fairlead.integrate.impulse import impact
 from fairlead.integrate.linear import DONE, add_mass_times, factorise_consistent, solve, solve_watched
 from fairlead.integrate.rosenbrock import times_jacobian
 
@@ -77,10 +78,12 @@ def residual_here(m, at_r):
 def consistent(m, iterations):
     """Make the point consistent for the zones in force, and compute its rate of change.
 
-    Returns DONE, SINGULAR, INACCURATE or NOT_CONSISTENT.
+    Returns DONE, SINGULAR, INACCURATE, NOT_CONSISTENT or RELEASED (impulse.py).
     """
     mass_at(m.call_mass, (m.context, m.at_mass))
     status = prepare_consistent(m)
+    if status == DONE:
+        status = impact(m)
     if status != DONE:
         return status
     project(m)

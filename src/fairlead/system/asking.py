@@ -22,6 +22,13 @@ def call(system: Instance, name: str, t: float, y: Floats, *out: Floats) -> None
     CALLS[len(out)](callbacks().address[name])(system.context, t, y.ctypes.data, *(one.ctypes.data for one in out))
 
 
+def mass_of(system: Instance) -> Floats:
+    """M along its pattern, in the zones in force."""
+    made = np.zeros(len(system.mass_pattern.rows))
+    ctypes.CFUNCTYPE(None, ctypes.c_int64, POINTER)(callbacks().address["mass"])(system.context, made.ctypes.data)
+    return made
+
+
 def partials_at(system: Instance, t: float, y: Floats) -> Floats:
     """All partial derivatives of laws at (t, y)."""
     call(system, "jacobian", t, y, np.zeros(len(system.pattern.rows)), np.zeros(system.n))

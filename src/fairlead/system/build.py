@@ -18,7 +18,16 @@ from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
-from fairlead.system.switching import guards, holders, kinks, limits, machine_kinds, machine_owners, machine_zones
+from fairlead.system.switching import (
+    guards,
+    holders,
+    kinks,
+    limits,
+    machine_kinds,
+    machine_owners,
+    machine_zones,
+    takes_impulse,
+)
 from fairlead.system.system import Pattern, System
 from fairlead.system.timing import first_pieces, samplers
 from fairlead.system.tolerances import scales
@@ -74,6 +83,7 @@ def build(
         guard_machine=memory["guard_machines"],
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),
+        takes_impulse=takes_impulse(blocks, numbering.n),
         limit_guard=limits(blocks),
         kink_guard=kinks(blocks),
         linear=all(_is_linear(block, numbering) for block in blocks),

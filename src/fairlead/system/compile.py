@@ -20,6 +20,7 @@ from fairlead.system.initial import starts
 from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.narrowing import Narrowing
 from fairlead.system.ranks import signal_ranks
+from fairlead.system.start_speeds import start_speeds
 from fairlead.system.system import System
 from fairlead.system.unknowns import number
 
@@ -32,12 +33,15 @@ def compile(flat: FlatModel) -> System:
     numbering = number(flat, structures, energy=energy_counted(flat))
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
-    begin, faults = starts(flat, numbering)
+    begin, initially, faults = starts(flat, numbering)
     faults += undetermined(flat, numbering, blocks)
     if faults:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
-    return dataclasses.replace(system, narrows=Narrowing)
+    begin, faults = start_speeds(system, initially)
+    if faults:
+        raise ModelError(faults)
+    return dataclasses.replace(system, initial=begin, narrows=Narrowing)
 
 
 def energy_counted(flat: FlatModel) -> bool:

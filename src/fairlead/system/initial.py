@@ -31,12 +31,12 @@ class Named(NamedTuple):
     unit: str
 
 
-def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], list[Fault]]:
-    """The unknowns at the start, shape (n,), and what is wrong with the `initial` block."""
+def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], set[int], list[Fault]]:
+    """The unknowns at the start, shape (n,), those that `initial` names, and what is wrong with that block."""
     begin = np.array([unknown.start for unknown in numbering.unknowns])
     given = flat.assembly.netlist.initial
     if not given:
-        return begin, []
+        return begin, set(), []
     names, faults = _names(flat, numbering), list[Fault]()
     said: dict[int, tuple[str, float]] = {}
     for pattern, value in given.items():
@@ -61,7 +61,7 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
             said[at.unknown] = pattern, start
     for unknown, (_, start) in said.items():
         begin[unknown] = start
-    return begin, faults
+    return begin, set(said), faults
 
 
 def _names(flat: FlatModel, numbering: Numbering) -> dict[str, Named]:

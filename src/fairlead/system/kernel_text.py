@@ -350,6 +350,7 @@ class KernelText:
             targets=self.targets, ledger=self.ledger, mass=self.mass,
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
+            rigid=sorted({u for z in self.zones for u, h in z.holds.items() if h.impulse == h.slip}),
             pairs={u: pair for u, (pair, _) in paired.items()}, senses={u: sense for u, (_, sense) in paired.items()},
             guards={name: [_describe(g, self, zone) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots, fixed_signals=self.fixed[0], fixed_flows=self.fixed[1], fixed_ledger=self.fixed[2],

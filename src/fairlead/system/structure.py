@@ -27,6 +27,7 @@ class Structure:
     d_ledger: list[tuple[int, int]]
     mass: list[tuple[str, int]]  # (unknown, input) of the mass entries of hold rows
     holds: dict[str, list[str]]  # unknown -> zones that hold
+    rigid: list[str]  # unknowns of those that take an impulse of any size where they hold
     pairs: dict[str, dict[str, float]]  # unknown -> port -> coefficient of its speed in the slip, see `held_pairs`
     senses: dict[str, float]  # unknown -> what a port takes in over that coefficient, for an unknown of one
     guards: dict[str, list[dict[str, Any]]]  # zone -> its guards in slot order

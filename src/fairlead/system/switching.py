@@ -85,6 +85,16 @@ def holders(blocks: Sequence[Block], n: int) -> Integers:
     return holder
 
 
+def takes_impulse(blocks: Sequence[Block], n: int) -> Integers:
+    """For each of n rows what it takes where it holds: 0 it never holds, 1 an impulse of rounding, 2 any impulse."""
+    takes = np.zeros(n, dtype=np.int64)
+    for block in blocks:
+        s = block.kernel.structure
+        for unknown in s.holds:
+            takes[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = 2 if unknown in s.rigid else 1
+    return takes
+
+
 def limits(blocks: Sequence[Block]) -> Integers:
     """1 for every guard that bounds the force of its own contact while that holds."""
     found: list[int] = []

@@ -76,6 +76,7 @@ class System:
     guard_machine: Integers
     guard_inertia: Floats  # at the start
     holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
+    takes_impulse: Integers  # per row: 0 it never holds, 1 it takes no impulse but rounding, 2 it takes any
     limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
     kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
@@ -146,6 +147,12 @@ class System:
                     swings = block.parameters[:, names.index(f"{wave}:amplitude")] != 0
                     fastest = max(fastest, np.abs(block.parameters[swings, k]).max(initial=0.0))
         return math.pi / (4 * fastest) if fastest else math.inf
+
+    @property
+    def ledger(self) -> tuple[int, int]:
+        """The unknowns in which what is dissipated and what is supplied add up; -1 where there is no ledger."""
+        ledger = self.numbering.ledger
+        return ledger.get("dissipated", -1), ledger.get("supplied", -1)
 
     @property
     def samples(self) -> bool:
