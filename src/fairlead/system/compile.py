@@ -20,7 +20,7 @@ from fairlead.system.initial import starts
 from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.narrowing import Narrowing
 from fairlead.system.ranks import signal_ranks
-from fairlead.system.start_speeds import start_speeds
+from fairlead.system.start_speeds import started
 from fairlead.system.system import System
 from fairlead.system.unknowns import number
 
@@ -38,10 +38,7 @@ def compile(flat: FlatModel) -> System:
     if faults:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
-    begin, faults = start_speeds(system, initially)
-    if faults:
-        raise ModelError(faults)
-    return dataclasses.replace(system, initial=begin, narrows=Narrowing)
+    return dataclasses.replace(started(system, initially), narrows=Narrowing)
 
 
 def energy_counted(flat: FlatModel) -> bool:

@@ -28,6 +28,7 @@ from fairlead.system.build import HOLD_TIME, build
 from fairlead.system.context import ADDRESSES
 from fairlead.system.initial import starts
 from fairlead.system.shares import rows, shares
+from fairlead.system.start_speeds import started
 from fairlead.system.switching import kinks, machine_owners, machine_zones
 from fairlead.system.system import System
 from fairlead.system.timing import first_pieces, samplers, time_places
@@ -44,7 +45,7 @@ def refreshed(old: System, flat: FlatModel) -> System:
     moved = unlike(old.flat, flat)
     heavier = any(old.flat.groups[k].mass != flat.groups[k].mass for k in moved)
     numbering = _numbering(old.numbering, flat, changed.values(), moved)
-    begin, faults = starts(flat, numbering)
+    begin, initially, faults = starts(flat, numbering)
     if faults:
         raise ModelError(faults)
     near = on_groups(flat, moved)
@@ -53,8 +54,10 @@ def refreshed(old: System, flat: FlatModel) -> System:
     if any(b.kernel.structure.tables and _any_of(b, changed) for b in blocks):
         tables, blocks = _placed(blocks)
     if heavier:
-        return replace(build(flat, numbering, blocks, tables, old.machine_names, begin), narrows=old.narrows)
-    return _with_numbers(old, flat, numbering, blocks, tables, begin)
+        made = replace(build(flat, numbering, blocks, tables, old.machine_names, begin), narrows=old.narrows)
+    else:
+        made = _with_numbers(old, flat, numbering, blocks, tables, begin)
+    return started(made, initially)
 
 
 def _with_numbers(

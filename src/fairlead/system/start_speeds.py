@@ -8,11 +8,12 @@ row slips, an impulse would have to start the run: that is a contradiction. Fric
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 
 import numpy as np
 
 from fairlead.component.instantiate import PortRef
-from fairlead.errors import Fault
+from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.asking import call, mass_of
 from fairlead.system.blocks import Block
@@ -23,11 +24,19 @@ AGREES = 1e-9
 """Share of the speeds in a row that its slip may be: numbers in a netlist are rounded."""
 
 
-def start_speeds(system: System, initially: Collection[int]) -> tuple[Floats, list[Fault]]:
-    """The unknowns at the start (n,) with speeds that follow, and what contradicts.
+def started(system: System, initially: Collection[int]) -> System:
+    """The System with the speeds that follow at the start; `initially` are the unknowns that `initial` names.
 
-    `initially` are the unknowns that the netlist's `initial` names.
+    Raises ModelError where speeds contradict each other.
     """
+    begin, faults = start_speeds(system, initially)
+    if faults:
+        raise ModelError(faults)
+    return replace(system, initial=begin)
+
+
+def start_speeds(system: System, initially: Collection[int]) -> tuple[Floats, list[Fault]]:
+    """The unknowns at the start (n,) with speeds that follow, and what contradicts."""
     if not (system.takes_impulse == RIGID).any():
         return system.initial, []
     here, y = system.instance(), system.initial.copy()
