@@ -63,10 +63,10 @@ def test_blocks_arrive_while_the_run_goes_and_tell_its_fraction():
 
 
 def test_blocks_small_enough_to_fill_lose_no_row(monkeypatch):
-    from fairlead.integrate import driver
+    from fairlead.integrate import prepare
 
     whole = integrate(belt_block(), Run(stop=5.0, every=0.001))
-    monkeypatch.setattr(driver, "BLOCK_NUMBERS", 1)
+    monkeypatch.setattr(prepare, "BLOCK_NUMBERS", 1)
     pieces = integrate(belt_block(), Run(stop=5.0, every=0.001))
     assert len(pieces.blocks) > 50
     assert pieces.values.tobytes() == whole.values.tobytes()

@@ -1,16 +1,28 @@
-"""The memory of a run: one C struct of numbers and addresses, and the arrays they point to.
+"""The memory of a run: everything that it changes in one arena, and the addresses of what it needs.
 
-The compiled loop takes the address of the struct and nothing else. So it compiles once for every
-problem, allocates nothing, and a run can leave it at any step and come back. Everything here is
-eight bytes wide. `LAYOUT` is the one list: Python and compiled code read the same names.
+    links      addresses: of all arrays, of the C functions of the problem, of their context
+    arena      numbers, then arrays one after another, then what the callbacks of the problem change
+    behind it  scratch arrays, which hold nothing between two steps
+
+The compiled loop takes the address of the struct and nothing else: the links, and the numbers that follow at once. So
+it compiles once for every problem, allocates nothing, and a run can leave it at any step and come back. What no run
+changes (plans, patterns, the method) lies elsewhere, and runs share it; so do the buffers for what is recorded, which
+Python empties.
+
+There is no address in the arena, so that its bytes are the state of a run: copied to the same arena they take the run
+back, copied to the arena of another run of the same problem they make that go on from here. Offsets become addresses
+once, in the links, when an arena is made; an index in the loop then costs what it does in any array.
+
+Everything here is eight bytes wide. `LAYOUT` is the one list: Python and compiled code read the same names.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 INTEGERS = (
     # sizes
@@ -18,9 +30,6 @@ INTEGERS = (
     "n_algebraic", "n_watched", "n_guards", "n_zones", "n_outputs", "n_jacobian", "n_mass", "n_matrix",
     "stages",
     "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
-    # C functions of the problem, and their context
-    "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
-    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes",
     # settings
     "adaptive", "on_grid", "on_chatter", "dense",
     # where the run is
@@ -55,7 +64,13 @@ INTEGERS = (
     "rejected_diverged", "rejected_singular", "rhs", "jacobians", "factorisations", "solves", "guards", "switches",
     "located", "settling_passes", "time_events", "replans", "partial_steps",
 )  # fmt: skip
-"""Whole numbers of the struct; those beginning with call_ are addresses of C functions."""
+"""Whole numbers of the struct."""
+
+CALLS = (
+    "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
+    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes",
+)  # fmt: skip
+"""Addresses of C functions of the problem, and of their context."""
 
 NUMBERS = (
     # settings
@@ -86,7 +101,7 @@ VECTORS = {
     "pivot": "n_core", "jacobian_used": "n_jacobian", "mass_used": "n_mass", "core_x": "n_core", "core_b": "n_core",
     "core_residual": "n_core", "position_ratio": "n_positions", "position_share": "n_positions",
     "meter_share": "n_meters",
-    "known_slopes": "no_own", "known_masses": "no_own", "known_constants": "no_own",
+    "known_slopes": "own_slopes_by_zone", "known_masses": "own_masses_by_zone", "known_constants": "machines_by_zone",
     # the method
     "a": "stages_stages", "C": "stages_stages", "c": "stages", "d": "stages", "m": "stages", "e": "stages",
     "H": "three_stages",
@@ -126,9 +141,9 @@ INDICES = {
     "hold_share": "n_hold_share", "hold_share_row": "n_hold_share", "hold_share_column": "n_hold_share",
     "own_row": "n_zones", "own_slope_starts": "n_zones_plus_1", "own_slopes": "n_own_slopes",
     "own_slope_columns": "n_own_slopes", "own_mass_columns": "n_own_masses",
-    "own_mass_starts": "n_zones_plus_1", "own_masses": "n_own_masses", "known": "no_own",
+    "own_mass_starts": "n_zones_plus_1", "own_masses": "n_own_masses", "known": "machines_by_zone",
     "zones_linearised": "n_zones", "own_kind": "n_zones", "only_kinks": "n_zones",
-    "known_of_kind": "no_own", "exchanged_machines": "n_zones",
+    "known_of_kind": "machines_by_zone", "exchanged_machines": "n_zones",
     "rim": "n_zones", "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",
@@ -149,31 +164,79 @@ INDICES = {
 }  # fmt: skip
 """Arrays of whole numbers, by the name of their length."""
 
+BUFFERS = ("row_t", "row_values", "row_side", *(f"event_{of}" for of in ("t", "machine", "before", "after", "guard",
+           "position")))  # fmt: skip
+"""Arrays for what is recorded."""
+OF_INSTANCE = ("zones", "guard_inertia", "absolute", "relative", "cap", "column_scale", "guard_tolerance")
+"""Arrays that the instance of the problem has."""
+SCRATCH = ("zones_history", "patterns_met")
+"""Arrays that hold nothing between two steps, and are long."""
+
 LAYOUT = np.dtype(
-    [(name, "i8") for name in INTEGERS]
-    + [(name, "f8") for name in NUMBERS]
-    + [(f"at_{name}", "i8") for name in (*VECTORS, *INDICES)],
+    [(f"at_{name}", "i8") for name in (*VECTORS, *INDICES)]
+    + [(name, "i8") for name in (*CALLS, *INTEGERS)]
+    + [(name, "f8") for name in NUMBERS],
     align=True,
 )
 """The struct: at_<name> is the address of the array <name>."""
+LINKS = 8 * (len(VECTORS) + len(INDICES) + len(CALLS))
+"""Bytes of it that are addresses; the arena begins behind them."""
+LINE = 64
+"""Bytes of a line of the processor's cache; every array begins one."""
+
+
+class State(NamedTuple):
+    """Where a run is: a copy of its arena, and of the arrays that a replan put in place of others."""
+
+    arena: NDArray[np.uint8]
+    replaced: dict[str, NDArray[Any]]
+
+
+class _Arrays(dict[str, np.ndarray]):
+    """Arrays by name; those of the arena are views of it, made when first asked for."""
+
+    def __init__(self, memory: NDArray[np.uint8], places: Mapping[str, int], lengths: Mapping[str, int]) -> None:
+        super().__init__()
+        self._memory, self._places, self._lengths = memory, places, lengths
+
+    def __missing__(self, name: str) -> np.ndarray:
+        at = self._places[name]
+        kind = np.float64 if name in VECTORS else np.int64
+        self[name] = self._memory[at : at + 8 * self._lengths[name]].view(kind)
+        return self[name]
 
 
 class Memory:
-    """The struct and its arrays, owned by Python.
+    """Links, arena and scratch of one run, owned by Python, and views of all arrays.
 
-    `number[...]` reads and writes single values, `array[...]` the arrays.
+    `number[...]` reads and writes single values, `array[...]` the arrays, `piece` is what the problem changes.
     """
 
-    def __init__(self, lengths: Mapping[str, int], given: Mapping[str, np.ndarray]) -> None:
-        """Allocate by `lengths` (as named in VECTORS and INDICES); arrays in `given` are used as they are."""
-        self.struct = np.zeros(1, LAYOUT)
-        self.array: dict[str, np.ndarray] = {}
-        for table, kind in ((VECTORS, np.float64), (INDICES, np.int64)):
-            for name, length in table.items():
-                if name in given:
-                    self.point(name, given[name], kind)
-                else:
-                    self.point(name, np.zeros(lengths[length], kind), kind)
+    def __init__(self, lengths: Mapping[str, int], given: Mapping[str, np.ndarray], room: int = 0) -> None:
+        """Arrays by `lengths` (as named in VECTORS and INDICES), with `room` bytes for the problem.
+
+        Arrays in `given` are used as they are and not changed; buffers, and what the instance has, wait for `point`.
+        """
+        length_of = {name: lengths[length] for name, length in (VECTORS | INDICES).items()}
+        places, size = {}, _lines(LAYOUT.itemsize)
+        elsewhere = {*given, *BUFFERS, *OF_INSTANCE, *SCRATCH}
+        for name, length in length_of.items():
+            if name not in elsewhere:
+                places[name], size = size, size + _lines(8 * length)
+        piece, size = size, size + _lines(room)
+        for name in SCRATCH:
+            places[name], size = size, size + _lines(8 * length_of[name])
+        memory = np.zeros(size + LINE, dtype=np.uint8)
+        memory = memory[-memory.ctypes.data % LINE :][:size]
+        self.struct = memory[: LAYOUT.itemsize].view(LAYOUT)
+        self.arena, self.piece = memory[LINKS : piece + room], memory[piece : piece + room]
+        self.array: dict[str, np.ndarray] = _Arrays(memory, places, length_of)
+        self.replaced: dict[str, np.ndarray] = {}
+        self._first: dict[str, np.ndarray] = {}  # what stood where something was replaced
+        links, base = memory[:LINKS].view(np.int64), memory.ctypes.data
+        links[: len(length_of)] = [base + places.get(name, 0) for name in length_of]
+        for name, array in given.items():
+            self.point(name, array, np.float64 if name in VECTORS else np.int64)
 
     def point(self, name: str, array: np.ndarray, kind: Any) -> None:
         """Make `name` stand for `array`, in place if it already has the right type."""
@@ -182,6 +245,25 @@ class Memory:
             fitting = np.zeros(1, kind)[:0]
         self.array[name] = fitting
         self.struct[0][f"at_{name}"] = fitting.ctypes.data
+
+    def replace(self, arrays: Mapping[str, np.ndarray]) -> None:
+        """Put these in place of arrays of other lengths: an order of pivots that the run has come upon."""
+        for name, array in arrays.items():
+            self._first.setdefault(name, self.array[name])
+            self.replaced[name] = array
+            self.point(name, array, array.dtype)
+
+    def save(self) -> State:
+        """A copy of where the run is, between two steps."""
+        return State(self.arena.copy(), {name: array.copy() for name, array in self.replaced.items()})
+
+    def restore(self, state: State) -> None:
+        """Go to where a run was that has the same problem and settings."""
+        self.arena[:] = state.arena
+        for name, array in self._first.items():
+            self.point(name, array, array.dtype)
+        self.replaced = {}
+        self.replace({name: array.copy() for name, array in state.replaced.items()})
 
     @property
     def number(self) -> Any:
@@ -192,3 +274,8 @@ class Memory:
     def address(self) -> int:
         """Where the struct is."""
         return int(self.struct.ctypes.data)
+
+
+def _lines(size: int) -> int:
+    """Bytes of so many whole lines that hold `size`."""
+    return -(-size // LINE) * LINE

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairlead.integrate.codes import KNOWN_ZONES
 from fairlead.integrate.condensing import columns_of, core_entries, lay_out
-from fairlead.integrate.protocol import Floats, Instance, Integers
+from fairlead.integrate.protocol import Floats, Instance, Integers, Problem
 
 MOST = 8
 """A machine with more neighbours than this hands nothing on: a big body that many contacts act on."""
 
 
-def held_entries(problem: Instance) -> dict[str, Integers]:
+def held_entries(problem: Problem) -> dict[str, Integers]:
     """Entries of M and of J in rows that may hold, by their names in memory.py.
 
     Those of J are slopes to what moves, which `stepping` takes out, or to other forces: contacts that close a
@@ -43,7 +42,7 @@ def held_entries(problem: Instance) -> dict[str, Integers]:
     }  # fmt: skip
 
 
-def neighbours(problem: Instance) -> dict[str, Integers]:
+def neighbours(problem: Problem) -> dict[str, Integers]:
     """Neighbours of every machine, its first guard, and the guards that limit a held force.
 
     Two machines are neighbours when a speed that one holds is a speed the other holds, or acts on one. A problem
@@ -68,8 +67,8 @@ def neighbours(problem: Instance) -> dict[str, Integers]:
     }  # fmt: skip
 
 
-def known_rows(problem: Instance) -> dict[str, Floats | Integers]:
-    """Entries of J and M in the row each machine holds, and room for what they are in every zone.
+def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
+    """Entries of J and M in the row each machine holds.
 
     A machine that holds no row, or more than one, has none; nor has one whose switch changes other rows too, as that of
     a contact in a circle changes how the others share (`beyond_row`).
@@ -93,14 +92,10 @@ def known_rows(problem: Instance) -> dict[str, Floats | Integers]:
         found[f"{name}_columns"] = columns_of(pattern)[entries]
     found["own_kind"] = own_kinds(problem, np.diff(found["own_slope_starts"]), np.diff(found["own_mass_starts"]))
     found["only_kinks"] = only_kinks(problem)
-    found["known_of_kind"] = np.zeros(KNOWN_ZONES * nz, dtype=np.int64)
-    found["known_slopes"] = np.zeros(KNOWN_ZONES * len(found["own_slopes"]))
-    found["known_masses"] = np.zeros(KNOWN_ZONES * len(found["own_masses"]))
-    found["known_constants"], found["known"] = np.zeros(KNOWN_ZONES * nz), np.zeros(KNOWN_ZONES * nz, dtype=np.int64)
     return found
 
 
-def own_kinds(problem: Instance, slopes: Integers, masses: Integers) -> Integers:
+def own_kinds(problem: Problem, slopes: Integers, masses: Integers) -> Integers:
     """The kind of every machine: rows of one kind have as many entries in J (`slopes`) and in M (`masses`).
 
     The problem says which machines follow the same laws (`machine_kind`). Of one that does not, every machine is
@@ -112,7 +107,7 @@ def own_kinds(problem: Instance, slopes: Integers, masses: Integers) -> Integers
     return np.array([numbers.setdefault(shape, len(numbers)) for shape in shapes], dtype=np.int64)
 
 
-def only_kinks(problem: Instance) -> Integers:
+def only_kinks(problem: Problem) -> Integers:
     """1 for machines that hold nothing and lead only from one piece of a continuous table to the next."""
     ng, nz = len(problem.guard_machine), len(problem.zones)
     machine = np.asarray(problem.guard_machine)
@@ -142,7 +137,7 @@ def what_is_held(problem: Instance) -> dict[str, Floats | Integers]:
     return {"held_inertia": inertia, "held_speed": speed, "held_position": position}
 
 
-def _found(problem: Instance, holder: Integers) -> list[list[int]]:
+def _found(problem: Problem, holder: Integers) -> list[list[int]]:
     """Neighbours of every machine, ascending."""
     rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
     held = holder[rows] >= 0

@@ -9,15 +9,16 @@ runs do the same.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fairlead.integrate.codes import TRY, WAKE
 from fairlead.integrate.counters import COUNTS
-from fairlead.integrate.memory import Memory
-from fairlead.integrate.protocol import EVENT, Instance
+from fairlead.integrate.memory import Memory, State
+from fairlead.integrate.prepare import NEVER_LOOK, new_plan, planned, prepare
+from fairlead.integrate.protocol import EVENT, Bytes, Instance, Problem, Run
+from fairlead.integrate.tableau import Tableau
 
 LEAST = 400
 """Unknowns of a problem that is worth looking at."""
@@ -35,7 +36,6 @@ AGAIN = 2
 """Steps of the whole after the rim of such a part has changed, if it had been worth it."""
 FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
 NEVER = 1e300
-NEVER_LOOK = np.iinfo(np.int64).max
 
 NUMBERS = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
@@ -53,21 +53,47 @@ BY_MACHINE = (
 )  # fmt: skip
 
 
+OWN = ("_pause", "_margin", "_since", "_seen", "_switched")
+"""What a Scope itself knows of a run."""
+
+
+class SavedPart(NamedTuple):
+    """The part a run worked on, and where it was."""
+
+    part: Any
+    memory: Memory
+    state: State
+    remembered: Any
+
+
+class ScopeState(NamedTuple):
+    """Where a run was: the whole, the part in force, and what the looks at it have shown."""
+
+    whole: State
+    remembered: Any
+    part: SavedPart | None
+    own: dict[str, Any]
+    looked: Any
+
+
 class Scope:
     """The problem and the memory the loop works on, and the whole that they stand for."""
 
-    def __init__(self, problem: Instance, prepare: Callable[[Instance], Memory], *, engine: str) -> None:
-        """Begin with the whole; `prepare` makes the memory of a problem."""
-        self.problem, self.whole_problem, self._prepare = problem, problem, prepare
-        self.memory = self.whole = prepare(problem)
+    def __init__(self, problem: Problem, run: Run, tableau: Tableau) -> None:
+        """Begin with the whole."""
+        self._run, self._tableau, stepping = run, tableau, run.engine == "stepping"
+        self.memory, self.problem = prepare(
+            problem, planned(problem, stepping), run, tableau, lambda piece: problem.instance(run, piece)
+        )
+        self.whole, self.whole_problem = self.memory, self.problem
         self.part: Any = None
-        self.narrowing: Any = getattr(problem, "narrowing", None)
+        self.narrowing: Any = getattr(self.problem, "narrowing", None)
         n = len(problem.initial)
         self._cost = LOOK_COST // max(n, 1) + LOOK_BASE
         self._pause, self._margin, self._since = self._cost, MARGIN, 0
         self._seen: Any = None
         self._switched = np.zeros(len(problem.zones), dtype=np.int64)
-        able = engine != "ida" and n >= LEAST and self.narrowing is not None and self.narrowing.possible
+        able = run.engine != "ida" and n >= LEAST and self.narrowing is not None and self.narrowing.possible
         able = able and bool(problem.callbacks.get("outputs"))  # else unknowns are recorded, and a part has fewer
         self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
 
@@ -137,7 +163,7 @@ class Scope:
         if part is None:
             self.memory.number["narrow_at"], self._pause = steps + self._pause, 2 * self._pause
             return
-        memory = self._prepare(part.problem)
+        memory, part = self._memory_of(part)
         for names, places in self._places(part):
             for name in names:
                 if name != "zones":
@@ -149,6 +175,43 @@ class Scope:
         self._make_fresh(memory)
         FILL(part.problem.callbacks["mass"])(part.problem.context, memory.array["mass"].ctypes.data)
         self.memory, self.problem, self.part, self._since = memory, part.problem, part, steps
+
+    def _memory_of(self, part: Any) -> tuple[Memory, Any]:
+        """Memory to work on a part, and the part at work in it, for the whole that is at work here."""
+        made = part
+
+        def place(piece: Bytes) -> Instance:
+            nonlocal made
+            made = part.placed(piece, self.whole_problem)
+            return made.problem
+
+        plan = new_plan(part.problem, self._run.engine == "stepping")
+        return prepare(part.problem, plan, self._run, self._tableau, place)[0], made
+
+    def save(self) -> ScopeState:
+        """Where the run is, between two steps."""
+        part = None
+        if self.part is not None:
+            part = SavedPart(self.part, self.memory, self.memory.save(), self.part.problem.remembered())
+        mine = {name: getattr(self, name) for name in OWN}
+        looked = None if self.narrowing is None else self.narrowing.looked
+        return ScopeState(self.whole.save(), self.whole_problem.remembered(), part, mine, looked)
+
+    def restore(self, state: ScopeState) -> None:
+        """Go to where this run was, or another one of the same problem and settings."""
+        self.whole.restore(state.whole)
+        self.whole_problem.remind(state.remembered)
+        vars(self).update(state.own)
+        if self.narrowing is not None:
+            self.narrowing.looked = state.looked
+        self.memory, self.problem, self.part = self.whole, self.whole_problem, None
+        if state.part is not None:
+            self.part, self.memory = state.part.part, state.part.memory
+            if self.part.whole is not self.whole_problem:  # of another run
+                self.memory, self.part = self._memory_of(self.part)
+            self.memory.restore(state.part.state)
+            self.problem = self.part.problem
+            self.problem.remind(state.part.remembered)
 
     def _spread(self) -> None:
         """Give the whole what the part has become; what rests is as it was."""

@@ -48,10 +48,11 @@ And `narrowing`, which tells what moves and cuts it out as a problem of its own 
     possible                     whether that may be asked
     moving(t, y, margin, most, part)  .kept [n], .machines, .sure (it needs no proof by the run so far); None if that is
                                  not worth while beside the part in force (or None)
+    looked                       what the last look found: all that it remembers
     part(t, y, that)             .problem, .unknowns, .machines, .guards (places in the whole), .rim (1 for machines
                                  of the part whose change sets more in motion), .sure; or None. give_back(t, y) puts
                                  into the y of the whole what follows from the part, carry(v) into such a vector the
-                                 slopes of what is carried
+                                 slopes of what is carried; placed(piece, whole) is the part at work in other memory
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
 no guards, no held contacts, no time events; outputs missing records y itself; rhs, jacobian and slip
@@ -73,6 +74,7 @@ from fairlead.integrate.counters import Counters
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
+Bytes = NDArray[np.uint8]
 
 CALLBACKS = (
     "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
@@ -158,8 +160,15 @@ class Problem(Protocol):
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine, by the numbers in `zones`."""
 
-    def instance(self, run: Run) -> Instance:
-        """The problem in one run."""
+    @property
+    def room(self) -> int:
+        """Bytes that the callbacks change in a run, zones among them."""
+
+    def instance(self, run: Run, piece: Bytes | None = None) -> Instance:
+        """The problem in one run, at work in `piece`: `room` bytes, zero at first; None: in memory of its own.
+
+        All that its callbacks change lies there, and no address, so that a copy of the bytes is a copy of the state.
+        """
 
 
 class Instance(Problem, Protocol):
@@ -192,6 +201,12 @@ class Instance(Problem, Protocol):
     @property
     def n_outputs(self) -> int:
         """How many numbers `outputs` writes."""
+
+    def remembered(self) -> Any:
+        """A copy of what callbacks in plain Python know beside."""
+
+    def remind(self, known: Any) -> None:
+        """Give callbacks in plain Python back what they knew."""
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,8 @@ def replan(memory: Memory, problem: Problem) -> bool:
     plan = None if memory.number["dense"] else fresh_plan(memory, problem)  # a full matrix has all pivots to choose
     if plan is None:
         return False
-    for name, values in plan.arrays.items():
-        memory.point(name, values, np.int64)
-    for name, length in (("lower", len(plan.arrays["lower_rows"])), ("upper", len(plan.arrays["upper_rows"]))):
-        memory.point(name, np.zeros(length), np.float64)
+    factors = {name: np.zeros(len(plan.arrays[f"{name}_rows"])) for name in ("lower", "upper")}
+    memory.replace(plan.arrays | factors)
     memory.number["core_valid"] = 0
     memory.number["replans"] += 1
     return True

@@ -26,7 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.integrate.protocol import Booleans, Floats, Integers, Pattern, Run
+from fairlead.integrate.protocol import Booleans, Bytes, Floats, Integers, Pattern, Run
 
 Law = Callable[..., Any]
 
@@ -57,10 +57,22 @@ class TextbookProblem:
     keep_alive: Any = field(default=None, repr=False)
     context: int = 0
 
-    def instance(self, run: Run) -> TextbookProblem:
+    @property
+    def room(self) -> int:
+        """Bytes of the zones."""
+        return 8 * len(self.zones)
+
+    def instance(self, run: Run, piece: Bytes | None = None) -> TextbookProblem:
         """The problem with zones of its own; the weights are those that were given, whatever accuracy is asked for."""
-        live = self.zones.copy()
+        live = self.zones.copy() if piece is None else piece.view(np.int64)
+        live[:] = self.zones
         return dataclasses.replace(self, zones=live, context=int(live.ctypes.data))
+
+    def remembered(self) -> None:
+        """Nothing: plain functions have no state."""
+
+    def remind(self, known: None) -> None:
+        """Nothing."""
 
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine."""

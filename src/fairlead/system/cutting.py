@@ -22,7 +22,7 @@ from fairlead.system.blocks import Block
 from fairlead.system.build import build
 from fairlead.system.entrained import Entrained
 from fairlead.system.moving import Moving
-from fairlead.system.part import Part, hand_over
+from fairlead.system.part import Part, hand_over, tie
 from fairlead.system.recording import Recording, recording
 from fairlead.system.rest import Floats, Integers
 from fairlead.system.shares import shares
@@ -85,18 +85,10 @@ def _tell_of_the_whole(
         "carried_coef": np.stack([carried.ratio[x], carried.offset[x], carried.ratio[v],
                                   carried.ratio[a] * carried.mass, 1 / carried.bond], axis=1),
     })  # fmt: skip
-    context = part.memory["context"]
-    for name in ("WHOLE_Y", "KEPT", "KEPT_MACHINES", "CARRIED", "CARRIED_COEF"):
-        part.memory[name.lower()] = np.ascontiguousarray(part.memory[name.lower()])
-        context[getattr(layout, name)] = part.memory[name.lower()].ctypes.data
-    context[layout.N_KEPT_MACHINES], context[layout.N_CARRIED] = len(machines), count
-    context[layout.WHOLE] = system.context
     accelerations = any(key.endswith(":a") for block in system.blocks for key in block.kernel.structure.inputs)
     given = (carried.row[v] >= system.n).any()  # of a carrier whose motion is prescribed the force is a reaction
-    context[layout.SLIP_SHOWN] = int(accelerations or given)
-    context[layout.WHOLE_ZONES], context[layout.WHOLE_W] = (
-        system.memory[name].ctypes.data for name in ("zones", "w")
-    )  # fmt: skip
+    part.memory["context"][layout.SLIP_SHOWN] = int(accelerations or given)
+    tie(part, system)
 
 
 def _heavier(flat: FlatModel, carried: Entrained) -> FlatModel:

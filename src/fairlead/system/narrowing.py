@@ -42,7 +42,7 @@ class Narrowing:
         self._facts: tuple[Anatomy, tuple[Integers, Integers], list[Booleans]] | None = None
         self._laws: Laws | None = None
         self._bonds = Bonds(system)
-        self._entrained = 0
+        self.looked = 0
 
     @property
     def possible(self) -> bool:
@@ -62,11 +62,11 @@ class Narrowing:
         `now` is the part that is in force: less of what is entrained is then not worth a look.
         """
         count = self._bonds.count
-        if now is not None and now.sure and count < MORE * self._entrained:
+        if now is not None and now.sure and count < MORE * self.looked:
             return None
         found = self._without_entrained(t, y, margin)
         if found is not None:
-            self._entrained = count
+            self.looked = count
             return found
         return self._not_at_rest(y, margin, most) if self._may_rest else None
 

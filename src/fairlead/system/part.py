@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 
+import numpy as np
+
+from fairlead.system import layout
 from fairlead.system.asking import call
 from fairlead.system.driver import SPREAD
 from fairlead.system.entrained import Entrained
 from fairlead.system.rest import Floats, Integers
-from fairlead.system.system import Instance
+from fairlead.system.system import Instance, begun
+from fairlead.system.tolerances import Weights
+from fairlead.system.working import Bytes
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,6 +34,23 @@ class Part:
         """True if what is left out cannot move by itself, however little the run has shown."""
         return bool(len(self.carried.unknowns))
 
+    def placed(self, piece: Bytes, whole: Instance) -> Part:
+        """The same part at work in another piece of memory, for the whole that is at work in its own."""
+        mine = self.problem
+        weights = Weights(mine.absolute, mine.relative, mine.cap, mine.guard_tolerance)
+        shared = {block.kernel.address: block.parameters for block in whole.blocks}  # samples go to both
+        blocks = [
+            dataclasses.replace(b, parameters=shared[b.kernel.address]) if b.kernel.structure.period else b
+            for b in mine.of.blocks  # of what samples, all instances stay
+        ]
+        made = begun(dataclasses.replace(mine.of, blocks=blocks), weights, mine.record, piece)
+        piece[:] = mine.piece
+        made.memory.update({name: np.array(mine.memory[name]) for name in TOLD})
+        made.memory["context"][layout.SLIP_SHOWN] = mine.memory["context"][layout.SLIP_SHOWN]
+        tie(made, whole)
+        hand_over(mine, made)
+        return dataclasses.replace(self, problem=made, whole=whole)
+
     def give_back(self, t: float, y: Floats) -> None:
         """Give the whole, whose unknowns are y [n], what is entrained at t, and what its controllers know."""
         call(self.problem, SPREAD, t, y[self.unknowns], y)
@@ -39,6 +61,23 @@ class Part:
         u, what = self.carried.unknowns, self.carried
         own = what.place[u] < self.whole.n
         of_unknowns[u[own]] = what.ratio[u[own]] * of_unknowns[what.place[u[own]]]
+
+
+TOLD = ("whole_y", "kept", "kept_machines", "carried", "carried_coef")
+"""Arrays of a part that `spread` works with, see layout.py."""
+
+
+def tie(part: Instance, whole: Instance) -> None:
+    """Write into the context of a part where these arrays are, and those of its whole."""
+    context = part.memory["context"]
+    for name in TOLD:
+        part.memory[name] = np.ascontiguousarray(part.memory[name])
+        context[getattr(layout, name.upper())] = part.memory[name].ctypes.data
+    context[layout.N_KEPT_MACHINES], context[layout.N_CARRIED] = (
+        len(part.memory[name]) for name in ("kept_machines", "carried")
+    )  # fmt: skip
+    context[layout.WHOLE] = whole.context
+    context[layout.WHOLE_ZONES], context[layout.WHOLE_W] = (whole.memory[name].ctypes.data for name in ("zones", "w"))
 
 
 def hand_over(one: Instance, other: Instance) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes
 import inspect
 import math
@@ -15,6 +16,7 @@ from fairlead.system.blocks import Block, Memory
 from fairlead.system.unknowns import Numbering
 
 WHOLE, POINTER = ctypes.c_int64, ctypes.c_void_p
+Known = tuple[Any, BaseException | None, float]  # its object, what went wrong in it, when
 AS_KERNEL = ctypes.CFUNCTYPE(None, WHOLE, POINTER, WHOLE, WHOLE, POINTER, POINTER, POINTER, POINTER)
 
 
@@ -49,6 +51,14 @@ class CalledController:
         place = f" ({own[-1].filename}:{own[-1].lineno})" if own else ""
         what = f"{type(self.failure).__name__}: {self.failure}"
         return f"t = {self.failed_at:.6g} s: {self.instance.path}: {what}{place}"
+
+    def known(self) -> Known:
+        """A copy of what it knows: of the object, as deep as Python copies."""
+        return copy.deepcopy(self._object), self.failure, self.failed_at
+
+    def know(self, what: Known) -> None:
+        """Go on from there, on a copy."""
+        self._object, (self.failure, self.failed_at) = copy.deepcopy(what[0]), what[1:]
 
     def take_over(self, other: CalledController) -> None:
         """Go on where another one of the same instance was."""

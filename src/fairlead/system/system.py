@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Memory, Tables
-from fairlead.system.plain_python import CalledController, called_controllers
+from fairlead.system.plain_python import CalledController, Known, called_controllers
 from fairlead.system.recording import OutputSignal, Recording, choose
 from fairlead.system.timing import PlacedTable
 from fairlead.system.tolerances import Scales, Weights
@@ -100,6 +100,11 @@ class System:
     def n_guards(self) -> int:
         """How many guard slots."""
         return len(self.guard_machine)
+
+    @property
+    def room(self) -> int:
+        """Bytes that a run changes."""
+        return self.working.size
 
     @property
     def unknown_names(self) -> list[str]:
@@ -218,6 +223,15 @@ class Instance(System):
         """Recorded outputs, and the stored energy at the end."""
         return len(self.recorded) + 1
 
+    def remembered(self) -> list[Known]:
+        """Copies of what the controllers in plain Python know."""
+        return [controller.known() for controller in self.controllers]
+
+    def remind(self, known: list[Known]) -> None:
+        """Let the controllers go on from there."""
+        for controller, what in zip(self.controllers, known, strict=True):
+            controller.know(what)
+
     @functools.cached_property
     def narrowing(self) -> Any:
         """Cuts out what moves, see narrowing.py; None for a part."""
@@ -233,7 +247,7 @@ def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> 
         replace(block, parameters=own[discrete(k)]) if discrete(k) in own else block
         for k, block in enumerate(system.blocks)
     ]
-    memory = system.memory | own | addressed(system.memory, own, system.blocks)
+    memory = system.memory | own | addressed(system.memory, own, blocks)
     context = memory["context"]
     record.tell(context)
     controllers = called_controllers(blocks, system.numbering, memory)

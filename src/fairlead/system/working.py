@@ -83,10 +83,9 @@ def addressed(memory: Memory, own: Memory, blocks: list[Block]) -> Memory:
     context, rows = memory["context"].copy(), memory["blocks"]
     for name in CHANGED:
         context[getattr(layout, name.upper())] = own[name].ctypes.data
-    sampled = [k for k in range(len(blocks)) if discrete(k) in own]
+    sampled = [k for k, block in enumerate(blocks) if block.kernel.structure.period]
     if sampled:
         rows = rows.copy()
-        rows[sampled, layout.PAR] = [own[discrete(k)].ctypes.data for k in sampled]
+        rows[sampled, layout.PAR] = [blocks[k].parameters.ctypes.data for k in sampled]
         context[layout.BLOCKS] = rows.ctypes.data
     return {"context": context, "blocks": rows}
-

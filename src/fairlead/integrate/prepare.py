@@ -1,0 +1,270 @@
+"""What a run works with: plans and sizes, made once for a problem and shared; its settings; its memory at the start."""
+
+from __future__ import annotations
+
+import functools
+import weakref
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+import fairlead.integrate.ordering as ordering
+from fairlead.integrate.codes import KNOWN_ZONES, MOST_PERTURBED
+from fairlead.integrate.condensing import columns_of, lay_out
+from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
+from fairlead.integrate.neighbours import held_entries, known_rows, neighbours, what_is_held
+from fairlead.integrate.protocol import CALLBACKS, Bytes, Instance, Integers, Problem, Run
+from fairlead.integrate.tableau import TABLEAUS, Tableau
+
+BLOCK_NUMBERS, LEAST_ROWS, MOST_ROWS = 1 << 17, 64, 1 << 16
+"""Recorded numbers a block may hold; rows it may hold at least, 5 are needed, and at most."""
+EVENTS = 4096
+"""Zone changes a block may hold, if four passes of a settlement are no more."""
+LEAST_PASSES, PATTERN_NUMBERS = 100, 1 << 22
+"""Passes that a settling may take in any case, and how many zones the patterns that it remembers may have together."""
+NEVER = 1e308
+NEVER_LOOK = np.iinfo(np.int64).max
+"""The step at which to look for a part of the problem, where there is none."""
+REACTIONS = {"warn": 0, "hold": 1, "stop": 2}
+Place = Callable[[Bytes], Instance]
+"""Puts a problem to work in a piece of memory."""
+
+
+class Planned(NamedTuple):
+    """What all runs of a problem with one engine share: nothing changes it."""
+
+    lengths: dict[str, int]
+    """Of arrays, by the names in memory.py."""
+    given: dict[str, np.ndarray]
+    numbers: dict[str, float]
+
+
+_PLANS: weakref.WeakKeyDictionary[Problem, dict[bool, Planned]] = weakref.WeakKeyDictionary()
+
+
+def planned(problem: Problem, stepping: bool) -> Planned:
+    """The plan for a problem, which is kept as long as the problem is."""
+    kept = _PLANS.setdefault(problem, {})
+    if stepping not in kept:
+        kept[stepping] = new_plan(problem, stepping)
+    return kept[stepping]
+
+
+def new_plan(problem: Problem, stepping: bool) -> Planned:
+    """Pivots, patterns, sizes; for `stepping` also who holds what, and who hands its load to whom."""
+    n, ng, nz = len(problem.initial), len(problem.guard_machine), len(problem.zones)
+    plan = ordering.plan(problem)
+    most_perturbed = MOST_PERTURBED if stepping and not plan.dense else 0
+    numbers: dict[str, float] = {
+        "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
+        "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, **plan.lengths,
+        "dense": int(plan.dense), "most_perturbed": most_perturbed,
+        **dict(zip(("dissipated_at", "supplied_at"), getattr(problem, "ledger", (-1, -1)), strict=True)),
+        "n_algebraic": int(n - np.count_nonzero(problem.differential)),
+    }  # fmt: skip
+    lengths = plan.lengths | {
+        "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
+        "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
+        "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
+        "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
+        "perturbed_core": most_perturbed * plan.lengths["n_core"],
+        "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
+        "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
+    }  # fmt: skip
+    given: dict[str, np.ndarray] = {
+        "guard_machine": problem.guard_machine,
+        "kink_guard": np.asarray(getattr(problem, "kink_guard", np.zeros(ng)), np.int64),
+        "may_hold": _of_contacts(problem),
+        "takes_impulse": np.asarray(getattr(problem, "takes_impulse", np.zeros(n)), np.int64),
+        "differential": np.asarray(problem.differential, np.int64),
+        "quadrature": np.asarray(problem.quadrature, np.int64),
+        "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
+        "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
+        "mass_columns": columns_of(problem.mass_pattern),
+        **plan.arrays,
+    }  # fmt: skip
+    numbers["takes_impulses"] = int((given["takes_impulse"] == 2).any())
+    if stepping:
+        given |= held_entries(problem) | neighbours(problem) | known_rows(problem)
+        given |= {"controlled": controlled(problem), "position_of": position_of(problem)}
+        holds = given["hold_row"][problem.guard_machine[problem.guard_machine >= 0]] >= 0
+        numbers |= {f"n_{name}": len(given[name]) for name in OF_STEPPING}
+        numbers |= {"n_free_guards": int(np.count_nonzero(~holds)), "n_known": KNOWN_ZONES * nz}
+    by_zone = {name: len(given.get(name, ())) for name in ("own_slopes", "own_masses")} | {"machines": nz}
+    lengths |= {f"{name}_by_zone": KNOWN_ZONES * length if stepping else 0 for name, length in by_zone.items()}
+    return Planned(lengths, given, numbers)
+
+
+def _of_contacts(problem: Problem) -> Integers:
+    """1 for every guard of a machine that decides whether a row holds."""
+    holder = np.asarray(getattr(problem, "holder", ()), dtype=np.int64)
+    return np.isin(problem.guard_machine, holder[holder >= 0]).astype(np.int64)
+
+
+OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "neighbours", "own_slopes", "own_masses")
+"""Arrays of `stepping` whose lengths the loop is told."""
+
+
+def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: Place) -> tuple[Memory, Instance]:
+    """The memory of a run at its start, and the problem at work in it."""
+    nz, s = len(problem.zones), tableau.stages
+    passes = passes_allowed(run, nz)
+    lengths = dict.fromkeys((VECTORS | INDICES).values(), 0) | plan.lengths | {
+        "stages": s, "stages_n": s * len(problem.initial), "stages_stages": s * s, "three_stages": 3 * s,
+        "passes_zones": (passes + 1) * nz, "passes": passes + 1,
+    }  # fmt: skip
+    memory = Memory(lengths, plan.given | method(run.method), problem.room)
+    own = place(memory.piece)
+    check_instance(own)
+    write_numbers(memory, plan.numbers | settings(run, tableau) | {"stages": s, "max_passes": passes})
+    write_numbers(memory, {"max_step": _longest_step(run, own), "narrow_at": NEVER_LOOK})
+    point_at_instance(memory, own)
+    if run.engine == "stepping":
+        write_numbers(memory, stepping_settings(run, own))
+        for name, of_machine in what_is_held(own).items():
+            memory.array[name][:] = of_machine
+    write_numbers(memory, calls(own) | {"context": own.context})
+    if not memory.number["call_guards"]:
+        memory.number["n_guards"] = 0
+    make_buffers(memory, own)
+    memory.array["y"][:] = own.initial
+    memory.array["watched"][:] = watched(own)
+    memory.number["n_watched"] = int(memory.array["watched"].sum())
+    memory.array["last_toggle"][:] = -NEVER
+    memory.array["blocked_until"][:] = -NEVER
+    return memory, own
+
+
+@functools.cache
+def method(name: str) -> dict[str, np.ndarray]:
+    """The numbers of a Rosenbrock method as the loop wants them."""
+    tableau = TABLEAUS[name]
+    return {"a": tableau.a.ravel(), "C": tableau.C.ravel(), "c": tableau.c, "d": tableau.d, "m": tableau.m,
+            "e": tableau.e, "H": tableau.H.ravel()}  # fmt: skip
+
+
+def check_instance(own: Instance) -> None:
+    """Refuse weights that do not fit the problem, and zones that callbacks cannot write to."""
+    n, ng = len(own.initial), len(own.guard_machine)
+    check_lengths(own, {"absolute": n, "relative": n, "cap": n, "guard_tolerance": ng})
+    if own.zones.dtype != np.int64 or not own.zones.flags.c_contiguous:
+        raise ValueError("zones must be a contiguous array of int64, because the callbacks write to it.")
+
+
+def check_lengths(problem: Problem, lengths: dict[str, int]) -> None:
+    """Refuse arrays of other lengths, with both numbers."""
+    for name, length in lengths.items():
+        if len(getattr(problem, name)) != length:
+            raise ValueError(f"{name} has {len(getattr(problem, name))} entries; it must have {length}.")
+
+
+def point_at_instance(memory: Memory, own: Instance) -> None:
+    """Tell the loop of the zones and weights of the run."""
+    inertia = getattr(own, "guard_inertia", np.zeros(len(own.guard_machine)))
+    of_run = {
+        "absolute": own.absolute, "relative": own.relative, "cap": own.cap, "guard_tolerance": own.guard_tolerance,
+        "column_scale": np.minimum(own.absolute + own.relative * np.abs(own.initial), own.cap),
+        "guard_inertia": inertia,
+    }  # fmt: skip
+    for name, values in of_run.items():
+        memory.point(name, values, np.float64)
+    memory.point("zones", own.zones, np.int64)
+    memory.number["weighs_guards"] = int(inertia.any())
+
+
+def make_buffers(memory: Memory, own: Instance) -> None:
+    """Room for what is recorded."""
+    n_outputs = own.n_outputs if own.callbacks.get("outputs") else len(own.initial)
+    rows = max(LEAST_ROWS, min(MOST_ROWS, BLOCK_NUMBERS // max(n_outputs, 1)))
+    events = max(EVENTS, 4 * (len(own.zones) + len(own.guard_machine)))
+    write_numbers(memory, {"n_outputs": n_outputs, "row_capacity": rows, "event_capacity": events})
+    lengths = {"row_capacity": rows, "rows_outputs": rows * n_outputs, "event_capacity": events}
+    for name in BUFFERS:
+        kind = np.float64 if name in VECTORS else np.int64
+        memory.point(name, np.zeros(lengths[(VECTORS | INDICES)[name]], kind), kind)
+
+
+def calls(problem: Problem) -> dict[str, float]:
+    """Addresses of the callbacks as the struct names them; those that stand in for others where these are missing."""
+    found = {f"call_{name}": problem.callbacks.get(name, 0) for name in CALLBACKS}
+    if not found["call_guards"] or not found["call_switch"]:
+        found["call_guards"] = found["call_switch"] = 0
+    found["call_forces"] = found["call_forces"] or found["call_rhs"]
+    found["call_drift"] = found["call_drift"] or found["call_slip"]
+    found["call_slopes"] = found["call_slopes"] or found["call_jacobian"]
+    return dict(found)
+
+
+def passes_allowed(run: Run, machines: int) -> int:
+    """Passes of one settling: what was set, or enough to change every machine some times over."""
+    if run.max_passes is not None:
+        return run.max_passes
+    return min(LEAST_PASSES + 4 * machines, max(LEAST_PASSES, PATTERN_NUMBERS // max(machines, 1)))
+
+
+def settings(run: Run, tableau: Tableau) -> dict[str, float]:
+    """The settings of the run as the struct names them."""
+    span = run.stop - run.start
+    most = np.iinfo(np.int64).max
+    return {
+        "max_steps": most if run.max_steps is None else run.max_steps,
+        "max_events": most if run.max_events is None else run.max_events,
+        "adaptive": int(run.fixed_step is None),
+        "on_grid": int(run.every is not None),
+        "every": run.every or 0.0,
+        "on_chatter": REACTIONS[run.on_chatter],
+        "start": run.start, "t": run.start, "stop": run.stop,
+        "first_step": run.first_step or 0.0,
+        "h_next": run.fixed_step or 0.0,
+        "step_floor": run.step_floor if run.step_floor is not None else 1e-18 * span,
+        "progress_floor": run.step_floor if run.step_floor is not None else 1e-12 * span,
+        "dwell": run.dwell if run.dwell is not None else 1e-6 * span,
+        "gamma": tableau.gamma,
+        "error_exponent": 1.0 / (tableau.error_order + 1),
+        "t_next": NEVER, "t_release": NEVER, "t_last_switch": -NEVER,
+    }  # fmt: skip
+
+
+def stepping_settings(run: Run, problem: Instance) -> dict[str, float]:
+    """What the stepping engine sets differently, or alone."""
+    return {
+        "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
+        "error_exponent": 1.0 / 3.0, "linear": int(getattr(problem, "linear", False)),
+        "samples": int(getattr(problem, "samples", False)),
+        "has_limits": int(np.any(getattr(problem, "limit_guard", 0))),
+        "n_quadratures": int(np.count_nonzero(problem.quadrature)),
+    }  # fmt: skip
+
+
+def watched(problem: Instance) -> Integers:
+    """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
+    stiff = np.asarray(getattr(problem, "stiff", np.zeros(len(problem.initial))), dtype=bool) | np.isfinite(problem.cap)
+    return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
+
+
+def _longest_step(run: Run, problem: Instance) -> float:
+    """What was set, and what the problem says; a fixed step is as it is."""
+    return run.max_step if run.fixed_step is not None else min(run.max_step, getattr(problem, "longest_step", np.inf))
+
+
+def controlled(problem: Problem) -> Integers:
+    """1 for unknowns whose error sets the step: differential, and no speed that has a position."""
+    chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
+    chosen[position_of(problem) >= 0] = 0
+    return chosen
+
+
+def position_of(problem: Problem) -> Integers:
+    """By unknown: the position whose rate it is, or -1."""
+    found = np.full(len(problem.initial), -1, dtype=np.int64)
+    for x, v in lay_out(problem).positions.items():
+        if v >= 0:
+            found[v] = x
+    return found
+
+
+def write_numbers(memory: Memory, values: dict[str, float]) -> None:
+    """Set single values of the struct by name."""
+    for name, value in values.items():
+        memory.number[name] = value

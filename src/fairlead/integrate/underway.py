@@ -1,0 +1,130 @@
+"""A run under way: entered slice by slice, served between the slices, copied and taken back.
+
+Its state is an arena (memory.py), that of the part it works on if it does (parts.py), and what callbacks in plain
+Python know. `ida` keeps the past of a run in memory of SUNDIALS, which cannot be copied: it neither saves nor restores.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from fairlead.errors import UsageError
+from fairlead.integrate.machine_code import compiled_loop
+from fairlead.integrate.memory import Memory
+from fairlead.integrate.parts import Scope, ScopeState
+from fairlead.integrate.protocol import Block, Instance, OnBlock, Problem, Run, Status
+from fairlead.integrate.replan import replan
+from fairlead.integrate.tableau import TABLEAUS
+
+SLICE = 0.05
+"""Seconds between two returns to Python, aimed at."""
+FIRST_ATTEMPTS = 16
+SERVED = (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN, Status.NARROW, Status.WIDEN)
+"""Returns to Python after which the loop goes on."""
+
+
+class Saved(NamedTuple):
+    """Where a run was."""
+
+    scope: ScopeState
+    status: Status
+    replanned_at: int
+
+
+class Underway:
+    """One run of a problem; `take` gets what every slice records."""
+
+    def __init__(self, problem: Problem, run: Run, take: OnBlock) -> None:
+        """Begin; nothing is evaluated yet."""
+        self.run, self.take = run, take
+        self.scope = Scope(problem, run, TABLEAUS[run.method])
+        self._advance = loop_of(self.scope.problem, run, self.scope.memory)
+        self.status, self._attempts, self._replanned_at = Status.PAUSED, FIRST_ATTEMPTS, -1
+        self.wall = self.cpu = 0.0
+        """Seconds spent inside the loop, and on cutting out what moves."""
+
+    @property
+    def served(self) -> bool:
+        """True as long as the run goes on."""
+        return self.status in SERVED
+
+    def go_on(self, attempts: int | None = None) -> None:
+        """Enter the loop for at most so many trial steps (None: some SLICE seconds), and serve what it asks for."""
+        entered, working = time.perf_counter(), time.process_time()
+        self.status = Status(self._advance(self.scope.memory.address, attempts or self._attempts))
+        spent = time.perf_counter() - entered
+        number = self.scope.memory.number
+        if self.status == Status.WIDEN and number["woken"]:
+            number["rows"] -= 1  # the row after the switch; the whole settles there once more
+        if self.status != Status.REPLAN:
+            self.flush()
+        if self.status == Status.REPLAN:
+            self._replan()
+        elif self.status == Status.NARROW:
+            self.scope.look()
+        elif self.status == Status.WIDEN:
+            self.scope.wake()
+        elif self.status == Status.PAUSED:
+            self._attempts = next_attempts(self._attempts, spent)
+        self.wall += time.perf_counter() - entered
+        self.cpu += time.process_time() - working
+
+    def _replan(self) -> None:
+        """Other pivots; without any the equations are singular."""
+        number = self.scope.memory.number
+        again = int(number["factorisations"]) <= self._replanned_at + 1
+        found = not again and replan(self.scope.memory, self.scope.problem)
+        if self.run.engine == "stepping" and number["midway"]:
+            number["replanned"] = 1
+        elif not found:
+            self.status = Status.SINGULAR
+            self.flush()
+        self._replanned_at = int(number["factorisations"])
+
+    def flush(self) -> None:
+        """Hand over what the buffers hold and empty them."""
+        number, array, run = self.scope.memory.number, self.scope.memory.array, self.run
+        rows, n_outputs = int(number["rows"]), int(number["n_outputs"])
+        events, t = self.scope.events(int(number["events"])), float(number["t"])
+        number["rows"] = number["events"] = 0
+        self.take(
+            Block(
+                t=array["row_t"][:rows].copy(),
+                values=array["row_values"][: rows * n_outputs].reshape(rows, n_outputs).copy(),
+                side=array["row_side"][:rows].astype(np.int8),
+                events=events,
+                reached=t,
+                fraction=min(1.0, max(0.0, (t - run.start) / (run.stop - run.start))),
+            )
+        )
+
+    def save(self) -> Saved:
+        """Where the run is now, between two slices. Raises UsageError for the engine ida."""
+        if self.run.engine == "ida":
+            what = "The engine ida keeps the past of a run in memory of SUNDIALS, which cannot be copied"
+            raise UsageError(f"{what}; a run that is to be saved takes rodas or stepping.")
+        return Saved(self.scope.save(), self.status, self._replanned_at)
+
+    def restore(self, saved: Saved) -> None:
+        """Go to where this run was, or another one of the same problem with the same settings."""
+        self.scope.restore(saved.scope)
+        self.status, self._replanned_at = saved.status, saved.replanned_at
+
+
+def loop_of(problem: Instance, run: Run, memory: Memory) -> Callable[[int, int], int]:
+    """The loop of the engine: advance(address of the struct, attempts) -> status."""
+    if run.engine == "ida":
+        from fairlead.integrate.sundials import SundialsLoop
+
+        return SundialsLoop(problem, run, memory)
+    return compiled_loop(run.engine)
+
+
+def next_attempts(attempts: int, spent: float) -> int:
+    """Trial steps for the next slice, so that it lasts about SLICE seconds; at most eight times as many."""
+    factor = SLICE / max(spent, 1e-6)
+    return max(1, int(attempts * min(max(factor, 0.1), 8.0)))
