@@ -84,6 +84,53 @@ def test_a_hold_that_is_not_a_slip_is_refused(tmp_path):
     assert "wants a sum of speeds of ports, such as b.v - a.v" in said
 
 
+GEARED = """
+f = Unknown("N")
+throw = Parameter("1", default=0.2)
+share = Table("m", "1", default=((0, 1), (1, 2)))
+beat = Waveform("1", default=1.0)
+ratio = Input("1", default=1.0)
+own = State("1")
+step = Discrete("1")
+
+@sampled(every="throw")
+def counted(p, step):
+    return Law(step=step + 1)
+
+def law(p, a, b, f, t, ratio, own, step):
+    return Law(a=-f, b=f, own=1, f=hold(SLIP))
+"""
+
+
+@pytest.mark.parametrize(
+    ("slip", "varies"),
+    [
+        ("b.v - p.throw*cos(a.x)*a.v", "the ratio of a's speed varies with the motion of 'a'"),
+        ("b.v - ratio*a.v", "the ratio of a's speed varies with the signal 'ratio'"),
+        ("own*b.v - a.v", "the ratio of b's speed varies with 'own'"),
+        ("b.v - f*a.v", "the ratio of a's speed varies with 'f'"),
+        ("b.v - (1 + t)*a.v", "the ratio of a's speed varies with time"),
+        ("b.v - p.beat(t)*a.v", "the ratio of a's speed varies with the table 'beat', time"),
+        ("b.v - p.share(b.x)*a.v", "varies with the table 'share', the motion of 'b'"),
+        ("b.v - step*a.v", "the ratio of a's speed varies with the discrete 'step'"),
+        ("b.v - a.v - sin(t)", "what is added to the speeds varies with time"),
+        ("b.v - a.v + ratio", "what is added to the speeds varies with the signal 'ratio'"),
+    ],
+)  # fmt: skip
+def test_a_hold_whose_ratio_moves_is_refused_at_its_law(tmp_path, slip, varies):
+    """The row of a hold is ratio times acceleration: what the rate of a ratio would add to it is not in it."""
+    said, named = refusal(tmp_path, GEARED.replace("SLIP", slip))
+    assert varies in said
+    assert "numbers and parameters" in said
+    assert named == "def law(p, a, b, f, t, ratio, own, step):"
+
+
+@pytest.mark.parametrize("slip", ["b.v - p.throw*a.v", "(1 + p.throw)*b.v - cos(p.throw)*a.v + p.throw"])
+def test_a_hold_whose_ratio_is_made_of_parameters_is_taken(tmp_path, slip):
+    path, libraries = scene(tmp_path, GEARED.replace("SLIP", slip))
+    fairlead.load(path, libraries=libraries).check()
+
+
 def test_every_refused_class_of_a_netlist_is_told_at_once(tmp_path):
     path, libraries = scene(tmp_path, "def law(p, a, b):\n    return abs(a.v), 0\n")
     other = "\n\nclass Yours(Mine):\n    def law(p, a, b):\n        return a.a, 0\n"

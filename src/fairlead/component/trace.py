@@ -320,10 +320,46 @@ def _without(expression: sympy.Expr, law: Callable[..., Any], ends: tuple[str, .
 def _hold_row(said: Hold, law: Callable[..., Any]) -> HoldRow:
     slip = _smooth(said.slip, law)
     speeds = [s for s in slip.free_symbols if s.name.startswith("port:") and s.name.endswith(":v")]
-    if not speeds or any(sympy.diff(slip, s).free_symbols & set(speeds) for s in speeds):
+    rates = {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)}
+    if not speeds or any(rate.free_symbols & set(speeds) for rate in rates.values()):
         raise TraceError(f"{source_place(law)}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
+    _fixed(slip, rates, law)
     little = 1 if said.within is None else (1 + sympy.sign(_smooth(said.within, law) - sympy.Abs(slip))) / 2
-    return HoldRow(slip, {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)}, slip * little)
+    return HoldRow(slip, rates, slip * little)
+
+
+def _fixed(slip: sympy.Expr, rates: dict[str, sympy.Expr], law: Callable[..., Any]) -> None:
+    """Refuse a slip of which anything but the speeds moves.
+
+    The row of a hold is d(slip)/dt = -slip/tau, with d(slip)/dt the sum of ratio times acceleration. What a moving
+    ratio, or a moving speed that is added, would add to that is not in it.
+    """
+    for key, rate in rates.items():
+        if moving := _moving(rate):
+            _, port, _ = key.split(":")
+            what = f"the ratio of {port}'s speed varies with {moving}. A ratio must be made of numbers and parameters"
+            way_out = "Write a ratio that moves as a stiff spring and a damper between the two motions"
+            raise TraceError(f"{source_place(law)}: hold({slip}): {what}. {way_out}.")
+    if moving := _moving(slip.xreplace({symbol(key): sympy.S.Zero for key in rates})):
+        what = f"what is added to the speeds varies with {moving}. It must be made of numbers and parameters"
+        way_out = "Prescribe a speed that moves as that of a port, by a motion source"
+        raise TraceError(f"{source_place(law)}: hold({slip}): {what}. {way_out}.")
+
+
+def _moving(expression: sympy.Expr) -> str:
+    """What may vary within a run in this part of a slip; empty if nothing does."""
+    varies = (s for s in expression.free_symbols if s.name.startswith("p:#") or not s.name.startswith("p:"))
+    return ", ".join(dict.fromkeys(_said(key) for key in sorted(s.name for s in varies)))
+
+
+def _said(key: str) -> str:
+    """The author's words for the key of a symbol."""
+    kind, _, name = key.partition(":")
+    words = {
+        "t": "time", "T": f"the table {name.rpartition(':')[0]!r}", "in": f"the signal {name!r}", "own": repr(name),
+        "p": f"the discrete {name[1:]!r}", "port": f"the motion of {name.partition(':')[0]!r}",
+    }  # fmt: skip
+    return words[kind]
 
 
 def _hold_right_side(slip: Any) -> sympy.Expr:
