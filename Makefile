@@ -9,13 +9,14 @@ MODEL ?= single_bend
 TESTS ?= tests
 BENCH ?= everything.py
 HARD ?=
+INVARIANCE ?=
 WORKERS ?= auto
 
-.PHONY: help demo test hard lint types bench docs clean
+.PHONY: help demo test hard invariance lint types bench docs clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
-	@awk -F '[:#]+' '/^[a-z]+:.*##/ { printf "  make %-8s%s\n", $$1, $$NF }' Makefile
+	@awk -F '[:#]+' '/^[a-z]+:.*##/ { printf "  make %-11s%s\n", $$1, $$NF }' Makefile
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
 demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
@@ -29,6 +30,9 @@ test: $(VENV)/test.done  ## install with what the tests need, run all tests (WOR
 
 hard: $(VENV)/test.done  ## play all hard cases on all engines, write docs/stability.md (more with HARD="--only tether --table")
 	$(RUN) -m tests.hard $(HARD)
+
+invariance: $(VENV)/test.done  ## the same answer under other names, orders, processors, BLAS (fresh scenes with INVARIANCE="--fresh 20")
+	$(RUN) -m tests.invariance $(INVARIANCE)
 
 lint: $(VENV)/lint.done link-tree  ## look for mistakes and style with ruff
 	$(RUN) -m ruff check .

@@ -42,10 +42,11 @@ def _rub(s: Sketch, name: str, a: str, b: str, load: float = 20.0) -> None:
 
 
 def _tie(s: Sketch, name: str, a: str, b: str, *kinds: str) -> None:
-    """Something elastic between two bodies."""
+    """Something elastic between two bodies. A rope has some slack: one that just hangs straight is a tie."""
     kind = s.pick(*(kinds or ("Spring", "SpringDamper", "SpringDamper", "Tether")))
-    damped = {"damping": f"{s.number(0.5, 20)} N*s/m"} if kind == "SpringDamper" else {}
-    s.add(name, kind, stiffness=f"{s.number(100, 2e4)} N/m", **damped)
+    more = {"damping": f"{s.number(0.5, 20)} N*s/m"} if kind == "SpringDamper" else {}
+    more |= {"length": f"{s.number(0.5, 10)} mm"} if kind == "Tether" else {}
+    s.add(name, kind, stiffness=f"{s.number(100, 2e4)} N/m", **more)
     s.join(a, f"{name}.a")
     s.join(b, f"{name}.b")
 

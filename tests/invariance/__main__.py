@@ -1,0 +1,79 @@
+"""`python -m tests.invariance`: play scenes under every change that must not matter, and tell what differed.
+
+Without arguments the bundled models and a hundred random scenes with fixed seeds are played, as `make invariance` does.
+
+    --fresh N        N random scenes of each kind with new seeds, which are printed
+    --seed S         the first of these seeds, to play them again
+    --only WORD ...  changes whose name contains one of the words, such as BLAS
+    --scene NAME     scenes whose name contains it
+    --python PATH    the interpreter of another checkout, to see how that one does
+"""
+
+from __future__ import annotations
+
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import random
+import sys
+import tempfile
+
+from tests.invariance.known import KNOWN
+from tests.invariance.plays import bundled, crowd, hundred, random_plays
+from tests.invariance.ties import TIES
+from tests.invariance.trials import PLAIN, Trial, differences, play, trials
+
+CROWDS = range(6)
+
+
+def main() -> int:
+    """Play, and return 1 if something differed that is no tie."""
+    parser = argparse.ArgumentParser(prog="python -m tests.invariance", formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--fresh", type=int)
+    parser.add_argument("--seed", type=int)
+    parser.add_argument("--only", nargs="+", default=[""])
+    parser.add_argument("--scene", default="")
+    parser.add_argument("--python", default=sys.executable)
+    asked = parser.parse_args()
+    chosen = [one for one in _plays(asked.fresh, asked.seed) if asked.scene in one.name]
+    changes = [trial for trial in trials() if any(word in trial.name for word in asked.only)]
+    for trial in (trial for trial in changes if trial.lacking):
+        print(f"{trial.name}: {trial.lacking}")
+    wrong = 0
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool,
+    ):
+        place = pathlib.Path(folder)
+        here = [PLAIN, *(trial for trial in changes if not trial.lacking)]
+        runs = [pool.submit(play, trial, chosen, place / str(k), asked.python) for k, trial in enumerate(here)]
+        plain, in_force = runs[0].result()
+        print(f"{len(chosen)} scenes\n  {PLAIN.name}: {in_force}", flush=True)
+        for trial, run in zip(here[1:], runs[1:]):
+            other, in_force = run.result()
+            wrong += _told(trial, differences(trial, chosen, plain, other), in_force)
+    return 1 if wrong else 0
+
+
+def _plays(fresh: int | None, seed: int | None):
+    if fresh is None:
+        return [*bundled(), *hundred(), *map(crowd, CROWDS)]
+    begin = random.randrange(10**6) if seed is None else seed
+    print(f"random scenes with seeds {begin} to {begin + fresh - 1}; again: --fresh {fresh} --seed {begin}")
+    return random_plays(range(begin, begin + fresh), range(begin, begin + fresh))
+
+
+def _told(trial: Trial, found: dict[str, list[str]], in_force: str) -> int:
+    """Print what came of a change; how many scenes differ that are neither ties nor known to."""
+    known = TIES | KNOWN.get(trial.name, {})
+    wrong = sum(name not in known for name in found)
+    bound = "equal bit by bit" if trial.equal else "within the bounds"
+    print(f"  {trial.name}: {in_force}\n    " + (f"{wrong} scenes differ" if wrong else bound))
+    for name, said in found.items():
+        print(f"    {name}{' (known)' if name in known else ''}: {'; '.join(said)}", flush=True)
+    return wrong
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

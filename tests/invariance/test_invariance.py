@@ -1,0 +1,129 @@
+"""A few scenes under every change that must not matter; `make invariance` plays more of them, one change at a time.
+
+What two runs are compared by is tested as well: a comparison that overlooks a digit would find everything invariant.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from tests.invariance import outcome
+from tests.invariance.known import KNOWN
+from tests.invariance.outcome import Outcome
+from tests.invariance.plays import bundled, crowd, random_plays
+from tests.invariance.settings import in_force, settings
+from tests.invariance.trials import PLAIN, Trial, differences, play, trials
+
+FEW = [one for one in bundled() if one.name == "belt"] + random_plays((1, 2, 3, 5, 6), (3,))
+AT_ONCE = ("PYTHONHASHSEED", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES")
+"""Settings that are tried together here: code for another processor would have to be compiled first."""
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    found, said = play(PLAIN, FEW, tmp_path_factory.mktemp("plain"))
+    print(said)
+    return found
+
+
+def test_other_names_and_settings_and_runs_before_change_no_bit(plain, tmp_path):
+    """All at once: names, hash seed, BLAS, instructions of numpy; each scene run twice, after others."""
+    named = next(trial for trial in trials() if trial.change and trial.equal)
+    environment = {key: value for setting in settings().values() for key, value in setting.items() if key in AT_ONCE}
+    environment["OPENBLAS_CORETYPE"] = "Prescott"
+    everything = Trial("all at once", environment=environment, change=named.change, job={"times": 2}, backwards=True)
+    other, said = play(everything, FEW, tmp_path)
+    print(said)
+    assert differences(everything, FEW, plain, other) == {}
+
+
+def test_the_order_of_instances_and_unknowns_changes_no_more_than_rounding(plain, tmp_path):
+    trial = next(trial for trial in trials() if "order" in trial.job)
+    plays = [one for one in FEW if one.name not in KNOWN.get(trial.name, ())]
+    other, _ = play(trial, plays, tmp_path)
+    assert differences(trial, plays, plain, other) == {}
+
+
+def test_the_order_in_which_a_hundred_parts_are_written_changes_no_more_than_rounding(tmp_path):
+    plays = [crowd(2), crowd(3)]
+    assert min(one.text.count("{type: ") for one in plays) > 100
+    trial = next(trial for trial in trials() if trial.change and not trial.equal)
+    one, _ = play(PLAIN, plays, tmp_path / "one")
+    other, _ = play(trial, plays, tmp_path / "other")
+    assert differences(trial, plays, one, other) == {}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("trial", trials(), ids=lambda trial: trial.name)
+def test_no_single_change_matters(plain, trial, tmp_path):
+    if trial.lacking:
+        pytest.skip(trial.lacking)
+    plays = [one for one in FEW if one.name not in KNOWN.get(trial.name, ())]
+    other, said = play(trial, plays, tmp_path)
+    print(said)
+    assert differences(trial, plays, plain, other) == {}
+
+
+RUN = Outcome(
+    "finished", np.array([0.0, 0.5, 0.5, 1.0]), np.array([0, -1, 1, 0], dtype=np.int8), ("a.x", "b.x"), ("m", "m"),
+    np.array([[0.0, 1.0], [0.1, 1.0], [0.1, 1.0], [0.2, 2.0]]), ((0.5, "pad", "held", "forward", "lets_go"),),
+    {"steps": 100, "switches": 1},
+)  # fmt: skip
+
+
+def changed(**parts):
+    return dataclasses.replace(RUN, **parts)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        changed(values=np.nextafter(RUN.values, 9.0)),
+        changed(t=np.array([0.0, 0.5, 0.5, np.nextafter(1.0, 2.0)])),
+        changed(side=np.zeros(4, dtype=np.int8)),
+        changed(events=((np.nextafter(0.5, 1.0), "pad", "held", "forward", "lets_go"),)),
+        changed(events=((0.5, "pad", "held", "backward", "lets_go"),)),
+        changed(counters={"steps": 101, "switches": 1}),
+        changed(status="failed"),
+    ],
+    ids=["a last digit", "a time of a row", "a side", "a time of a switch", "a zone", "a count", "how it ended"],
+)
+def test_two_runs_that_differ_in_one_thing_are_unlike(other):
+    assert outcome.unlike(RUN, RUN) == []
+    assert outcome.unlike(RUN, other)
+
+
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [
+        (changed(values=RUN.values * (1 + 0.9e-5)), False),
+        (changed(values=RUN.values * (1 + 1.1e-5)), True),
+        (changed(counters={"steps": 102, "switches": 1}), False),
+        (changed(counters={"steps": 103, "switches": 1}), True),
+        (changed(counters={"steps": 100, "partial_steps": 3}), True),
+        (changed(events=()), True),
+        (changed(events=((0.50009, "pad", "held", "forward", ""),)), False),
+        (changed(events=((0.50011, "pad", "held", "forward", ""),)), True),
+        (changed(events=((0.5, "pad", "held", "backward", ""),)), True),
+        (changed(events=(*RUN.events, (0.5, "rim", "a", "b", ""), (0.5, "rim", "b", "a", ""))), False),
+        (changed(events=(*RUN.events, (0.5, "rim", "a", "b", ""), (0.6, "rim", "b", "a", ""))), True),
+        (changed(events=((0.5, "pad", "held", "x", ""), (0.5, "pad", "x", "forward", ""))), False),
+    ],
+)
+def test_the_order_of_sums_may_change_so_much_and_no_more(other, told):
+    assert bool(outcome.apart(RUN, other, accuracy=1e-4)) == told
+
+
+def test_columns_are_compared_by_their_names():
+    turned = changed(names=RUN.names[::-1], values=RUN.values[:, ::-1])
+    assert outcome.unlike(RUN, turned) == []
+    assert outcome.unlike(RUN, changed(values=RUN.values[:, ::-1]))
+
+
+def test_what_is_in_force_names_blas_build_and_instructions():
+    said = in_force()
+    assert "OpenBLAS" in said
+    assert "compiled for" in said
