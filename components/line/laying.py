@@ -93,9 +93,10 @@ class Laying:
         """Ports whose motion is given: those of motion sources, and what links, racks and gears tie to them."""
         given, tied = [], [join.ports for join in self.assembly.joins]
         for path, instance in self.assembly.instances.items():
-            given += [PortRef(path, port) for port in getattr(instance.type, "prescribes", dict)()]
-            ties = getattr(instance.type, "ties", None)
-            tied += [(PortRef(path, a), PortRef(path, b)) for a, b, *_ in (ties(instance.values) if ties else ())]
+            says = instance.type.answers
+            given += [PortRef(path, port) for port in (says.prescribes() if says.prescribes is not None else ())]
+            ties = says.ties(instance.values) if says.ties is not None else ()
+            tied += [(PortRef(path, a), PortRef(path, b)) for a, b, *_ in ties]
         beside: dict[PortRef, list[tuple[PortRef, ...]]] = {}
         for ports in tied:
             for port in ports:

@@ -1,10 +1,13 @@
 """A class that contradicts itself is refused when it is created, at its own file and line."""
 
+import pathlib
 import re
+from dataclasses import fields
 
 import pytest
 
-from fairlead.component.base import DeclarationError
+from fairlead.component.answers import Answers, rows
+from fairlead.component.base import LEDGER, DeclarationError
 from fairlead.errors import ModelError
 
 LAW = "def law(p, a):\n    return (0,)"
@@ -44,6 +47,33 @@ REFUSED = {
         "'held' starts at 'first', which is no parameter",
     ),
     "a default that is no parameter": (f"{LAW}\npull = Input('N', default='force')", "'pull' is 'force' when nothing"),
+    "an attribute with a letter missing": (
+        f"{LAW}\ntransmit = True",
+        "nobody asks for 'transmit'. Did you mean transmits?",
+    ),
+    "a method with letters exchanged": (f"{LAW}\ndef inerita(p):\n    return {{}}", "Did you mean inertia?"),
+    "a method in capitals": (f"{LAW}\ndef Starts_At(p, x):\n    pass", "Did you mean starts_at?"),
+    "a law with a letter too many": ("def laws(p, a):\n    return (0,)", "Did you mean law?"),
+    "a word where yes or no is asked": (f"{LAW}\ntransmits = 'yes'", "transmits is 'yes'; it is True or False"),
+    "a number where a method is asked": (f"{LAW}\ninertia = 3.0", "inertia is 3.0, and a method (p) is asked for"),
+    "a value where a method is asked": (f"{LAW}\ninertia = property(lambda p: 3)", "and a method (p) is asked for"),
+    "a method that takes more": (f"{LAW}\ndef inertia(p, a):\n    return {{}}", "is called with (p)"),
+    "a method that takes less": (f"{LAW}\ndef starts_at(p):\n    pass", "takes (p), and is called with (p, x)"),
+    "a method with a self that nobody passes": (
+        f"{LAW}\ndef prescribes(self):\n    return {{}}",
+        "is called with ()",
+    ),
+    "an input that there is not": (f"{LAW}\npasses = 'target'", "passes is 'target'; the inputs are []"),
+    "one input where two are asked": (
+        f"{LAW}\npull = Input('N')\nfollows = 'pull'",
+        "follows is 'pull'; it names two inputs",
+    ),
+    "a parameter that there is not": (f"{LAW}\nkeeps = 'wanted'", "keeps is 'wanted'; the parameters are []"),
+    "a budget of something else": (f"{LAW}\nbudget = {{'steps': 5}}", "whole numbers for max_steps and max_events"),
+    "a ledger that reads what there is not": (
+        f"{LAW}\ndef stored(p, a, b):\n    return 0",
+        "stored asks for 'b'; known: ['a', 'p', 't', 'zone']",
+    ),
     "a unit inside a block": (LAW + "\nhose = Block({'mass': Parameter('kg per m')})", "kg per m"),
 }  # fmt: skip
 
@@ -80,3 +110,61 @@ def test_a_file_with_such_a_class_is_named_with_its_line(scene, library):
     with pytest.raises(ModelError) as caught:
         scene("components: {}\nrun: {stop: 1 s}", libraries=(path,)).check()
     assert re.search(r"classes0\.py:3: Mine: zone 'always' has no law", str(caught.value))
+
+
+def test_what_is_asked_has_a_default_and_can_be_inherited():
+    plain = declare(LAW)
+    assert plain.answers == Answers(law=plain.law)
+    half = declare(f"{LAW}\ntransmits = True\nbudget = {{'max_steps': 7}}\ndef inertia(p):\n    return {{'a': 1.0}}")
+    leaf = type("Leaf", (half,), {"transmits": False})
+    assert (half.answers.transmits, leaf.answers.transmits) == (True, False)
+    assert leaf.answers.budget == {"max_steps": 7}
+    assert leaf.answers.inertia(None) == {"a": 1.0}
+
+
+@pytest.mark.parametrize("name", ["inertia", "start", "keeps", "transmits"])
+def test_a_parameter_may_have_the_name_of_what_is_asked(name):
+    """It is a declaration, so nobody takes it for an answer."""
+    kind = declare(f"{LAW}\n{name} = Parameter('N')")
+    assert name in kind.declaration.parameters
+    assert getattr(kind.answers, name) == getattr(Answers(), name)
+
+
+@pytest.mark.parametrize("helper", ["slope", "shape", "reach", "pull", "_transmit", "_inerita", "SITES"])
+def test_helpers_of_an_author_are_left_alone(helper):
+    assert declare(f"{LAW}\ndef {helper}(p, x):\n    return x").answers.law is not None
+
+
+@pytest.mark.parametrize(
+    ("body", "what"),
+    [
+        ("def scales(p):\n    return 1.0", "Did you mean scale?"),
+        ("def breakaway(p, v):\n    return 0", "breakaway takes (p, v), and is called with (p)"),
+        ("words = 'mine'", "Did you mean word?"),
+        ("word = 3", "word is 3, and a str in the class it builds on"),
+    ],
+)
+def test_a_member_of_a_family_answers_as_its_head_asks(body, what):
+    from fairlead.components.friction.curve import Curve
+
+    names = {"Curve": Curve}
+    lines = "".join(f"    {line}\n" for line in body.splitlines())
+    with pytest.raises(DeclarationError, match=re.escape(what)):
+        exec(f"class Mine(Curve):\n{lines}", names)  # the text of this test
+
+
+def test_the_page_lists_all_that_a_class_may_be_asked():
+    page = (pathlib.Path(__file__).parents[2] / "docs" / "components.md").read_text(encoding="utf-8")
+    for name, what, meaning in rows():
+        assert f"| `{name}` | {what} | {meaning} |" in page
+
+
+def test_all_that_may_be_asked_of_the_bundled_classes_is_said_by_one_of_them():
+    """What no class says, nobody needs to ask; the ledger may stand in a law as well, where they all have it."""
+    from fairlead.components.friction.contact import Contact
+
+    from fairlead.component.registry import bundled
+
+    kinds = [*bundled().values(), *Contact.members.values()]
+    silent = [one.name for one in fields(Answers) if all(getattr(k.answers, one.name) == one.default for k in kinds)]
+    assert set(silent) == set(LEDGER)

@@ -102,9 +102,9 @@ def _measured(
     p: Values, normal: float, breakaway: float, steady: dict[str, Any], driven: dict[str, Any], holds: bool
 ) -> Characteristic:
     label, rest = p.type.word, dict.fromkeys(LOAD_SHARES, 0.0)  # type: ignore[attr-defined]
-    numbers = tuple(p.numbers(normal)) if hasattr(p.type, "numbers") else ()
+    numbers = tuple(p.type.answers.numbers(p, normal)) if p.type.answers.numbers is not None else ()
     common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven,
-              "numbers": numbers, "can_hold": getattr(p.type, "can_hold", True)}  # fmt: skip
+              "numbers": numbers, "can_hold": p.type.answers.can_hold}  # fmt: skip
     if holds or p.type.declaration.states:
         ratio = getattr(p, "ratio", None)
         stiffness = None if holds or ratio is None else normal * ratio

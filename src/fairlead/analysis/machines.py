@@ -64,7 +64,7 @@ def bodies(flat: FlatModel, port: PortRef, without: tuple[str, ...] = ()) -> dic
     while waiting:
         here = waiting.pop()
         for instance, name, own in _attached(flat, here, without):
-            if not getattr(instance.type, "transmits", False):
+            if not instance.type.answers.transmits:
                 continue
             (other,) = (end for end in instance.type.declaration.ports if end != name)
             beyond, other_ratio, _ = flat.place(PortRef(instance.path, other))
@@ -90,7 +90,7 @@ def machine(flat: FlatModel, port: PortRef, line: str, route: str) -> Machine:
             speed, by = _prescribed(flat, prescribed, ratio), prescribed.by.instance
             unknown += [by] if speed is None else []
         for instance, name, own in _attached(flat, here, without):
-            if getattr(instance.type, "transmits", False):
+            if instance.type.answers.transmits:
                 continue
             if len(instance.type.declaration.ports) > 1:
                 (left_out if _mechanical(instance) else unknown).append(instance.path)
@@ -130,9 +130,10 @@ def _inertia(flat: FlatModel, group: int, line: str) -> float:
     made, own = flat.groups[group], 0.0
     for node, ratio in zip(made.nodes, made.ratios, strict=True):
         for ref in flat.nodes[node].ports:
-            instance: Any = flat.assembly.instances[ref.instance]
-            if ref.instance.startswith(f"{line}.") and hasattr(instance.type, "inertia"):
-                own += ratio**2 * instance.type.inertia(instance.values).get(ref.port, 0.0)
+            instance = flat.assembly.instances[ref.instance]
+            inertia = instance.type.answers.inertia
+            if ref.instance.startswith(f"{line}.") and inertia is not None:
+                own += ratio**2 * inertia(instance.values).get(ref.port, 0.0)
     return made.mass - own
 
 
@@ -144,8 +145,8 @@ def _attached(flat: FlatModel, group: int, without: tuple[str, ...]) -> list[tup
         for ref in flat.nodes[node].ports:
             instance = flat.assembly.instances[ref.instance]
             inside = any(ref.instance.startswith(f"{path}.") for path in without)
-            kind = instance.type
-            if not (inside or hasattr(kind, "ties") or hasattr(kind, "prescribes") or hasattr(kind, "inertia")):
+            says = instance.type.answers
+            if not (inside or says.ties or says.prescribes or says.inertia):
                 found.append((instance, ref.port, ratio))
     return found
 
@@ -174,7 +175,7 @@ def _acts(effort: tuple[Instance, str, float, Wave | None]) -> bool:
 def _controlled(flat: FlatModel, ratios: dict[int, float]) -> Traced | None:
     """A controller that makes the speed of one of these bodies follow a reference; told as the speed of the port."""
     for instance in flat.instances:
-        follows = getattr(instance.type, "follows", None)
+        follows = instance.type.answers.follows
         if follows is None:
             continue
         reference, measured = (trace(flat, PortRef(instance.path, name)) for name in follows)

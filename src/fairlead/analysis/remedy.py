@@ -16,7 +16,7 @@ def budget(types: Iterable[Any], name: str, given: int | None) -> int | None:
     """The budget of a run: what the netlist gives, or the least that a class in it asks for."""
     if given is not None:
         return given
-    asked = [kind.budget[name] for kind in set(types) if name in getattr(kind, "budget", {})]
+    asked = [kind.answers.budget[name] for kind in set(types) if name in kind.answers.budget]
     return min(asked, default=None)
 
 
@@ -24,7 +24,7 @@ def remedies(instances: Iterable[Any]) -> str:
     """What the classes in a failed run advise, each with the components it is about; nothing where none does."""
     affected: dict[str, list[str]] = {}
     for instance in instances:
-        advice = getattr(instance.type, "advice", "")
+        advice = instance.type.answers.advice
         if advice:
             affected.setdefault(advice, []).append(instance.path)
     return " ".join(f"{_listed(paths)}: {advice}" for advice, paths in affected.items())

@@ -24,7 +24,7 @@ def slow_drives(flat: FlatModel, solved: Iterable[Statics]) -> Iterator[Fault]:
     loads = [load for found in solved for load in _loads(found)]
     told: set[str] = set()
     for instance in flat.instances:
-        follows = getattr(instance.type, "follows", None)
+        follows = instance.type.answers.follows
         if follows is None:
             continue
         reference, measured = (trace(flat, PortRef(instance.path, name)) for name in follows)

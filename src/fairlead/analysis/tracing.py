@@ -19,7 +19,6 @@ import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
-from typing import Any
 
 from fairlead.analysis.schedule import followed, scaled
 from fairlead.component.base import DeclarationError, terms_of
@@ -58,22 +57,21 @@ def trace(flat: FlatModel, target: PortRef, links: int = 0) -> Traced | None:
         default = instance.type.declaration.inputs[target.port].default
         number = getattr(instance.values, default) if isinstance(default, str) else default
         return None if number is None else Traced(str(target), wave=steady(float(number)))
-    kind: Any = instance.type
-    if hasattr(kind, "keeps"):
-        return Traced(instance.path, kept=float(getattr(instance.values, kind.keeps)))
-    if hasattr(kind, "passes"):
-        return _passed(flat, instance, trace(flat, PortRef(instance.path, kind.passes), links + 1))
+    says = instance.type.answers
+    if says.keeps:
+        return Traced(instance.path, kept=float(getattr(instance.values, says.keeps)))
+    if says.passes:
+        return _passed(flat, instance, trace(flat, PortRef(instance.path, says.passes), links + 1))
     return _given(instance, source.port) or _sensed(instance, source.port) or _amplified(flat, instance, source, links)
 
 
 def _passed(flat: FlatModel, instance: Instance, before: Traced | None) -> Traced | None:
     """What comes out of a component that passes on its input, with limited rate if it says so."""
-    kind: Any = instance.type
     told = before.told() if before is not None else None
-    if before is None or told is None or not hasattr(kind, "at_most"):
+    if before is None or told is None or not instance.type.answers.at_most:
         return before
     run = flat.assembly.netlist.run
-    most = float(getattr(instance.values, kind.at_most))
+    most = float(getattr(instance.values, instance.type.answers.at_most))
     return Traced(before.by, wave=followed(told, most, run.start, run.stop))
 
 

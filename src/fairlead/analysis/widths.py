@@ -31,7 +31,7 @@ def too_wide(flat: FlatModel) -> list[Fault]:
     drive = slowest_drive(flat.instances)
     found: dict[int, list[Instance]] = {}
     for instance in flat.instances:
-        if hasattr(instance.type, "narrowest"):
+        if instance.type.answers.narrowest is not None:
             found.setdefault(id(instance.values), []).append(instance)
     return [fault for alike in found.values() for fault in _remarks(alike, drive)]
 
@@ -41,7 +41,7 @@ def slowest_drive(instances: Iterable[Instance]) -> Scale | None:
     scales = [
         Scale(speed, f"the slowest drive ({instance.path})")
         for instance in instances
-        if hasattr(instance.type, "prescribes") and "motion" in instance.type.declaration.derived
+        if instance.type.answers.prescribes is not None and "motion" in instance.type.declaration.derived
         for speed in _steady_speeds(instance.values)
     ]
     return min(scales, default=None)

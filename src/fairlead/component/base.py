@@ -19,8 +19,10 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar
 
+from fairlead.component.answers import COMPONENT, COMPOSITE, EVERYWHERE, Answers, answers_of, misspelt, unfit
+from fairlead.component.declaration import Declaration
 from fairlead.component.declare import (
     Block,
     Carries,
@@ -50,7 +52,6 @@ from fairlead.component.declare import (
 from fairlead.quantities import QuantityError, parse_unit
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
-METHODS = ("law", "inertia", "start", "ties", "stored", "dissipated", "supplied", "expand", "check", "prescribes")
 LEDGER = ("dissipated", "supplied", "stored")
 RESERVED = {"type", "given", "variant", "path", "effects"}  # attributes of `values.Values` that would hide a parameter
 
@@ -59,42 +60,11 @@ class DeclarationError(TypeError):
     """A class that contradicts itself; raised when it is created, with its file and line."""
 
 
-@dataclass(frozen=True)
-class Declaration:
-    """All that a class declares, by name and in order."""
-
-    ports: dict[str, Port] = field(default_factory=dict)
-    parameters: dict[str, Any] = field(default_factory=dict)
-    inputs: dict[str, Input] = field(default_factory=dict)
-    outputs: dict[str, Output] = field(default_factory=dict)
-    states: dict[str, State] = field(default_factory=dict)
-    unknowns: dict[str, Unknown] = field(default_factory=dict)
-    discrete: dict[str, Discrete] = field(default_factory=dict)
-    samples: dict[str, Sampled] = field(default_factory=dict)
-    derived: dict[str, Derived] = field(default_factory=dict)
-    shared: dict[str, Shared] = field(default_factory=dict)
-    effects: dict[str, Effect] = field(default_factory=dict)
-    zones: tuple[str, ...] = ("always",)
-    laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
-    guards: dict[str, Guard] = field(default_factory=dict)
-    carries: Carries | None = None
-    python: bool = False  # its discrete variables are set by plain Python, see controller.py
-
-    @property
-    def arguments(self) -> set[str]:
-        """Names a law may ask for."""
-        return {*self.given, *self.shared}
-
-    @property
-    def given(self) -> set[str]:
-        """Names a shared expression may ask for."""
-        return {"p", "t", "zone", *self.ports, *self.inputs, *self.states, *self.unknowns, *self.discrete}
-
-
 class Declared:
     """What Component, Composite and parts of laws share: declarations collected at class creation."""
 
     declaration: ClassVar[Declaration] = Declaration()
+    answers: ClassVar[Answers] = Answers()
 
     def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
         """Collect what the body declares on top of what its half-models declare."""
@@ -104,7 +74,10 @@ class Declared:
                 f"{cls.__name__} was imported as {cls.__module__}; import it as fairlead.{cls.__module__}"
             )
         if not abstract:  # a half-model is collected through the leaves that build on it
-            cls.declaration = _collect(cls)
+            members = _members(cls)
+            cls.declaration = _collect(members)
+            _check_answers(cls, members)
+            cls.answers = answers_of(members, _sort(cls))
             _check(cls)
 
 
@@ -160,11 +133,21 @@ class Expansion:
     line: Any = None  # what a route needs to know, for composites with a path
 
 
-def _collect(cls: type) -> Declaration:
-    """Merge the declarations of all bases, nearest last, into one record."""
+def _members(cls: type) -> dict[str, Any]:
+    """What the bodies of a class and of all its bases hold, by name."""
     members: dict[str, Any] = {}
     for base in reversed(cls.__mro__[:-1]):
         members.update(base.__dict__)
+    return members
+
+
+def _sort(cls: type) -> str:
+    """What sort of class it is, which decides what it may be asked."""
+    return COMPONENT if issubclass(cls, Component) else COMPOSITE if issubclass(cls, Composite) else EVERYWHERE
+
+
+def _collect(members: dict[str, Any]) -> Declaration:
+    """Merge the declarations of all bases, nearest last, into one record."""
 
     def of(kind: Any) -> dict[str, Any]:
         return {name: value for name, value in members.items() if isinstance(value, kind)}
@@ -193,6 +176,13 @@ def _everywhere(mark: Guard, zones: tuple[str, ...]) -> Guard:
     return replace(mark, zones=tuple(zone for zone in zones if zone != mark.to)) if mark.zones == ("*",) else mark
 
 
+def _check_answers(cls: type[Declared], members: dict[str, Any]) -> None:
+    """What is asked is answered as it is asked, and spelt as it is."""
+    bodies = (base.__dict__ for base in reversed(cls.__mro__[:-1]))
+    for what in (*misspelt(bodies, _sort(cls)), *unfit(members, _sort(cls), cls.declaration)):
+        _demand(cls, False, what)
+
+
 def _check(cls: type[Declared]) -> None:
     """Names, signatures and targets; the physics is the contract suite's business."""
     has = cls.declaration
@@ -200,7 +190,7 @@ def _check(cls: type[Declared]) -> None:
     _check_named_numbers(cls)
     _check_limits(cls)
     if issubclass(cls, Composite):
-        _demand(cls, hasattr(cls, "expand"), "a Composite needs an expand(p) method")
+        _demand(cls, cls.answers.expand is not None, "a Composite needs an expand(p) method")
         return
     if not issubclass(cls, Component):
         return
@@ -319,5 +309,6 @@ def _passive(cls: type[Declared]) -> set[str]:
 
     A controller in plain Python only looks at its ports.
     """
-    settled = set(cast(Any, cls).prescribes()) if hasattr(cls, "prescribes") else set()
-    return settled | (set(cls.declaration.ports) if hasattr(cls, "ties") or cls.declaration.python else set())
+    answers, has = cls.answers, cls.declaration
+    settled = set(answers.prescribes()) if answers.prescribes is not None else set()
+    return settled | (set(has.ports) if answers.ties is not None or has.python else set())

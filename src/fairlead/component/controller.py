@@ -50,7 +50,7 @@ class Controller(Component, abstract=True):
 
 
 def _check(cls: type[Controller]) -> None:
-    has, sample = cls.declaration, getattr(cls, "sample", None)
+    has, sample = cls.declaration, cls.answers.sample
     if sample is None:
         raise DeclarationError(f"{source_place(cls)}: {cls.__name__}: a Controller needs a method sample(self, t, ...)")
     known = {"t", *has.inputs, *has.ports}

@@ -33,7 +33,8 @@ def dependencies(variant: Variant) -> str:
 def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
-    files = [here / n for n in ("declare.py", "base.py", "functions.py", "trace.py", "values.py", "piecewise.py")]
+    tracing = "declare declaration answers base functions trace values piecewise"
+    files = [here / f"{name}.py" for name in tracing.split()]
     text = "kernels kernel_text dependence held_pairs lowering lowered_values layout structure"
     files += [here.parent / "system" / f"{name}.py" for name in text.split()]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)

@@ -215,7 +215,8 @@ def _place(assembly: Assembly, path: str, values: Values, where: Location) -> No
     if not issubclass(values.type, Composite):
         assembly.add(path, values, where)
         return
-    expansion: Expansion = values.type.expand(values, assembly.scene)  # type: ignore[attr-defined]
+    assert values.type.answers.expand is not None  # of every Composite, see base.py
+    expansion: Expansion = values.type.answers.expand(values, assembly.scene)
     assembly.expansions[path] = expansion
     for name, child in expansion.children.items():
         _place(assembly, f"{path}.{name}", child, where)

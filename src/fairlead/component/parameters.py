@@ -208,7 +208,7 @@ def _values(kind: type[Declared], model: BaseModel) -> Values:
         given[name] = value
     effects = given.pop("effects", {})
     given |= effects
-    prepare = getattr(kind, "prepare", None)
+    prepare = kind.answers.prepare
     values = Values(kind, prepare(given) if prepare else given)
     values.effects = dict(effects)
     return values
@@ -234,7 +234,7 @@ def _contradictions(
 
     A parameter may be a path such as `stations[2].start`.
     """
-    check = getattr(kind, "check", None)
+    check = kind.answers.check
     faults = []
     for name, what, way_out in check(values) if check else ():
         place = _place(raw, name, where)

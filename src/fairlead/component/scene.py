@@ -63,7 +63,7 @@ class Scene:
         plain |= {name: value.plain() for name, value in self.switched(kind, given).items() if name not in given}
         made = make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
         faults = []
-        for name, what, way_out in getattr(made.type, "check", lambda _: ())(made):
+        for name, what, way_out in made.type.answers.check(made) if made.type.answers.check is not None else ():
             where = next((given.where for key, given in self.friction.items() if key == name or key in what), None)
             faults.append(Fault(where, f"friction.{name}: {what.removesuffix('.')}.", way_out))
         if faults:  # settings of the scene that contradict each other in the member chosen

@@ -56,7 +56,7 @@ def stand_in(kind: type[Declared], given: Mapping[str, Any], folder: pathlib.Pat
 
 def _contradictions(values: Values) -> Iterable[tuple[str, str, str]]:
     """What the class itself says of the values together; what its parts say cannot change its ports."""
-    check = getattr(values.type, "check", None)
+    check = values.type.answers.check
     return check(values) if check else ()
 
 

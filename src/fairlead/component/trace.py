@@ -17,7 +17,8 @@ from typing import Any
 
 import sympy
 
-from fairlead.component.base import LEDGER, Declaration, source_place, terms_of
+from fairlead.component.base import LEDGER, source_place, terms_of
+from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Choice, Count, Hold, Law, Part, Port, Table, Waveform
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.values import Variant
@@ -214,7 +215,7 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     for name in has.outputs.keys() & has.discrete.keys():  # what a controller in plain Python holds
         zone.outputs[name] = symbol(f"p:#{name}")
     for line in LEDGER:
-        method = getattr(variant.type, line, None)
+        method = getattr(variant.type.answers, line)
         if method is not None and line not in zone.ledger:
             zone.ledger[line] = _power(_run(method, arguments), method)
     for label, mark in has.guards.items():

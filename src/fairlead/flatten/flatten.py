@@ -118,7 +118,7 @@ def _start_sources(flat: FlatModel) -> None:
 def _shift(flat: FlatModel, made: Group) -> None:
     assert made.prescribed is not None
     source = flat.assembly.instances[made.prescribed.by.instance]
-    shift = getattr(source.type, "starts_at", None)
+    shift = source.type.answers.starts_at
     if shift is not None:
         _, ratio, offset = flat.place(made.prescribed.by)
         shift(source.values, ratio * made.start[0] + offset)

@@ -109,7 +109,7 @@ def _gap(ties: Ties, instance: Instance, tie: tuple[int, int, float, float]) -> 
 
 
 def _ties(instance: Instance) -> Any:
-    ties = getattr(instance.type, "ties", None)
+    ties = instance.type.answers.ties
     return ties(instance.values) if ties else ()
 
 
@@ -117,13 +117,12 @@ def _facts(assembly: Assembly, node_of: dict[PortRef, int]) -> dict[int, list[tu
     """Per node: inertias, start values and prescriptions of its components."""
     facts: dict[int, list[tuple[str, Instance, PortRef, Any]]] = {}
     for instance in assembly.instances.values():
-        for kind in ("inertia", "start"):
-            method = getattr(instance.type, kind, None)
-            for port, value in (method(instance.values) if callable(method) else {}).items():
+        says = instance.type.answers
+        for kind, method in (("inertia", says.inertia), ("start", says.start)):
+            for port, value in (method(instance.values) if method is not None else {}).items():
                 ref = PortRef(instance.path, port)
                 facts.setdefault(node_of[ref], []).append((kind, instance, ref, value))
-        prescribes = getattr(instance.type, "prescribes", None)
-        for port, outputs in (prescribes() if prescribes else {}).items():
+        for port, outputs in (says.prescribes() if says.prescribes is not None else {}).items():
             ref = PortRef(instance.path, port)
             facts.setdefault(node_of[ref], []).append(("prescribes", instance, ref, outputs))
     return facts

@@ -92,7 +92,7 @@ def _ends(ends: object) -> tuple[End, ...]:
 
 def _box(flat: FlatModel, instances: list[Instance]) -> Box:
     first = instances[0]
-    anchored = hasattr(first.type, "prescribes")
+    anchored = first.type.answers.prescribes is not None
     return Box(_ranged([i.path for i in instances]), _type(first.type), len(instances), anchored)
 
 

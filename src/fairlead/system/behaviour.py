@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from sympy import Expr, sympify
 
-from fairlead.component.base import METHODS, Declared
+from fairlead.component.answers import METHODS
+from fairlead.component.base import Declared
 from fairlead.component.declare import Choice
 from fairlead.component.trace import Traced, TraceError, symbol, trace_function
 from fairlead.system.columns import columns, heading, wrapped

@@ -38,7 +38,7 @@ class Writing:
 def writing_of(traced: Traced) -> Writing:
     """The writing of a traced class."""
     kind, has = traced.variant.type, traced.variant.type.declaration
-    prescribes = getattr(kind, "prescribes", None)
+    prescribes = kind.answers.prescribes
     positive = (
         f"p:{n}" for n, d in has.parameters.items() if isinstance(d, Parameter) and d.above is not None and d.above >= 0
     )
@@ -55,7 +55,7 @@ def writing_of(traced: Traced) -> Writing:
 
 def _asked(traced: Traced, name: str) -> Any:
     """What a method of `p` says of symbols; None if the class has none or computes it in plain Python."""
-    method = getattr(traced.variant.type, name, None)
+    method = getattr(traced.variant.type.answers, name)
     try:
         return trace_function(traced.variant, method)[0] if method else None
     except TraceError:

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import sympy
 
-from fairlead.component.base import Declaration
+from fairlead.component.declaration import Declaration
 
 KINDS = ("p", "in", "own", "port", "t")  # of symbols, in the order of factors of a product
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together

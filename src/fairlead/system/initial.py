@@ -69,7 +69,7 @@ def _names(flat: FlatModel, numbering: Numbering) -> dict[str, Named]:
     names: dict[str, Named] = {}
     for ref in flat.node_of:
         names |= _of_port(flat, numbering, ref, str(ref))
-        if getattr(flat.assembly.instances[ref.instance].type, "inertia", None):
+        if flat.assembly.instances[ref.instance].type.answers.inertia is not None:
             names |= _of_port(flat, numbering, ref, ref.instance)
     for outer, ref in flat.assembly.aliases.items():
         if ref in flat.node_of:

@@ -7,7 +7,7 @@ import inspect
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from fairlead.component.base import Declaration
+from fairlead.component.declaration import Declaration
 from fairlead.component.declare import (
     REQUIRED,
     Block,

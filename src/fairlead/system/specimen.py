@@ -9,7 +9,8 @@ import inspect
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from fairlead.component.base import METHODS, Declared, Family
+from fairlead.component.answers import METHODS
+from fairlead.component.base import Declared, Family
 from fairlead.component.declare import REQUIRED, Choice, Parameter, Part, Table, Waveform
 from fairlead.component.piecewise import linear_table
 from fairlead.component.scene import is_head
@@ -30,7 +31,7 @@ def specimen(kind: type[Declared], *, open_parts: bool) -> Variant:
     has = kind.declaration
     given = {name: _usual(name, declared, open_parts) for name, declared in has.parameters.items() if name != "effects"}
     given |= {name: effect.default for name, effect in has.effects.items()}
-    prepare = getattr(kind, "prepare", None)
+    prepare = kind.answers.prepare
     return variant_of(Values(kind, prepare(given) if prepare else given))
 
 
@@ -68,7 +69,7 @@ def _any_member(path: str, family: Any) -> type[Declared]:
     """A stand-in whose functions are those that all members have, left unsaid."""
     member = _first(family)
     names = [n for n, f in inspect.getmembers(member, inspect.isfunction) if not n.startswith("_") and n not in METHODS]
-    everywhere = [n for n in names if all(hasattr(other, n) for other in family.members.values())]
+    everywhere = [n for n in names if all(n in dict(inspect.getmembers(m)) for m in family.members.values())]
     return type(
         family.__name__,
         (Declared,),

@@ -100,7 +100,7 @@ def _most(instance: Instance) -> tuple[float, float]:
     creep = instance.values.given.get("creep")
     if isinstance(creep, float):
         return creep, np.inf
-    if not hasattr(instance.type, "narrowest"):
+    if instance.type.answers.narrowest is None:
         return np.inf, np.inf
     return np.inf, CURVE_SHARE * (instance.values.curve.scale() or np.inf)
 

@@ -28,7 +28,7 @@ class Check:
 
     def __call__(self) -> None:
         """Ask random instances, with and without what may be left out; always the same ones."""
-        exempt = getattr(self.kind, "exempt", {})
+        exempt = self.kind.answers.exempt
         unknown = {key for key in exempt if key.split(" ")[0] not in PROPERTIES}
         if unknown:
             raise ContractError(

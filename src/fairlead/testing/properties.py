@@ -8,7 +8,7 @@ one says so, with the reason, for all of it or for one zone or option:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -116,7 +116,7 @@ def balance(make: Maker, rng: np.random.Generator) -> None:
 def dissipates(make: Maker, rng: np.random.Generator) -> None:
     """Dissipated power is never negative, in the zones that the guards allow."""
     for world, at in _settled(make, rng):
-        if f"dissipates {world.zone(at)}" in getattr(world.kind, "exempt", {}):
+        if f"dissipates {world.zone(at)}" in world.kind.answers.exempt:
             continue
         power = world.ask(layout.OUTPUT, at)[-2].real
         if power < -ROUNDING * max(1.0, _power_met(world, at)):
@@ -128,7 +128,7 @@ def dissipates(make: Maker, rng: np.random.Generator) -> None:
 def energy(make: Maker, rng: np.random.Generator) -> None:
     """Power in = rate of stored energy + dissipated - supplied."""
     for world, at in _settled(make, rng):
-        if hasattr(world.kind, "ties"):
+        if world.kind.answers.ties is not None:
             return  # a rigid tie passes on what it takes in; it has no law to say so
         taken = _power_in(world, at, rates := _rates(world, at, rng))
         stored = world.ask(layout.OUTPUT, at.shifted(rates, STEP * 1j))[-3]
@@ -296,13 +296,13 @@ def _argument(world: World, at: Instant, name: str) -> Any:
     return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
 
 
-def _inertia(world: World) -> dict[str, float]:
-    method = getattr(world.kind, "inertia", None)
+def _inertia(world: World) -> Mapping[str, float]:
+    method = world.kind.answers.inertia
     return method(world.of) if method else {}
 
 
 def _massive(world: World) -> bool:
-    return bool(_inertia(world)) or hasattr(world.kind, "ties")
+    return bool(_inertia(world)) or world.kind.answers.ties is not None
 
 
 def _rates(world: World, at: Instant, rng: np.random.Generator) -> dict[str, float]:

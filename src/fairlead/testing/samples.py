@@ -70,7 +70,7 @@ def sample(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, 
 
 def _draw(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool) -> dict[str, Any]:
     given: dict[str, Any] = {}
-    chosen = {**getattr(kind, "asked_with", {}), **chosen}
+    chosen = {**kind.answers.asked_with, **chosen}
     for name, declared in kind.declaration.parameters.items():
         if name in chosen and not (isinstance(declared, Part) and isinstance(chosen[name], str)):
             given[name] = chosen[name]
@@ -136,7 +136,7 @@ def _wave(declared: Waveform, rng: np.random.Generator) -> dict[str, Any]:
 
 
 def _contradictions(values: Values) -> Iterator[Any]:
-    check = getattr(values.type, "check", None)
+    check = values.type.answers.check
     yield from check(values) if check else ()
     for inner in values.given.values():
         if isinstance(inner, Values):

@@ -66,7 +66,7 @@ class World:
         self.rig = Rig([self.of], [{port: 1 / mass for port, mass in self.masses.items()}])
         self.structure = self.rig.structure
         self.kind: type[Declared] = self.of.type
-        prescribes = getattr(self.kind, "prescribes", None)
+        prescribes = self.kind.answers.prescribes
         self.prescribed: dict[str, Any] = dict(prescribes()) if prescribes else {}
         ports = self.kind.declaration.ports
         self.bodies = [name for name, port in ports.items() if port.domain.mechanical and name not in self.prescribed]

@@ -1,0 +1,256 @@
+"""What the framework may ask of a component class, besides its declarations: the one list.
+
+A class answers by an attribute of that name, `transmits = True` or `def inertia(p): ...`; what it does not say
+has the default. `Answers` is read when the class is created and kept as `kind.answers`, so nothing else looks into
+a class for what it may have. `docs/components.md` has the same list.
+
+What is answered must be of its kind: a method takes the arguments told here, a name is that of an input or a
+parameter. A class body may hold more than is asked: helpers of its laws, such as the `coefficient` of a curve. They
+are left alone, because a law calls `p.helper(...)` and says with its name what it means. A name that nobody asks for
+and that is nearly one that somebody asks for, or nearly that of something a base class has, is refused as a slip of
+the pen; a helper that is meant to have such a name takes a leading underscore. So no list of helpers has to be kept,
+and `transmit = True` does not pass for silence.
+"""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import Field, dataclass, field, fields
+from typing import Any
+
+from fairlead.component.declaration import Declaration
+
+NEAR = 0.82
+"""Likeness (Ratcliff and Obershelp, as difflib has it) from which on a name counts as misspelt: one letter of four."""
+BY_NAME = ("law", "sample", "dissipated", "supplied", "stored")
+"""Methods whose arguments are given by their names, so that a class asks for those it wants."""
+SET_HERE = ("declaration", "answers", "members")
+"""What the framework itself leaves in a class."""
+BUDGETS = ("max_steps", "max_events")
+EVERYWHERE, COMPONENT, COMPOSITE = "any class", "a Component", "a Composite"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What an answer must be; `wrong` says what is not so, or nothing."""
+
+    said: str
+    wrong: Callable[[Any, Declaration], str]
+    method: bool = False
+
+
+def method(*arguments: str) -> Kind:
+    """A method that is called with these arguments, in their order."""
+    takes = f"({', '.join(arguments)})"
+
+    def wrong(value: Any, has: Declaration) -> str:
+        if not inspect.isfunction(value):
+            return f"is {_shown(value)}, and a method {takes} is asked for"
+        try:
+            inspect.signature(value).bind(*arguments)
+        except TypeError:
+            return f"takes {inspect.signature(value)}, and is called with {takes}"
+        return ""
+
+    return Kind(takes, wrong, method=True)
+
+
+def _law(value: Any, has: Declaration) -> str:
+    if not inspect.isfunction(value):
+        return f"is {_shown(value)}, and a law is asked for"
+    unknown = sorted(set(inspect.signature(value).parameters) - has.arguments)
+    return f"asks for {', '.join(map(repr, unknown))}; known: {sorted(has.arguments)}" if unknown else ""
+
+
+def _sample(value: Any, has: Declaration) -> str:
+    return "" if inspect.isfunction(value) else f"is {_shown(value)}, and a method is asked for"
+
+
+def _yes_or_no(value: Any, has: Declaration) -> str:
+    return "" if isinstance(value, bool) else f"is {_shown(value)}; it is True or False"
+
+
+def _sentence(value: Any, has: Declaration) -> str:
+    return "" if isinstance(value, str) else f"is {_shown(value)}; it is a sentence"
+
+
+def _input(value: Any, has: Declaration) -> str:
+    return "" if value in has.inputs else f"is {_shown(value)}; the inputs are {sorted(has.inputs)}"
+
+
+def _parameter(value: Any, has: Declaration) -> str:
+    known = {*has.parameters, *has.derived}
+    return "" if value in known else f"is {_shown(value)}; the parameters are {sorted(known)}"
+
+
+def _two_inputs(value: Any, has: Declaration) -> str:
+    if not isinstance(value, tuple) or len(value) != 2:
+        return f"is {_shown(value)}; it names two inputs"
+    return next((said for each in value if (said := _input(each, has))), "")
+
+
+def _budget(value: Any, has: Declaration) -> str:
+    fits = isinstance(value, dict) and all(key in BUDGETS and isinstance(n, int) for key, n in value.items())
+    return "" if fits else f"is {value!r}; it gives whole numbers for {' and '.join(BUDGETS)}"
+
+
+def _map(value: Any, has: Declaration) -> str:
+    fits = isinstance(value, dict) and all(isinstance(key, str) for key in value)
+    return "" if fits else f"is {_shown(value)}; it is a map with names"
+
+
+LAW = Kind("as a law", _law, method=True)
+SAMPLE = Kind("with self, t and what it reads", _sample, method=True)
+YES_OR_NO, SENTENCE, MAP = Kind("True or False", _yes_or_no), Kind("a sentence", _sentence), Kind("a map", _map)
+INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
+PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
+
+
+def _asked(kind: Kind, doc: str, of: str = COMPONENT, default: Any = None) -> Any:
+    facts = {"kind": kind, "doc": doc, "of": of}
+    return field(default_factory=dict, metadata=facts) if default is dict else field(default=default, metadata=facts)
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What a class says, or the default; None where nothing is said. Methods are called with `p` themselves."""
+
+    law: Callable[..., Any] | None = _asked(LAW, "what the ports take in, for a class without zones")
+    stored: Callable[..., Any] | None = _asked(LAW, "energy stored [J], where the laws do not tell it")
+    dissipated: Callable[..., Any] | None = _asked(LAW, "power dissipated [W], likewise")
+    supplied: Callable[..., Any] | None = _asked(LAW, "power supplied [W], likewise")
+    sample: Callable[..., Any] | None = _asked(SAMPLE, "of a Controller: its outputs, at a sample")
+    inertia: Callable[[Any], Mapping[str, float]] | None = _asked(
+        method("p"), "mass, moment of inertia or capacity, by port"
+    )
+    start: Callable[[Any], Mapping[str, Any]] | None = _asked(
+        method("p"), "start value by port: a potential, or (position, speed); None for what is not given"
+    )
+    prescribes: Callable[[], Mapping[str, Any]] | None = _asked(
+        method(), "ports whose motion is given, each with the outputs for position, speed, acceleration; None at rest"
+    )
+    starts_at: Callable[[Any, float], None] | None = _asked(
+        method("p", "x"), "told where the body is that it moves, when that follows from others"
+    )
+    ties: Callable[[Any], Iterable[tuple[str, str, Any, Any]]] | None = _asked(
+        method("p"), "rigid ties of its ports: (a, b, ratio, offset) for b = ratio * a + offset"
+    )
+    expand: Callable[[Any, Any], Any] | None = _asked(
+        method("p", "scene"), "what it is made of, as an Expansion", COMPOSITE
+    )
+    check: Callable[[Any], Iterable[tuple[str, str, str]]] | None = _asked(
+        method("p"), "yields (parameter, what is wrong, way out) for values that contradict each other", EVERYWHERE
+    )
+    prepare: Callable[[dict[str, Any]], dict[str, Any]] | None = _asked(
+        method("given"), "what is given, with what follows from it filled in, before `p` is made", EVERYWHERE
+    )
+    transmits: bool = _asked(
+        YES_OR_NO, "its two ends move alike in steady motion (springs, teeth, sensors)", default=False
+    )
+    passes: str = _asked(INPUT, "its output is, steadily, that input (lags, interlocks)", default="")
+    at_most: str = _asked(PARAMETER, "with `passes`: it goes there at most at that rate", default="")
+    follows: tuple[str, str] | None = _asked(
+        TWO_INPUTS, "the second input becomes the first (controllers with an integral)"
+    )
+    keeps: str = _asked(PARAMETER, "it keeps the tension of the line at that parameter [N]", default="")
+    narrowest: Callable[[Any], float | None] | None = _asked(
+        method("p"), "of a contact: slip speed [m/s] from which on friction is that of sliding; None without a band"
+    )
+    numbers: Callable[[Any, float], Iterable[tuple[str, float, str]]] | None = _asked(
+        method("p", "normal"), "of a contact: (name, value, unit) of more that `fairlead friction` tells"
+    )
+    can_hold: bool = _asked(YES_OR_NO, "of a contact: it can keep a load at rest", default=True)
+    budget: Mapping[str, int] = _asked(
+        BUDGET, "`max_steps` and `max_events` of its runs, where the netlist gives none", default=dict
+    )
+    advice: str = _asked(SENTENCE, "printed when a run with it fails or a budget ends it", default="")
+    exempt: Mapping[str, str] = _asked(
+        MAP, "properties of the contract that it does not keep, each with the reason", EVERYWHERE, dict
+    )
+    asked_with: Mapping[str, Any] = _asked(
+        MAP, "parameters with which the contract is asked, instead of random ones", EVERYWHERE, dict
+    )
+
+
+METHODS = tuple(one.name for one in fields(Answers) if one.metadata["kind"].method)
+
+
+def asked_of(sort: str) -> dict[str, Field[Any]]:
+    """What a sort of class may be asked, by name."""
+    return {one.name: one for one in fields(Answers) if one.metadata["of"] in (sort, EVERYWHERE)}
+
+
+def rows() -> list[tuple[str, str, str]]:
+    """(what to write, which classes, what it means) of all that may be asked, as documented."""
+    return [
+        (f"{one.name}{kind.said}" if kind.said.startswith("(") else one.name, _where(one), one.metadata["doc"])
+        for one in fields(Answers)
+        for kind in [one.metadata["kind"]]
+    ]
+
+
+def _where(one: Field[Any]) -> str:
+    kind, of = one.metadata["kind"], one.metadata["of"]
+    return f"method of {of}" if kind.method else f"{kind.said}, of {of}"
+
+
+def answers_of(members: Mapping[str, Any], sort: str) -> Answers:
+    """What a class says, given all that it and its bases have by name."""
+    return Answers(**{name: members[name] for name in asked_of(sort) if name in members and _plain(members[name])})
+
+
+def unfit(members: Mapping[str, Any], sort: str, has: Declaration) -> Iterator[str]:
+    """Answers that are not of their kind."""
+    for name, one in asked_of(sort).items():
+        if name in members and _plain(members[name]) and (wrong := one.metadata["kind"].wrong(members[name], has)):
+            yield f"{name} {wrong}"
+
+
+def misspelt(bodies: Iterable[Mapping[str, Any]], sort: str) -> Iterator[str]:
+    """Slips of the pen in class bodies, the class itself last, and what overrides something of another kind."""
+    known: dict[str, Any] = dict.fromkeys(asked_of(sort))
+    for whole in bodies:
+        body = {name: value for name, value in whole.items() if not name.startswith("_") and name not in SET_HERE}
+        for name, value in body.items():
+            if name in known:
+                yield from _other_kind(name, value, known[name])
+            elif _plain(value) and (near := _near(name, known)):
+                yield (
+                    f"nobody asks for {name!r}. Did you mean {near}? A helper of its own with such a name takes "
+                    "a leading underscore"
+                )
+        known |= body
+
+
+def _other_kind(name: str, value: Any, before: Any) -> Iterator[str]:
+    """A method stands for one with as many arguments, a value for one of its type."""
+    if inspect.isfunction(value) and inspect.isfunction(before) and name not in BY_NAME:
+        wanted = list(inspect.signature(before).parameters)
+        said = method(*wanted).wrong(value, None)  # type: ignore[arg-type]
+        if said:
+            yield f"{name} {said}"
+    elif isinstance(before, bool | str | tuple | dict) and type(value) is not type(before) and _plain(value):
+        yield f"{name} is {_shown(value)}, and a {type(before).__name__} in the class it builds on"
+
+
+def _plain(value: Any) -> bool:
+    """False for declarations, which say themselves what they are, so that a parameter may be called `start`."""
+    return type(value).__module__ != "fairlead.component.declare"
+
+
+def _near(word: str, known: Iterable[str]) -> str:
+    by_key = {_key(name): name for name in known}
+    found = difflib.get_close_matches(_key(word), by_key, n=1, cutoff=NEAR)
+    return by_key[found[0]] if found else ""
+
+
+def _key(word: str) -> str:
+    return word.lower().replace("_", "")
+
+
+def _shown(value: Any) -> str:
+    if inspect.isfunction(value):
+        return "a method"
+    return repr(value) if _plain(value) else f"a {type(value).__name__}"
