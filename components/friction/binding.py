@@ -76,7 +76,7 @@ class Binding(Creeping):
     bound_a = Input("1", "1 while the other contact of a is bound.", default=0.0)
     bound_b = Input("1", "1 while the other contact of b is bound.", default=0.0)
     bound = Output("1", "1 while the contact is bound.")
-    zones = Zones(*IN_CONTACT, "off")
+    zones = Zones(*IN_CONTACT, "off", latched=["break_forward", "break_backward"])
 
     def prepare(given):
         """What is not set by itself follows from the form."""

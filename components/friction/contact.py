@@ -46,7 +46,7 @@ class Contact(Family, Component, abstract=True):
     temperature = Input("K", "Temperature of the surfaces.", default="ambient")
     slip = Output("m/s", "Slip speed of b over a.")
     friction = Output("N", "Friction T, positive when it opposes positive slip.")
-    creep_rate = Output("m/s", "Slip speed while the contact should stick, else zero.")
+    creep_rate = Output("m/s", "Slip speed while the contact should stick, else zero.", role="creep")
 
     @shared
     def grip(p, normal, temperature):

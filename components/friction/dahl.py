@@ -21,7 +21,7 @@ class Dahl(OneWay):
     damping of mechanical vibrations, AIAA Journal 14, 1675, DOI 10.2514/3.61511. Other exponents are not offered.
     """
 
-    zones = Zones("forward", "backward", "off")
+    zones = Zones("forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     @zone("forward", "backward")
     def bends(p, a, b, z, grip, zone):

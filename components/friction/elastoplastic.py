@@ -33,7 +33,10 @@ class Elastoplastic(Bristles):
     elastic_share = Parameter(
         "1", "Part of the sliding deflection that is purely elastic.", default=0.7, above=0, below=1
     )
-    zones = Zones("elastic", "blend_forward", "blend_backward", "forward", "backward", "off")
+    zones = Zones(
+        "elastic", "blend_forward", "blend_backward", "forward", "backward", "off",
+        forward=["forward", "blend_forward"], backward=["backward", "blend_backward"],
+    )  # fmt: skip
 
     @zone("elastic")
     def elastic(p, a, b, z, grip):

@@ -26,7 +26,10 @@ class Karnopp(Rigid):
     """
 
     band = Parameter("m/s", "Slip speed below which the contact counts as stuck.", default=1e-4, above=0)
-    zones = Zones("stuck", "breaking_forward", "breaking_backward", "forward", "backward", "off")
+    zones = Zones(
+        "stuck", "breaking_forward", "breaking_backward", "forward", "backward", "off",
+        latched=["breaking_forward", "breaking_backward"],
+    )  # fmt: skip
 
     @zone("stuck")
     def stuck(p, a, b, force):

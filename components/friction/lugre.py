@@ -29,7 +29,7 @@ class LuGre(OneWay):
         "Coulomb friction: Barabanov and Ortega (2000), IEEE Trans. Automatic Control 45, 830, DOI 10.1109/9.847131."
     }
     relaxation = Parameter("s", "Damping over stiffness of the bristles, s1/s0.", default=2e-3, least=0)
-    zones = Zones("forward", "backward", "off")
+    zones = Zones("forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     @zone("forward", "backward")
     def bends(p, a, b, z, grip, zone):

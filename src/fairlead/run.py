@@ -22,6 +22,7 @@ from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
 from fairlead.choice import choose
+from fairlead.component.declare import CREEP
 from fairlead.errors import ModelError, UsageError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
@@ -131,7 +132,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     patterns = _patterns(netlist)
     recording = system.recording(patterns)
     limits = read_limits(netlist.limits, recording.recorded)
-    creeping = [signal.name for signal in recording.recorded if signal.name.endswith(".creep_rate")]
+    creeping = [signal.name for signal in recording.recorded if signal.role == CREEP]
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system), "limits": limits.plain()}
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
@@ -185,7 +186,7 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
         return settings.engine, "chosen by run.engine"
     if system.uneven:
         return "rodas", "auto: a contact holds between a node with mass and one without"
-    smooth = system.linear and not _let_go_with_a_jump(system)
+    smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
     return choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
 
 
@@ -196,17 +197,6 @@ def _uneven(contacts: list[str]) -> str:
         f"run.engine: stepping does not hold contacts between a node with mass and one without ({named}): of the "
         "latter it knows the mean over a step. Give that node a mass, or take run.engine: rodas (or auto)."
     )
-
-
-def _let_go_with_a_jump(system: System) -> bool:
-    """True if the stiction of some contact is above its sliding friction: `stepping` is of order one there."""
-    for block in system.blocks:
-        names = block.kernel.structure.parameters
-        if block.kernel.structure.holds and "curve.rest" in names and "curve.coulomb" in names:
-            rest, coulomb = (block.parameters[:, names.index(f"curve.{name}")] for name in ("rest", "coulomb"))
-            if (rest > coulomb).any():
-                return True
-    return False
 
 
 def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str]) -> Run:

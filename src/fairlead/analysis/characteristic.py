@@ -38,6 +38,7 @@ class Characteristic:
     branches: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # zone -> slip, friction
     driven: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while driven
     caught: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while slowing down
+    latched: frozenset[str] = frozenset()  # zones of the branches that are entered by breaking away
     holds: bool = False  # a zone holds the slip at zero
     capacity: float = 0.0  # largest force below the first maximum
     slope: float | None = None  # at zero slip [N s/m]; None: rigid, or bristles
@@ -104,14 +105,15 @@ def _measured(
     label, rest = p.type.word, dict.fromkeys(LOAD_SHARES, 0.0)  # type: ignore[attr-defined]
     numbers = tuple(p.type.answers.numbers(p, normal)) if p.type.answers.numbers is not None else ()
     common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven,
-              "numbers": numbers, "can_hold": p.type.answers.can_hold}  # fmt: skip
+              "numbers": numbers, "can_hold": p.type.answers.can_hold,
+              "latched": p.type.declaration.zones.latched}  # fmt: skip
     if holds or p.type.declaration.states:
         ratio = getattr(p, "ratio", None)
         stiffness = None if holds or ratio is None else normal * ratio
         return Characteristic(
             **common, holds=holds, capacity=breakaway, stiffness=stiffness, creep=tuple(rest.values())
         )
-    latched = [zone for zone in steady if zone.startswith("break")]  # entered by breaking away, not from rest
+    latched = p.type.declaration.zones.latched
     v, force = _forward([branch for zone, branch in steady.items() if zone not in latched])
     if not len(v):
         return Characteristic(**common, creep=tuple(rest.values()))
@@ -176,8 +178,8 @@ def _stays(p: Values, zone: str, slip: float, friction: float, normal: float, pu
     """True when no guard of the zone has risen."""
     has = p.type.declaration
     if has.states:
-        d = -1 if zone.endswith("backward") else 1
-        return not zone.endswith("ward") or d * slip > 0
+        d = has.zones.direction(zone)
+        return d == 0 or d * slip > 0
     arguments = _arguments(p, zone, slip, normal, push, dict.fromkeys(has.unknowns, friction))
     for guard in has.guards.values():
         if zone in guard.zones:

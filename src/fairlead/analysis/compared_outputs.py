@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.component.declare import CREEP
 from fairlead.errors import UsageError, did_you_mean, listing
 from fairlead.results.signal import family, matching
 
@@ -31,7 +32,7 @@ def outputs(model: Any, patterns: Sequence[str]) -> tuple[list[str], list[str], 
 def recorded(model: Any) -> list[str]:
     """What the netlist records, without the creep, which is an error measure itself."""
     found = model.system.recording(model.netlist.record.signals).chosen
-    return [signal.name for signal in found if not signal.name.endswith(".creep_rate")]
+    return [signal.name for signal in found if signal.role != CREEP]
 
 
 def thinned(names: list[str]) -> list[str]:

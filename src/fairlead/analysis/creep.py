@@ -41,6 +41,6 @@ class WorstCreep:
         k = int(self.worst.argmax())
         return {
             "value": float(self.worst[k]),
-            "contact": self.names[k].removesuffix(".creep_rate"),
+            "contact": self.names[k].rpartition(".")[0],
             "t": float(self.at[k]),
         }

@@ -57,7 +57,8 @@ class Again:
             self.leaf(path, before, values)
             return
         was: Expansion = self.old.expansions[path]
-        now: Expansion = values.type.expand(values, scene)  # type: ignore[attr-defined]
+        assert values.type.answers.expand is not None  # of every Composite, see base.py
+        now: Expansion = values.type.answers.expand(values, scene)
         same = (was.connections, was.ports, was.outputs) == (now.connections, now.ports, now.outputs)
         if not same or list(was.children) != list(now.children):
             raise Unlike
@@ -75,7 +76,7 @@ class Again:
 
     def leaf(self, path: str, before: Values, values: Values) -> None:
         """Other values of a leaf, which changes neither its code nor what moves with what. Raises Unlike."""
-        takes_part = any(getattr(values.type, name, None) is not None for name in OF_MOTION)
+        takes_part = any(getattr(values.type.answers, name) is not None for name in OF_MOTION)
         if takes_part or variant_of(values) != variant_of(before):
             raise Unlike
         values.variant = before.variant

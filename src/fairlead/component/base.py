@@ -24,6 +24,7 @@ from typing import Any, ClassVar
 from fairlead.component.answers import COMPONENT, COMPOSITE, EVERYWHERE, Answers, answers_of, misspelt, unfit
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import (
+    ROLES,
     Block,
     Carries,
     Choice,
@@ -95,6 +96,7 @@ class Family(Declared, abstract=True):
     offered: ClassVar[tuple[str, ...]] = ()  # words that messages name first
     bare: ClassVar[tuple[str, str] | None] = None  # (word, parameter)
     members: ClassVar[dict[str, type[Family]]]
+    joined: ClassVar[int] = 0  # members of all families so far
 
     def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
         """Collect declarations, and join the family."""
@@ -104,6 +106,7 @@ class Family(Declared, abstract=True):
         elif not abstract:
             cls.word = cls.__dict__.get("word") or _snake(cls.__name__)
             cls.members[cls.word] = cls
+            Family.joined += 1
 
 
 def _snake(name: str) -> str:
@@ -166,7 +169,7 @@ def _collect(members: dict[str, Any]) -> Declaration:
     return Declaration(
         effects=effects, ports=of(Port), parameters=parameters, inputs=of(Input), outputs=of(Output), states=of(State),
         unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived),
-        shared=of(Shared), zones=tuple(zones or ("always",)), laws=laws, guards=guards,
+        shared=of(Shared), zones=zones or Zones("always"), laws=laws, guards=guards,
         carries=next(iter(of(Carries).values()), None),
     )  # fmt: skip
 
@@ -187,6 +190,9 @@ def _check(cls: type[Declared]) -> None:
     """Names, signatures and targets; the physics is the contract suite's business."""
     has = cls.declaration
     _check_units(cls)
+    for name, output in has.outputs.items():
+        known = output.role in ("", *ROLES)
+        _demand(cls, known, f"{name!r} has the role {output.role!r}; roles are {', '.join(ROLES)}")
     _check_named_numbers(cls)
     _check_limits(cls)
     if issubclass(cls, Composite):
@@ -194,6 +200,8 @@ def _check(cls: type[Declared]) -> None:
         return
     if not issubclass(cls, Component):
         return
+    for name in has.zones.forward | has.zones.backward | has.zones.latched:
+        _demand(cls, name in has.zones, f"zones tell the direction of {name!r}, which is none of them")
     for name in has.zones:
         _demand(cls, name in has.laws, f"zone {name!r} has no law")
     if has.carries is not None:

@@ -19,6 +19,7 @@ from fairlead.component.declare import (
     Shared,
     State,
     Unknown,
+    Zones,
 )
 
 
@@ -37,7 +38,7 @@ class Declaration:
     derived: dict[str, Derived] = field(default_factory=dict)
     shared: dict[str, Shared] = field(default_factory=dict)
     effects: dict[str, Effect] = field(default_factory=dict)
-    zones: tuple[str, ...] = ("always",)
+    zones: Zones = field(default_factory=lambda: Zones("always"))
     laws: dict[str, Callable[..., Any]] = field(default_factory=dict)  # by zone
     guards: dict[str, Guard] = field(default_factory=dict)
     carries: Carries | None = None

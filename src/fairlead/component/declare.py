@@ -11,7 +11,7 @@ Sign rules, stated once:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -95,12 +95,21 @@ class Input:
     signed: bool = False  # what it means may be negative, such as a command; the contract suite asks with both signs
 
 
+CREEP = "creep"
+ROLES = (CREEP,)
+
+
 @dataclass(frozen=True)
 class Output:
-    """A directed signal, computed by the law in force; free unless recorded or connected."""
+    """A directed signal, computed by the law in force; free unless recorded or connected.
+
+    `role` is what it means to the framework: CREEP is the slip speed of a contact while it should stick. Of it every
+    run tells the worst.
+    """
 
     unit: str
     doc: str = ""
+    role: str = ""
 
 
 @dataclass(frozen=True)
@@ -257,11 +266,27 @@ class Stations:
 
 
 class Zones(tuple[str, ...]):
-    """The zones of a component, in the order in which a start tries them."""
+    """The zones of a component, in the order in which a start tries them.
 
-    def __new__(cls, *names: str) -> Zones:
+    Of a contact with states those in `forward` are for positive slip and those in `backward` for negative; those in
+    `latched` are entered by breaking away, not from rest. `fairlead friction` draws them so.
+    """
+
+    forward: frozenset[str]
+    backward: frozenset[str]
+    latched: frozenset[str]
+
+    def __new__(
+        cls, *names: str, forward: Iterable[str] = (), backward: Iterable[str] = (), latched: Iterable[str] = ()
+    ) -> Zones:
         """Zones by name."""
-        return super().__new__(cls, names)
+        zones = super().__new__(cls, names)
+        zones.forward, zones.backward, zones.latched = frozenset(forward), frozenset(backward), frozenset(latched)
+        return zones
+
+    def direction(self, zone: str) -> int:
+        """+1 in a zone for forward slip, -1 in one for backward, 0 in others."""
+        return (zone in self.forward) - (zone in self.backward)
 
 
 @dataclass(frozen=True)

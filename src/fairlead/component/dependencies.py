@@ -35,7 +35,7 @@ def _framework() -> str:
     here = pathlib.Path(__file__).parent
     tracing = "declare declaration answers base functions trace values piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
-    text = "kernels kernel_text dependence held_pairs lowering lowered_values layout structure"
+    text = "kernels kernel_text dependence held_pairs lowering lowered_values layout structure break_away"
     files += [here.parent / "system" / f"{name}.py" for name in text.split()]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 

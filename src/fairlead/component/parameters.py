@@ -74,11 +74,12 @@ def make(kind: type[Declared], **given: Any) -> Values:
 
 def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
-    return _model(cast(Any, kind))  # mypy takes the __hash__ of instances for that of the class
+    return _model(cast(Any, kind), Family.joined)  # mypy takes the __hash__ of instances for that of the class
 
 
 @functools.cache
-def _model(kind: type[Declared]) -> type[BaseModel]:
+def _model(kind: type[Declared], joined: int) -> type[BaseModel]:
+    """A member that joins a family later, from a library, makes other models of all that may have it as a part."""
     fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
     if issubclass(kind, Family) and kind.key:
         fields[kind.key] = (

@@ -138,9 +138,8 @@ class _TableReader:
         at, s = sympy.Dummy("x"), symbol(f"T:{self._path}:0")
         value = sum(symbol(f"T:{self._path}:{k + 1}") * (at - s) ** k for k in range(DEGREE + 1))
         if x == symbol("t"):
-            value += symbol(f"p:{self._path}:amplitude") * sympy.sin(
-                symbol(f"p:{self._path}:omega") * at + symbol(f"p:{self._path}:phase")
-            )
+            amplitude, omega, phase = (symbol(sine(self._path, part)) for part in ("amplitude", "omega", "phase"))
+            value += amplitude * sympy.sin(omega * at + phase)
         return sympy.diff(value, at, order).subs(at, x)
 
 
@@ -154,7 +153,17 @@ class _PortReader:
         if domain.acceleration:
             setattr(self, domain.acceleration, symbol(f"port:{name}:a"))
         setattr(self, domain.through[0] or "_", symbol(f"port:{name}:R"))
-        self.inverse_mass = symbol(f"p:{name}.inverse_mass")
+        self.inverse_mass = symbol(inverse_mass(name))
+
+
+def sine(path: str, part: str) -> str:
+    """The key of the amplitude, omega or phase of what a quantity in time swings with."""
+    return f"p:{path}:{part}"
+
+
+def inverse_mass(port: str) -> str:
+    """The key of one over the mass of the body at a port."""
+    return f"p:{port}.inverse_mass"
 
 
 @functools.cache

@@ -50,7 +50,7 @@ def _draw_branches(ax: Axes, found: Characteristic) -> None:
             label = _stem(zone) + how
             whole = _with_gaps(slip, force)
             ax.plot(*whole, line, color=colour, label=label if label not in ax.get_legend_handles_labels()[1] else "_")
-            if not _stem(zone).startswith("break"):
+            if zone not in found.latched:
                 ax.axvspan(slip.min(), slip.max(), color=colour, alpha=0.06, linewidth=0)
     if found.holds:
         ax.plot([0, 0], [-found.capacity, found.capacity], color="black", linewidth=2, label="held")

@@ -10,7 +10,7 @@ from sympy import Expr, sympify
 from fairlead.component.answers import METHODS
 from fairlead.component.base import Declared
 from fairlead.component.declare import Choice
-from fairlead.component.trace import Traced, TraceError, symbol, trace_function
+from fairlead.component.trace import Traced, TraceError, inverse_mass, symbol, trace_function
 from fairlead.system.columns import columns, heading, wrapped
 from fairlead.system.equations import NEVER, Writing, condition, equations, tables_as_functions, writing_of
 from fairlead.system.formula import formula
@@ -129,7 +129,7 @@ def _legend(traced: Traced, equations_said: str) -> Iterator[str]:
     if port:
         yield from ("", f"  {flow} is what acts on the component at {port}.")
     for name in has.ports:
-        if f"p:{name}.inverse_mass" in names:
+        if inverse_mass(name) in names:
             yield f"  {name}.inverse_mass is 1 / mass of the body at {name}, 0 if its motion is prescribed."
     if len(traced.zones) > 1 and has.outputs:
         yield "  An output that a zone does not mention is 0 there."

@@ -14,6 +14,7 @@ from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
 from fairlead.component.values import number_given, parameter, polynomial
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.kernels import Kernel
+from fairlead.system.structure import Structure
 from fairlead.system.unknowns import LEDGER, Numbering
 
 Floats = NDArray[np.float64]
@@ -98,7 +99,7 @@ def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering
     signals = [[_signal(numbering, PortRef(i.path, name)) for name in s.outputs] for i in instances]
     return Block(
         kernel, instances, [ranks.get(i.path, 0) for i in instances],
-        _floats([[parameter_of(flat, i, name, tau) for name in s.parameters] for i in instances]),
+        _floats([[parameter_of(flat, i, s, name, tau) for name in s.parameters] for i in instances]),
         _integers([[z for z, _, _ in row] for row in inputs]), _floats([[c for _, c, _ in row] for row in inputs]),
         _floats([[o for _, _, o in row] for row in inputs]), _integers(slots),
         _integers([[tables.place(polynomial(i.values.path(name))) for name in s.tables] for i in instances]),
@@ -183,12 +184,12 @@ def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: s
     return numbering.n + numbering.reactions[index], ratio
 
 
-def parameter_of(flat: FlatModel, instance: Instance, name: str, tau: float) -> float:
+def parameter_of(flat: FlatModel, instance: Instance, s: Structure, name: str, tau: float) -> float:
     """What a kernel reads under a name: of the component, of the body at one of its ports, or `tau` [s] for @tau."""
     if name == "@tau":
         return tau
-    if name.endswith(".inverse_mass"):
-        index, ratio, _ = flat.place(PortRef(instance.path, name.split(".")[0]))
+    if name in s.inverse_masses:
+        index, ratio, _ = flat.place(PortRef(instance.path, s.inverse_masses[name]))
         group = flat.groups[index]
         if not group.free:
             return 0.0

@@ -20,8 +20,18 @@ import sympy
 from sympy.printing.pycode import PythonCodePrinter
 
 from fairlead.component.piecewise import DEGREE, STRIDE
-from fairlead.component.trace import Traced, TracedGuard, TracedZone, is_kinked, read_in_python, symbol
+from fairlead.component.trace import (
+    Traced,
+    TracedGuard,
+    TracedZone,
+    inverse_mass,
+    is_kinked,
+    read_in_python,
+    sine,
+    symbol,
+)
 from fairlead.system import layout
+from fairlead.system.break_away import shares_left
 from fairlead.system.dependence import carried_ratio, reads
 from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
@@ -357,9 +367,12 @@ class KernelText:
             linear=not self._curved(self.d_flows, self._target_values),
             curved=self._curved(self.d_signals, self._fit_outputs), guards_read=self._guards_read(),
             late=self._late(), stores=any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones),
-            modes=modes, members=self.members,
+            modes=modes, members=self.members, shares_left=shares_left(t), sines=self._sines(),
             carries=carried_ratio(t) if has.carries else [],
             reads={name: self._reads(zone) for name, zone in t.zones.items()},
+            inverse_masses={
+                mass: port for port in has.ports if (mass := inverse_mass(port)[2:]) in self.parameters
+            },
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
             period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
@@ -370,6 +383,12 @@ class KernelText:
         values = [*self._fit_outputs(zone), *self._target_values(zone), *self._ledger_values(zone)]
         places = [path for path in self.traced.tables if path not in self.traced.time_tables]
         return reads(values, zone.guards, self.inputs, places)
+
+    def _sines(self) -> list[tuple[int, int]]:
+        """Places of what a quantity in time swings with."""
+        at = {key: k for k, key in enumerate(self.parameters)}
+        parts = ([at.get(sine(path, part)[2:]) for part in ("amplitude", "omega")] for path in self.traced.time_tables)
+        return [(size, pace) for size, pace in parts if size is not None and pace is not None]
 
     def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
         pairs = zip(self.targets, self._target_values(zone), strict=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -33,7 +34,7 @@ def signals(
     for outer, inner in flat.assembly.aliases.items():
         if str(inner) in by_name and outer != str(inner):
             signal = by_name[str(inner)]
-            found.append(OutputSignal(outer, signal.unit, signal.doc, signal.at))
+            found.append(replace(signal, name=outer))
     order = {instance.path: place for place, instance in enumerate(flat.instances)}
     found.sort(key=lambda signal: order.get(signal.name.rpartition(".")[0], -1))
     ledger = [OutputSignal(f"energy.{line}", "J", f"Energy {line}.", -1 - at) for line, at in numbering.ledger.items()]
@@ -45,7 +46,7 @@ def _of_block(block: Block, share: Share) -> list[OutputSignal]:
     return [
         OutputSignal(
             f"{instance.path}.{name}", has.outputs[name].unit, has.outputs[name].doc,
-            share.outputs + i * len(s.all_outputs) + k,
+            share.outputs + i * len(s.all_outputs) + k, has.outputs[name].role,
         )
         for i, instance in enumerate(block.instances)
         for k, name in enumerate(s.outputs)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fairlead.component.declare import CREEP
 from fairlead.patterns import picked
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Integers
@@ -22,6 +23,7 @@ class OutputSignal:
     unit: str
     doc: str
     at: int  # position among all outputs, or -1 - position in z
+    role: str = ""  # what it means to the framework, as its Output declares
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +54,7 @@ def choose(
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]
-    hidden = [s for s in signals if (s.name.endswith(".creep_rate") or s.at < 0) and s.name not in names]
+    hidden = [s for s in signals if (s.role == CREEP or s.at < 0) and s.name not in names]
     return recording(chosen, chosen + hidden, blocks, counts)
 
 

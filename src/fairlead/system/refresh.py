@@ -136,17 +136,18 @@ def _parameters(
     flat: FlatModel, old: Block, instances: Sequence[Instance], fresh: Sequence[int], heavier: Sequence[int]
 ) -> Floats:
     """Rows of components with other values, made once for all that share theirs; inverse masses beside."""
-    names, made = old.kernel.structure.parameters, old.parameters.copy()
-    of_motion = [j for j, name in enumerate(names) if name == "@tau" or name.endswith(".inverse_mass")]
+    s, made = old.kernel.structure, old.parameters.copy()
+    names = s.parameters
+    of_motion = [j for j, name in enumerate(names) if name == "@tau" or name in s.inverse_masses]
     own = [j for j in range(len(names)) if j not in of_motion]
     known: dict[int, list[float]] = {}
     for i in fresh:
         values = instances[i].values
         if id(values) not in known:
-            known[id(values)] = [parameter_of(flat, instances[i], names[j], HOLD_TIME) for j in own]
+            known[id(values)] = [parameter_of(flat, instances[i], s, names[j], HOLD_TIME) for j in own]
         made[i, own] = known[id(values)]
     for i in heavier:
-        made[i, of_motion] = [parameter_of(flat, instances[i], names[j], HOLD_TIME) for j in of_motion]
+        made[i, of_motion] = [parameter_of(flat, instances[i], s, names[j], HOLD_TIME) for j in of_motion]
     return made
 
 

@@ -47,6 +47,9 @@ class Structure:
     members: int  # most members that the groups among the guards of one zone have together
     carries: list[tuple[str, float]]  # factors of the ratio of speeds where it takes a node along: ("", number) first,
     # then (key, power) of parameters ("p:radius") and inputs; empty for a class that carries nothing
+    inverse_masses: dict[str, str]  # parameter -> the port whose body it is one over the mass of
+    sines: list[tuple[int, int]]  # places in parameters of (amplitude, angular frequency) of what swings in time
+    shares_left: list[tuple[str, str]]  # of friction when a contact lets go, see `break_away`
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 
     @property

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Memory, Tables
+from fairlead.system.break_away import least_left
 from fairlead.system.plain_python import CalledController, Known, called_controllers
 from fairlead.system.recording import OutputSignal, Recording, choose
 from fairlead.system.timing import PlacedTable
@@ -145,12 +146,9 @@ class System:
         """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it."""
         fastest = 0.0
         for block in self.blocks:
-            names = block.kernel.structure.parameters
-            for k, name in enumerate(names):
-                wave, _, part = name.partition(":")
-                if part == "omega":
-                    swings = block.parameters[:, names.index(f"{wave}:amplitude")] != 0
-                    fastest = max(fastest, np.abs(block.parameters[swings, k]).max(initial=0.0))
+            for amplitude, omega in block.kernel.structure.sines:
+                swings = block.parameters[:, amplitude] != 0
+                fastest = max(fastest, np.abs(block.parameters[swings, omega]).max(initial=0.0))
         return math.pi / (4 * fastest) if fastest else math.inf
 
     @property
@@ -158,6 +156,16 @@ class System:
         """The unknowns in which what is dissipated and what is supplied add up; -1 where there is no ledger."""
         ledger = self.numbering.ledger
         return ledger.get("dissipated", -1), ledger.get("supplied", -1)
+
+    @property
+    def least_left(self) -> float:
+        """The least share of friction that a contact is left with when it lets go; 1 where none falls with a jump."""
+        found = (
+            least_left(block.kernel.structure.shares_left, values)
+            for block in self.blocks if block.kernel.structure.shares_left
+            for values in {id(instance.values): instance.values for instance in block.instances}.values()
+        )  # fmt: skip
+        return min(found, default=1.0)
 
     @property
     def samples(self) -> bool:

@@ -40,7 +40,7 @@ class Rig:
         bases = [[tables.place(table) for table in row] for row in self.pieces]
         self.tables = tables.vector()
         parameters = [
-            [_parameter(v, name, m) for name in s.parameters] for v, m in zip(instances, inverse_masses, strict=True)
+            [_parameter(s, v, name, m) for name in s.parameters] for v, m in zip(instances, inverse_masses, strict=True)
         ]
         self._arrays = self._block(parameters, bases)
 
@@ -105,9 +105,9 @@ def widths(s: Structure) -> dict[int, int]:
 
 
 
-def _parameter(values: Values, name: str, inverse_masses: Mapping[str, float]) -> float:
+def _parameter(s: Structure, values: Values, name: str, inverse_masses: Mapping[str, float]) -> float:
     if name == "@tau":
         return TAU
-    if name.endswith(".inverse_mass"):
-        return inverse_masses[name.split(".")[0]]
+    if name in s.inverse_masses:
+        return inverse_masses[s.inverse_masses[name]]
     return parameter(values, name)
