@@ -98,7 +98,8 @@ class Cable(Composite):
             more, links, twist_ends = twisting(p, scene, mesh, ("line",))
             children, joins, ends = children | more, joins + links, ends | twist_ends
         meter = Meter if p.meters == "on" else None
-        return Expansion(children, joins, ends, line=LaidLine(mesh, p, "node", ("line",), meter=meter))
+        laid = LaidLine(mesh, p, "node", ("line",), meter=meter, pushes=p.compression == "carried")
+        return Expansion(children, joins, ends, line=laid)
 
 
 def _element(p, scene, each):

@@ -30,6 +30,7 @@ from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.window import Reach, Window, total
 
 from fairlead.component.alike import Parts, agree
+from fairlead.component.along import OfLine
 from fairlead.component.instantiate import PortRef, with_other
 from fairlead.errors import Fault
 
@@ -38,7 +39,7 @@ SIDES = ("in", "out")
 
 
 @dataclass(frozen=True)
-class LaidLine:
+class LaidLine(OfLine):
     """What a route must know of a line: its mesh, its bodies and what it is made of.
 
     Children of the line: `outer`[i] is the body of a node that touches the devices, `inner`[i] the one inside it (a
@@ -53,13 +54,32 @@ class LaidLine:
     inner: str = ""
     bulkheads: dict[int, Reach] | None = None
     meter: Any = None  # class of what counts slip and work of every contact
+    pushes: bool = True
+
+    @property
+    def mass(self) -> float:
+        """Mass per length of all layers [kg/m]."""
+        return float(sum(layer.mass for layer in self._made_of(self.layers)))
+
+    @property
+    def stiffnesses(self) -> tuple[float, ...]:
+        """EA of every layer [N]."""
+        return tuple(float(layer.stiffness) for layer in self._made_of(self.layers))
+
+    @property
+    def slips(self) -> bool:
+        """True when hose and core are bodies of their own."""
+        return bool(self.inner)
+
+    def _made_of(self, layers: tuple[str, ...]) -> list[Any]:
+        """The parameters of layers."""
+        return [self.values if one == "line" else getattr(self.values, one) for one in layers]
 
     def heavy(self, layers: tuple[str, ...]) -> dict[str, float]:
         """Mass per length of some layers, as their lateral load takes it; nothing where it is not counted [kg/m]."""
         if self.values.centrifugal == "off":
             return {}
-        made_of = (self.values if one == "line" else getattr(self.values, one) for one in layers)
-        return {"heavy": sum(float(one.mass) for one in made_of)}
+        return {"heavy": sum(float(one.mass) for one in self._made_of(layers))}
 
     @property
     def load(self) -> float:

@@ -14,6 +14,7 @@ from fairlead.components.route.station import Machinery
 from fairlead.components.route.window import Window
 
 from fairlead.component.alike import Parts, agree
+from fairlead.component.along import OfRoute
 from fairlead.component.scene import Scene
 
 STANDING = "surface.flange"  # below the route: what does not move
@@ -49,7 +50,7 @@ def resting(one: Placed, weight: float, grip: float) -> Window | None:
 
 
 @dataclass(frozen=True)
-class RouteLine:
+class RouteLine(OfRoute):
     """Devices of a route in their places, and the machinery of those that move."""
 
     placed: list[Placed]

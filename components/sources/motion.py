@@ -42,6 +42,8 @@ class MotionSource(Component):
             supplied=flange.force * flange.v,
         )  # fmt: skip
 
+    moves_as = "motion"
+
     def prescribes():
         """Names of the outputs that are the position, velocity and acceleration of the flange."""
         return {"flange": ("x", "v", "a")}

@@ -13,6 +13,7 @@ from typing import Any
 from fairlead.analysis.machines import Machine, machine
 from fairlead.analysis.schedule import Schedule, scaled
 from fairlead.analysis.tracing import trace
+from fairlead.component.along import OfLine, OfRoute
 from fairlead.component.instantiate import Line, PortRef
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
@@ -90,26 +91,23 @@ class LaidRoute:
     @property
     def mass(self) -> float:
         """Mass per length [kg/m]."""
-        p = self.values
-        return float(p.hose.mass + p.core.mass) if hasattr(p, "hose") else float(p.mass)
+        return self.line.line.mass
 
     @property
     def layers(self) -> tuple[float, float]:
         """EA of hose and core [N]; of a line of one layer its own and none."""
-        p = self.values
-        two = self.line.line.inner and p.hose_core_slip == "on"
-        return (float(p.hose.stiffness), float(p.core.stiffness)) if two else (self.stiffness, 0.0)
+        each = self.line.line.stiffnesses
+        return (each[0], each[1]) if self.line.line.slips else (self.stiffness, 0.0)
 
     @property
     def stiffness(self) -> float:
         """EA of all layers [N]."""
-        p = self.values
-        return float(p.hose.stiffness + p.core.stiffness) if hasattr(p, "hose") else float(p.stiffness)
+        return float(sum(self.line.line.stiffnesses))
 
     @property
     def pushes(self) -> bool:
         """True when the line can carry compression."""
-        return hasattr(self.values, "hose") or self.values.compression == "carried"
+        return self.line.line.pushes
 
     def ends(self, way: float) -> tuple[float, float]:
         """Where the line lies on the route [m] after `way` was paid out: from the drum, or its inboard end."""
@@ -182,8 +180,8 @@ def laid_routes(flat: FlatModel) -> list[LaidRoute]:
     lines = flat.assembly.lines
     found = []
     for one, two, _ in flat.assembly.routings:
-        ends = sorted((lines[path] for path in (one, two)), key=lambda end: not hasattr(end.line, "lay"))
-        if hasattr(ends[0].line, "lay") and not hasattr(ends[1].line, "lay"):
+        ends = sorted((lines[path] for path in (one, two)), key=lambda end: not isinstance(end.line, OfLine))
+        if isinstance(ends[0].line, OfLine) and isinstance(ends[1].line, OfRoute):
             found.append(_laid(flat, *ends))
     return found
 

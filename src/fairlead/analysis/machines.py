@@ -117,12 +117,11 @@ def _prescribed(flat: FlatModel, prescribed: Any, ratio: float) -> Wave | None:
     """Speed of the port when its group is driven as given; None for a class that does not tell its motion."""
     if prescribed.outputs is None:
         return steady(0.0)
-    values = flat.assembly.instances[prescribed.by.instance].values
+    source = flat.assembly.instances[prescribed.by.instance]
     _, own, _ = flat.place(prescribed.by)
-    if not hasattr(values, "motion"):
+    if not source.type.answers.moves_as:
         return None
-    given = values.velocity if getattr(values, "velocity", None) is not None else rate(values.motion)
-    return scaled(given, 1 / (own * ratio))
+    return scaled(rate(getattr(source.values, source.type.answers.moves_as)), 1 / (own * ratio))
 
 
 def _inertia(flat: FlatModel, group: int, line: str) -> float:

@@ -33,7 +33,7 @@ def _remarks(found: Statics) -> Iterator[str]:
     yield from found.remarks
     for state in found.moving:
         yield from state.remarks
-    if hasattr(found.route.values, "hose") or not found.route.pushes:
+    if len(found.route.line.line.layers) > 1 or not found.route.pushes:
         yield from _slack(found)
     for fault in (*weak_clamps(found), *side_walls(found)):
         yield f"{fault.what} {fault.way_out}".rstrip(".")

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from fairlead.component.instantiate import Instance
-from fairlead.component.values import Values, polynomial
+from fairlead.component.values import Values, Wave, polynomial
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
 
@@ -41,17 +41,17 @@ def slowest_drive(instances: Iterable[Instance]) -> Scale | None:
     scales = [
         Scale(speed, f"the slowest drive ({instance.path})")
         for instance in instances
-        if instance.type.answers.prescribes is not None and "motion" in instance.type.declaration.derived
-        for speed in _steady_speeds(instance.values)
+        if instance.type.answers.moves_as
+        for speed in _steady_speeds(getattr(instance.values, instance.type.answers.moves_as))
     ]
     return min(scales, default=None)
 
 
-def _steady_speeds(values: Values) -> Iterator[float]:
+def _steady_speeds(motion: Wave) -> Iterator[float]:
     """Slopes of the straight pieces of a motion in time; one with a sine stands still now and then."""
-    if values.motion.sine.amplitude != 0:
+    if motion.sine.amplitude != 0:
         return
-    for row in polynomial(values.motion).rows:
+    for row in polynomial(motion).rows:
         if not row[5:].any() and abs(row[4]) > STILL:
             yield abs(float(row[4]))
 

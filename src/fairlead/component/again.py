@@ -67,8 +67,7 @@ class Again:
         for name, child in other.items():
             self.place(f"{path}.{name}", was.children[name], child, scene)
         if now.line is not None:
-            told = getattr(was.line, "handed_on", None)
-            found = told(now.line) if told is not None else None
+            found = was.line.handed_on(now.line)
             if found is None:
                 raise Unlike
             self.parts |= found

@@ -134,6 +134,7 @@ class Answers:
     starts_at: Callable[[Any, float], None] | None = _asked(
         method("p", "x"), "told where the body is that it moves, when that follows from others"
     )
+    moves_as: str = _asked(PARAMETER, "with `prescribes`: the quantity in time that is the position", default="")
     ties: Callable[[Any], Iterable[tuple[str, str, Any, Any]]] | None = _asked(
         method("p"), "rigid ties of its ports: (a, b, ratio, offset) for b = ratio * a + offset"
     )

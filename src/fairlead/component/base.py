@@ -133,7 +133,7 @@ class Expansion:
     connections: list[tuple[str, ...]]
     ports: dict[str, str]
     outputs: dict[str, str] = field(default_factory=dict)
-    line: Any = None  # what a route needs to know, for composites with a path
+    line: Any = None  # of a composite with a path: an `OfLine` or an `OfRoute`, see along.py
 
 
 def _members(cls: type) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fairlead.component.along import OfLine, OfRoute
 from fairlead.component.instantiate import Assembly
 from fairlead.component.scene import TooManyParts
 from fairlead.errors import Fault
@@ -12,8 +13,8 @@ def lay(assembly: Assembly) -> list[Fault]:
     faults: list[Fault] = []
     for one, two, where in assembly.routings:
         ends = {path: assembly.lines[path] for path in (one, two)}
-        lines = [end for end in ends.values() if hasattr(end.line, "lay")]
-        routes = [end for end in ends.values() if not hasattr(end.line, "lay")]
+        lines = [end for end in ends.values() if isinstance(end.line, OfLine)]
+        routes = [end for end in ends.values() if isinstance(end.line, OfRoute)]
         if len(lines) != 1 or len(routes) != 1:
             faults.append(
                 Fault(
