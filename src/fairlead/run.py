@@ -23,7 +23,7 @@ from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
-from fairlead.errors import ModelError, UsageError
+from fairlead.errors import Fault, ModelError, UsageError
 from fairlead.integrate import Block, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
 from fairlead.integrate.sundials_solver import require_package
@@ -32,6 +32,7 @@ from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
 from fairlead.results import MemoryRun, Result, RunDirectory, Signal, Sink
+from fairlead.system.timed_limits import timed_limits
 
 if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording
@@ -187,15 +188,36 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     if system.uneven:
         return "rodas", "auto: a contact holds between a node with mass and one without"
     smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
-    return choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
+    engine, reason = choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
+    if engine == "stepping" and (names := timed_limits(system, settings.start, settings.stop)):
+        return "rodas", f"auto: it locates every switch, and the force limit of {_few(names)} varies in time"
+    return engine, reason
+
+
+def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
+    """What the engine that `run.engine` asks for cannot do well in this model."""
+    names = timed_limits(system, settings.start, settings.stop) if settings.engine == "stepping" else []
+    if not names:
+        return []
+    what = (
+        f"run.engine: stepping rounds the instants at which contacts let go to its steps, and the force limit of "
+        f"{_few(names)} varies in time: an error of some percent may not follow the accuracy."
+    )
+    where = next(instance.where for instance in system.flat.instances if instance.path == names[0])
+    return [Fault(where, what, "Take run.engine: rodas (or auto).")]
+
+
+def _few(names: Sequence[str]) -> str:
+    """Three of them, and how many follow."""
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
 
 
 def _uneven(contacts: list[str]) -> str:
     """Why `stepping` does not take these contacts."""
-    named = ", ".join(contacts[:3]) + (f" and {len(contacts) - 3} more" if len(contacts) > 3 else "")
     return (
-        f"run.engine: stepping does not hold contacts between a node with mass and one without ({named}): of the "
-        "latter it knows the mean over a step. Give that node a mass, or take run.engine: rodas (or auto)."
+        "run.engine: stepping does not hold contacts between a node with mass and one without "
+        f"({_few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
+        "rodas (or auto)."
     )
 
 
@@ -214,16 +236,17 @@ def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, pa
 
 
 def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str, Any]:
+    engine, reason = engine_of(settings, system)
     return {
         "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
         "description": netlist.description, "settings": settings.model_dump(),
-        "engine": engine_of(settings, system)[0], "engine_reason": engine_of(settings, system)[1],
+        "engine": engine, "engine_reason": reason,
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
         "build": str(processor()),
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every,
-        "remarks": [str(remark) for remark in remarks(system.flat)],
+        "remarks": [str(remark) for remark in (*remarks(system.flat), *engine_remarks(settings, system))],
         "routes": route_records(system.flat),
     }  # fmt: skip
 

@@ -123,6 +123,7 @@ class Model:
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
         from fairlead.flatten.flatten import survey as flatten
+        from fairlead.run import engine_remarks
         from fairlead.system.compile import untraceable
 
         faults = list(self._faults)
@@ -144,7 +145,7 @@ class Model:
                 faults += error.faults
         if faults:
             raise ModelError(_in_order(faults))
-        return remarks(self.flat)
+        return [*remarks(self.flat), *engine_remarks(self.netlist.run, self.system)]
 
     def describe(self, stage: str = "flatten") -> str:
         """What the model has become after a stage."""
