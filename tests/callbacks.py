@@ -4,12 +4,14 @@ import ctypes
 
 import numpy as np
 
+from fairlead.system.system import Instance
+
 
 class Called:
     """The callbacks of a system, matrices dense."""
 
     def __init__(self, system):
-        self.system, self.n = system.instance(), system.n
+        self.system, self.n = system if isinstance(system, Instance) else system.instance(), system.n
 
     def _call(self, name, *arguments):
         kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_void_p for a in arguments]

@@ -35,3 +35,9 @@ print(json.dumps(sorted({{name.partition(".")[0] for name in sys.modules}})), fi
 )
 def test_starting_loads_nothing_heavy(statement: str) -> None:
     assert loaded_by(statement) & HEAVY == set()
+
+
+def test_a_model_of_known_classes_runs_without_what_traces_and_compiles_them() -> None:
+    run = "import fairlead; fairlead.load('belt').run(out=None, stop=0.1)"
+    loaded_by(run)
+    assert loaded_by(run) & {"sympy", "numba", "matplotlib"} == set()

@@ -20,10 +20,10 @@ from fairlead.component.piecewise import DEGREE, FAR, STRIDE
 from fairlead.system import layout
 from fairlead.system.asking import ask
 from fairlead.system.blocks import Block
-from fairlead.system.dependence import PIECES, Sum
 from fairlead.system.entrained import Entrained
 from fairlead.system.rest import Booleans, Floats, Integers
 from fairlead.system.shares import shares
+from fairlead.system.structure import PIECES, Sum
 from fairlead.system.system import Instance
 
 NOBODY = -2

@@ -25,9 +25,8 @@ import sympy
 
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.trace import Traced, TracedGuard, TraceError, symbol
+from fairlead.system.structure import PIECES, Sum
 
-Sum = list[tuple[int, float]]
-PIECES = "01cv"
 FEW = 2
 """Tables of a class up to which their constant pieces are told apart: 4 to the power of this many cases."""
 

@@ -7,6 +7,11 @@ from typing import Any
 
 from fairlead.system.layout import OUTPUT_LINES
 
+Sum = list[tuple[int, float]]
+"""Inputs by place, and their coefficients, see dependence.py."""
+PIECES = "01cv"
+"""What the piece of a table in force is: zero, one, any other constant, anything else."""
+
 
 @dataclass(frozen=True)
 class Structure:
