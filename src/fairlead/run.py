@@ -18,6 +18,7 @@ from fairlead.analysis.event_rows import EventRows, Rows
 from fairlead.analysis.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.recording import unreasonable
+from fairlead.analysis.released_together import ReleasedTogether
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
@@ -53,6 +54,7 @@ class Watch:
     ledger: Ledger
     creep: WorstCreep
     limits: Limits
+    together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
     event_rows: EventRows | None  # what of events is kept; None: everything
@@ -81,6 +83,8 @@ class Watch:
         rows = Rows(block.t, block.values[:, : self.chosen], block.side)
         self._write(rows if self.event_rows is None else self.event_rows.take(rows))
         self.sink.events(_named(self.system, row) for row in block.events)
+        if self.together is not None:
+            self.together.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.limits.watch(block.t, block.values)
         if self.metered is not None:
@@ -139,9 +143,11 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
         on_grid = netlist.record.every is not None
         event_rows = EventRows(least_jumps(system, recording.chosen, settings.accuracy)) if on_grid else None
-        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits, progress,
+        asked = _engine_settings(netlist, settings, system, patterns)
+        together = ReleasedTogether(system) if asked.engine != "stepping" else None
+        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits, together, progress,
                       interruption, event_rows)  # fmt: skip
-        outcome = integrate(system, _engine_settings(netlist, settings, system, patterns), watch)
+        outcome = integrate(system, asked, watch)
         watch.finish()
         interruption.between_blocks = False
         outcome = _explained(outcome)
@@ -265,6 +271,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
+        "released_together": None if watch.together is None else watch.together.plain(),
         "jumps": watch.jumps(),
     }  # fmt: skip
 

@@ -36,6 +36,7 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         ("energy closure", _closure(run.get("energy"))),
         *_lost(run.get("lost")),
         *_changed_starts(run.get("changed_starts")),
+        *_together(run.get("released_together")),
         *_against_statics(run.get("against_statics")),
         ("results", str(directory)),
     ]
@@ -56,6 +57,19 @@ def _changed_starts(changed: Sequence[Mapping[str, Any]] | None) -> list[tuple[s
         ("start changed", f"{one['name']} from {one['given']:.4g} to {one['became']:.4g} {one['unit']}")
         for one in (changed or ())[:MOST_NAMED]
     ]
+
+
+def _together(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """Contacts that passed their limits at one instant; nothing where none did."""
+    if not found or not found.get("count"):
+        return []
+    one = found["first"][0]
+    more = f" and {one['of'] - MOST_NAMED} more" if one["of"] > MOST_NAMED else ""
+    again = f", and so at {found['count'] - 1} later instants" if found["count"] > 1 else ""
+    return [("let go at once", (
+        f"t = {one['t']:.6g} s: {', '.join(one['contacts'][:MOST_NAMED])}{more} passed their limits at one instant{again}. "
+        "Which of them go depends on how the load built up; a load that rises in a short ramp shows it."
+    ))]  # fmt: skip
 
 
 def _against_statics(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
