@@ -34,6 +34,7 @@ from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
 from fairlead.results import MemoryRun, Result, RunDirectory, Signal, Sink
 from fairlead.system.timed_limits import timed_limits
+from fairlead.system.timing import beyond_their_tables
 
 if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording
@@ -168,12 +169,15 @@ def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, An
 
 
 def _explained(outcome: Outcome) -> Outcome:
-    """A run in which a controller in plain Python failed says so; it ended because nothing followed from that."""
+    """A run that ended since a controller in plain Python failed, or a table has no value there, says so."""
     for controller in outcome.problem.controllers:
         if isinstance(controller.failure, KeyboardInterrupt | SystemExit):
             raise controller.failure
         if controller.failure is not None:
             return dataclasses.replace(outcome, status=Status.NOT_FINITE, sentence=controller.complaint)
+    if outcome.status == Status.NOT_FINITE and (beyond := beyond_their_tables(outcome.problem)):
+        said = f"t = {outcome.t:.6g} s: {_few(beyond)} moved beyond the range in which its law has values."
+        return dataclasses.replace(outcome, sentence=said, culprits=tuple(beyond))
     return outcome
 
 

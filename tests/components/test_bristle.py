@@ -74,3 +74,13 @@ def test_slip_beyond_the_last_site_ends_the_run_with_the_reason(scene, tmp_path)
 def test_a_curve_that_falls_too_far_for_bonds_is_refused(scene):
     with pytest.raises(ModelError, match=r"friction falls to 0\.2 of stiction in sliding, which bonds cannot"):
         scene(DRIVEN, level=0.1).check()
+
+
+def test_slip_beyond_the_travel_is_named_and_not_taken_for_a_division_by_zero(scene):
+    text = DRIVEN.replace("normal_force: 10 N", "normal_force: 10 N, travel: 0.1 mm".replace(", ", "\n        "))
+    run = scene(text, stop="0.1 s").run(out=None).run
+    assert run["status"] == "failed"
+    assert "pad moved beyond the range in which its law has values" in run["sentence"]
+    assert "no sites beyond `travel` of slip; give it more" in run["sentence"]
+    assert "divides by zero" not in run["sentence"]
+    assert run["culprits"] == ["pad"]

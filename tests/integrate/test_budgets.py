@@ -96,6 +96,7 @@ def test_a_jump_inside_a_zone_ends_at_the_step_floor_and_names_the_unknown():
 
     outcome = integrate(decay(rhs, slope=0.0), Run(stop=2.0, step_floor=1e-6))
     assert outcome.status == Status.STEP_FLOOR
+    assert "its floor (run.step_floor = 1e-06 s)" in outcome.sentence
     assert outcome.culprits == ("y[0]",)
     assert outcome.t == pytest.approx(1.0, abs=1e-3)
 

@@ -131,6 +131,24 @@ def test_a_hold_whose_ratio_is_made_of_parameters_is_taken(tmp_path, slip):
     fairlead.load(path, libraries=libraries).check()
 
 
+@pytest.mark.parametrize(
+    ("zero", "says"),
+    [
+        ("b.x - a.x", "what must be zero reads positions and not the unknown, so the index is 3, not 1"),
+        ("b.x**2 + b.x - a.x", "so the index is 3"),
+        ("b.v - 2*a.v", "what must be zero reads speeds and not the unknown, so the index is 2, not 1"),
+    ],
+)
+def test_a_constraint_on_motions_is_refused_with_its_index(tmp_path, zero, says):
+    law = f"return Law(a=-f, b=f, f={zero})"
+    path, libraries = scene(tmp_path, f'f = Unknown("N")\ndef law(p, a, b, f):\n    {law}\n')
+    with pytest.raises(ModelError) as caught:
+        fairlead.load(path, libraries=libraries).check()
+    assert says in str(caught.value)
+    assert "Write hold(slip) for a sum of speeds" in str(caught.value)
+
+
+
 def test_every_refused_class_of_a_netlist_is_told_at_once(tmp_path):
     path, libraries = scene(tmp_path, "def law(p, a, b):\n    return abs(a.v), 0\n")
     other = "\n\nclass Yours(Mine):\n    def law(p, a, b):\n        return a.a, 0\n"

@@ -28,9 +28,9 @@ class ReleasedTogether:
 
     def watch(self, events: NDArray[Any]) -> None:
         """Take zone changes, dtype EVENT; those of one pass come together."""
-        known = (events["guard"] >= 0) & (events["before"] != events["after"])
-        some = events[known & (self.system.limit_guard[np.where(known, events["guard"], 0)] == 1)]
-        if len(some) < 2 or not ((some["t"][1:] == some["t"][:-1]) & (some["position"][1:] == some["position"][:-1])).any():
+        some = events[(events["guard"] >= 0) & (events["before"] != events["after"])]
+        some = some[self.system.limit_guard[some["guard"]] == 1]
+        if not ((some["t"][1:] == some["t"][:-1]) & (some["position"][1:] == some["position"][:-1])).any():
             return
         keys = np.column_stack([some["t"], some["position"], self._together[some["machine"]]])
         _, first, which, sizes = np.unique(keys, axis=0, return_index=True, return_inverse=True, return_counts=True)

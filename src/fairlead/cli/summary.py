@@ -65,11 +65,10 @@ def _together(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
         return []
     one = found["first"][0]
     more = f" and {one['of'] - MOST_NAMED} more" if one["of"] > MOST_NAMED else ""
+    named = f"t = {one['t']:.6g} s: {', '.join(one['contacts'][:MOST_NAMED])}{more} passed their limits at one instant"
     again = f", and so at {found['count'] - 1} later instants" if found["count"] > 1 else ""
-    return [("let go at once", (
-        f"t = {one['t']:.6g} s: {', '.join(one['contacts'][:MOST_NAMED])}{more} passed their limits at one instant{again}. "
-        "Which of them go depends on how the load built up; a load that rises in a short ramp shows it."
-    ))]  # fmt: skip
+    why = "Which of them go depends on how the load built up; a load that rises in a short ramp shows it."
+    return [("let go at once", f"{named}{again}. {why}")]
 
 
 def _against_statics(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:

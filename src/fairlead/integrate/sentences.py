@@ -45,8 +45,8 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
     texts = {
         Status.FINISHED: f"Reached {when}.",
         Status.STEP_FLOOR: (
-            f"{when}: the step size fell to its floor ({step:.2g} s) because of the error of {names}. A law "
-            "may jump inside its zone, or a Jacobian be wrong; check the component of that unknown, or "
+            f"{when}: the step size fell to {step:.2g} s, its floor ({_floor(memory, run)}), because of the error of "
+            f"{names}. A law may jump inside its zone, or a Jacobian be wrong; check the component of that unknown, or "
             "loosen its tolerance."
         ),
         Status.NOT_FINITE: (
@@ -77,6 +77,14 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.INTERRUPTED: f"{when}: interrupted; {kept}",
     }
     return texts[status]
+
+
+def _floor(memory: Memory, run: Run) -> str:
+    """Where the least step comes from."""
+    resolved = 4e-15 * abs(float(memory.number["t"]))
+    if run.step_floor is None:
+        return "what time resolves; run.step_floor is not set"
+    return f"run.step_floor = {run.step_floor:.2g} s" if run.step_floor > resolved else "what time resolves"
 
 
 def cycle(memory: Memory, problem: Problem) -> str:

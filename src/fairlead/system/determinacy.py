@@ -109,8 +109,23 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
         return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     names = [f"{path}.{name}" for (path, name), at in numbering.own.items() if at in part]
     what = f"{_and(names)}: no equation determines {'it' if len(names) == 1 else 'them'}{while_}."
+    if index := max((_index(block, owners) for block in blocks), default=1) - 1:
+        motion = ("speeds", "positions")[index - 1]
+        what = f"{what[:-1]}: what must be zero reads {motion} and not the unknown, so the index is {index + 1}, not 1."
+        way_out = "Write hold(slip) for a sum of speeds that stays zero, or a stiff spring and a damper for the force."
+        return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
     return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+
+
+def _index(block: Block, owners: Iterable[str]) -> int:
+    """Index of the equations if a law of these asks for motions alone: 2 for speeds, 3 for positions; else 1."""
+    s = block.kernel.structure
+    if not set(owners) & {instance.path for instance in block.instances}:
+        return 1
+    asked = [keys for target, keys in s.flow_inputs[s.zones[0]].items() if target.startswith("own:")]
+    of_motion = [keys for keys in asked if keys and all(key.startswith("port:") for key in keys)]
+    return max((2 if any(key.endswith(":v") for key in keys) else 3 for keys in of_motion), default=1)
 
 
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
