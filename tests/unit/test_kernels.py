@@ -148,7 +148,6 @@ def test_a_constraint_on_motions_is_refused_with_its_index(tmp_path, zero, says)
     assert "Write hold(slip) for a sum of speeds" in str(caught.value)
 
 
-
 def test_every_refused_class_of_a_netlist_is_told_at_once(tmp_path):
     path, libraries = scene(tmp_path, "def law(p, a, b):\n    return abs(a.v), 0\n")
     other = "\n\nclass Yours(Mine):\n    def law(p, a, b):\n        return a.a, 0\n"
