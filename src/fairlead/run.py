@@ -33,8 +33,8 @@ from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
 from fairlead.results import MemoryRun, Result, RunDirectory, Signal, Sink
+from fairlead.system.out_of_range import beyond_their_tables
 from fairlead.system.timed_limits import timed_limits
-from fairlead.system.timing import beyond_their_tables
 
 if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording

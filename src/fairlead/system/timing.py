@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
+from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import polynomial
 from fairlead.system.blocks import Block, Integers, Memory
-
-if TYPE_CHECKING:
-    from fairlead.system.system import Instance
-
-FIRST_TERM = 3
-"""Where in a row of a table its coefficients begin."""
 
 
 class PlacedTable(NamedTuple):
@@ -55,18 +49,6 @@ def first_pieces(blocks: Sequence[Block], zones: Integers) -> list[PlacedTable]:
         else:
             zones[table.machine] = table.polynomial.begin
     return timed
-
-
-def beyond_their_tables(system: Instance) -> list[str]:
-    """Paths of the components with a table in a piece that is no number: they left the range in which it has values."""
-    found = []
-    for block in system.blocks:
-        s = block.kernel.structure
-        machines = block.machines[:, s.machines - len(s.tables) :]
-        rows = block.table_base + STRIDE * system.zones[machines]
-        beyond = np.isnan(system.memory["tables"][rows + FIRST_TERM]).any(axis=1) if len(s.tables) else []
-        found += [block.instances[i].path for i in np.flatnonzero(beyond)]
-    return found
 
 
 def samplers(blocks: Sequence[Block]) -> Memory:
