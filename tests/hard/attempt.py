@@ -34,6 +34,8 @@ class Attempt:
     closure: float | None = None
     version: str = ""
     """Key of the content it goes with."""
+    commit: str = ""
+    """The commit it was played at."""
 
     def plain(self) -> dict[str, Any]:
         """For JSON."""

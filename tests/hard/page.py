@@ -5,11 +5,13 @@ from __future__ import annotations
 import datetime
 import os
 import platform
+import re
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
 from tests.hard.attempt import Attempt
+from tests.hard.known import known_failure
 from tests.hard.registry import ENGINES, TREATMENTS, Row
 
 Done = Sequence[tuple[Row, Attempt]]
@@ -24,12 +26,13 @@ monotonicity, symmetry. Each is played on every engine (`rodas`, with its second
 and with exact hold, robust binding (creep 1e-5 m/s unless the case says otherwise) and LuGre, where they apply.
 
 ```sh
-make hard                                                # all rows; goes on where an interrupted round stopped
+make hard                                                # all rows; an interrupted round goes on, at the same commit
 .venv/bin/python -m tests.hard --only tether --table     # rows with a word in their name
 .venv/bin/python -m tests.hard --budget 300              # start nothing new after 300 s
 ```
 
-This page is written by `make hard`; the cases are in `tests/hard/cases`, scenes without a generator in `models/hard`.
+`make hard` writes this page, from rows of one commit. The cases are in `tests/hard/cases`, scenes without a generator in
+`models/hard`. `tests/hard/known.py` lists the rows that fail and those that the tests leave to `make hard`.
 
 | verdict | means |
 |---|---|
@@ -41,10 +44,49 @@ This page is written by `make hard`; the cases are in `tests/hard/cases`, scenes
 """
 
 
-def write(path: Path, done: Done, left: int) -> None:
-    """Write the page; `left` rows are not played yet."""
-    parts = [HEAD, _summary(done), _failures(done), _cases(done), _made(done, left)]
+def write(path: Path, done: Done, left: Sequence[Row]) -> None:
+    """Write the page; `left` are the rows that are not played yet. Raises ValueError for rows of several commits."""
+    commits = sorted({attempt.commit for _, attempt in done})
+    if len(commits) > 1:
+        raise ValueError(f"rows of {', '.join(commits)}: play them all at one commit, with `make hard`")
+    parts = [HEAD, _played(done, left), _summary(done), _failures(done), _waiting(left), _cases(done), _made(done)]
     path.write_text("\n".join(parts), encoding="utf-8")
+
+
+def failures(text: str) -> set[tuple[str, str, str]]:
+    """(case, engine, treatment) of the rows that a page shows as failing."""
+    rows = _table(text.partition("## What fails")[2].partition("\n## ")[0])
+    return {(case, engine, treatment) for case, engine, treatment, *_ in rows}
+
+
+def waiting(text: str) -> set[tuple[str, str, str]]:
+    """(case, engine, treatment) of the rows that a page says are not played."""
+    rows = _table(text.partition("## Not played")[2].partition("\n## ")[0])
+    return {(case, engine, one) for case, engine, some in rows for one in some.split(", ")}
+
+
+def _table(text: str) -> list[list[str]]:
+    """The cells of a table below its head, `|` inside a cell written as `\\|`."""
+    lines = [line for line in text.splitlines() if line.startswith("| ")][2:]
+    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip("|"))] for line in lines]
+
+
+def _played(done: Done, left: Sequence[Row]) -> str:
+    commit = done[0][1].commit if done else "none"
+    told = f"**Played at commit {commit}: {len(done)} of {len(done) + len(left)} rows**"
+    return told + (", the others are listed below.\n" if left else ".\n")
+
+
+def _waiting(left: Sequence[Row]) -> str:
+    lines = ["## Not played", ""]
+    if not left:
+        return "\n".join([*lines, "Nothing.", ""])
+    lines += ["Rows that no round has come to at this commit.", "", _line("case", "engine", "treatments"),
+              _line(*["---"] * 3)]  # fmt: skip
+    found: dict[tuple[str, str], list[str]] = {}
+    for row in left:
+        found.setdefault((row.case.name, row.engine), []).append(row.treatment)
+    return "\n".join([*lines, *(_line(*names, ", ".join(words)) for names, words in found.items()), ""])
 
 
 def _summary(done: Done) -> str:
@@ -73,11 +115,13 @@ def _failures(done: Done) -> str:
     lines = ["## What fails", "", "Rows on the engine that `auto` picks first.", ""]
     if not bad:
         return "\n".join([*lines, "Nothing.", ""])
-    lines += [_line("case", "engine", "treatment", "auto", "verdict", "reason"), _line(*["---"] * 6)]
+    lines += [_line("case", "engine", "treatment", "auto", "verdict", "what came", "why"), _line(*["---"] * 7)]
     for one in bad:
         reason = one.reason if len(one.reason) <= LONGEST else one.reason[: LONGEST - 4] + " ..."
         told = reason.replace("|", "\\|").replace("<", "&lt;")
-        lines.append(_line(one.case, one.engine, one.treatment, "auto" if one.auto else "", MARKS[one.verdict], told))
+        why = known_failure(one.case, one.engine, one.treatment) or "**not known**"
+        auto = "auto" if one.auto else ""
+        lines.append(_line(one.case, one.engine, one.treatment, auto, MARKS[one.verdict], told, why))
     return "\n".join([*lines, ""])
 
 
@@ -113,11 +157,11 @@ def _cell(one: Attempt) -> str:
     return f"{verdict}, {one.seconds:.2g} s, {one.switches}{closure}"
 
 
-def _made(done: Done, left: int) -> str:
+def _made(done: Done) -> str:
     packages = ", ".join(f"{name} {version(name)}" for name in ("fairlead", "numpy", "numba", "scikit-sundae"))
     total = sum(one.seconds for _, one in done)
     today = datetime.date.today().isoformat()
-    played = f"{len(done)} rows, {total:.0f} s; {left} of all wait to be played again after a later change of fairlead."
+    played = f"{len(done)} rows, {total:.0f} s."
     machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors ({today})."
     return f"{played} Python {platform.python_version()}, {packages}, {machine}\n"
 

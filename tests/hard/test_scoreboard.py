@@ -1,44 +1,89 @@
-"""What is kept goes on where it stopped; what fails is shown; the list of known failures names rows that exist."""
+"""What is kept goes on where it stopped, at one commit; what fails is shown, and is what the list of failures says."""
 
 from __future__ import annotations
 
 import fnmatch
 from dataclasses import replace
+from pathlib import Path
+
+import pytest
 
 from tests.hard import page
 from tests.hard.attempt import Attempt
-from tests.hard.kept import Kept, version
-from tests.hard.known import KNOWN
+from tests.hard.kept import Kept, commit, version
+from tests.hard.known import KNOWN, LEFT, disagreements, known_failure, left_out
 from tests.hard.registry import rows
 
-ROW = next(rows())
-DONE = Attempt(ROW.case.name, ROW.engine, ROW.treatment, "wrong", "x is 1, must be 2", auto=True, version=version(ROW))
+PAGE = Path(__file__).parents[2] / "docs" / "stability.md"
+ROWS = list(rows())
+ROW = ROWS[0]
+DONE = Attempt(ROW.case.name, ROW.engine, ROW.treatment, "wrong", "x is 1, must be | 2", auto=True,
+               version=version(ROW), commit=commit())  # fmt: skip
 
 
-def test_an_attempt_is_kept_until_its_content_changes(tmp_path):
+def names(some):
+    return {(row.case.name, row.engine, row.treatment) for row in some}
+
+
+def test_an_attempt_is_kept_until_its_content_or_the_commit_changes(tmp_path):
     kept = Kept(tmp_path / "rows.jsonl")
     assert kept.get(ROW) is None
     kept.put(DONE)
     assert Kept(kept.path).get(ROW) == DONE
-    kept.put(replace(DONE, version="of something else"))
-    assert Kept(kept.path).get(ROW) is None
-    assert Kept(kept.path).last(ROW) is not None
+    for other in (replace(DONE, version="of something else"), replace(DONE, commit="of another day")):
+        kept.put(other)
+        assert Kept(kept.path).get(ROW) is None
 
 
 def test_the_page_shows_a_failure_with_its_reason_and_counts_it(tmp_path):
-    page.write(tmp_path / "page.md", [(ROW, DONE)], 3)
+    page.write(tmp_path / "page.md", [(ROW, DONE)], ROWS[1:])
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
     assert "| `auto` | 0 of 1 (1 wrong) |" in text
-    assert f"| {ROW.case.name} | {ROW.engine} | {ROW.treatment} | auto | **wrong** | x is 1, must be 2 |" in text
+    failure = f"| {ROW.case.name} | {ROW.engine} | {ROW.treatment} | auto | **wrong** | x is 1, must be \\| 2 |"
+    assert f"{failure} **not known** |" in text
     assert ROW.case.oracle in text
-    assert "3 of all wait" in text
+    assert f"commit {DONE.commit}: 1 of {len(ROWS)} rows" in text
 
 
-def test_every_known_failure_is_that_of_a_row():
-    names = [(row.case.name, row.engine, row.treatment) for row in rows()]
-    for *patterns, reason in KNOWN:
+def test_the_page_tells_which_rows_fail_and_which_are_not_played(tmp_path):
+    page.write(tmp_path / "page.md", [(ROW, DONE)], ROWS[1:])
+    text = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert page.failures(text) == names([ROW])
+    assert page.waiting(text) == names(ROWS[1:])
+
+
+def test_rows_of_two_commits_make_no_page(tmp_path):
+    other = replace(DONE, case=ROWS[1].case.name, commit="of another day")
+    with pytest.raises(ValueError, match="play them all at one commit"):
+        page.write(tmp_path / "page.md", [(ROW, DONE), (ROWS[1], other)], [])
+    assert not (tmp_path / "page.md").exists()
+
+
+def test_every_pattern_of_the_lists_is_that_of_a_row():
+    for *patterns, reason in (*KNOWN, *LEFT):
         assert reason
-        assert any(all(map(fnmatch.fnmatch, name, patterns)) for name in names), patterns
+        assert any(all(map(fnmatch.fnmatch, name, patterns)) for name in names(ROWS)), patterns
+
+
+def test_a_row_that_fails_unlisted_and_a_listed_one_that_comes_through_are_told():
+    listed = next(row for row in ROWS if known_failure(row.case.name, row.engine, row.treatment))
+    through = Attempt(listed.case.name, listed.engine, listed.treatment, "ok")
+    fails, leaves = disagreements([DONE, replace(DONE, verdict="ok"), through, replace(through, verdict="stuck")])
+    assert fails == f"{ROW.name} fails and is not in tests/hard/known.py"
+    assert leaves == f"{listed.name} comes through and must leave tests/hard/known.py"
+
+
+def test_every_case_that_is_not_slow_is_played_by_the_tests():
+    assert {row.case.name for row in ROWS if not left_out(row)} == {
+        row.case.name for row in ROWS if row.case.cost != "slow"
+    }
+
+
+def test_the_rows_that_the_page_shows_as_failing_are_those_of_the_list():
+    text = PAGE.read_text(encoding="utf-8")
+    failed, played = page.failures(text), names(ROWS) - page.waiting(text)
+    assert {name for name in failed if not known_failure(*name)} == set()
+    assert {name for name in played if known_failure(*name)} - failed == set()
 
 
 def test_every_case_says_what_it_is_and_has_an_oracle():
