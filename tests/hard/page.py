@@ -31,8 +31,8 @@ make hard                                                # all rows; an interrup
 .venv/bin/python -m tests.hard --budget 300              # start nothing new after 300 s
 ```
 
-`make hard` writes this page, from rows of one commit. The cases are in `tests/hard/cases`, scenes without a generator in
-`models/hard`. `tests/hard/known.py` lists the rows that fail and those that the tests leave to `make hard`.
+`make hard` writes this page, from rows of one commit. The cases are in `tests/hard/cases`, scenes without a generator
+in `models/hard`. `tests/hard/known.py` lists the rows that fail and those that the tests leave to `make hard`.
 
 | verdict | means |
 |---|---|

@@ -5,7 +5,6 @@ drag the hose along up to a friction of 0.394 when they slide and 0.492 when the
 T_core/(T_core + T_hose)): at 0.35 all is elastic, at 0.50 it cannot be.
 """
 
-import math
 import sys
 from pathlib import Path
 
@@ -14,7 +13,6 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))  # scripts that import each other by name
 
 import bend_sweep
-import bend_sweep_page
 
 ELASTIC = 10.0  # mm; the hose of 15 m gives that much under the difference of tension it is asked to bear
 
@@ -32,21 +30,15 @@ def test_every_treatment_finds_the_tension_of_a_capstan_and_the_change_of_de_reg
     assert (row["registration_mm"] < ELASTIC) == (mu < 0.394)
 
 
-def test_the_table_kept_is_whole_and_stands_in_the_page() -> None:
-    rows = bend_sweep.kept()
-    wanted = len(bend_sweep.FRICTIONS) * len(bend_sweep.TENSIONS) * len(bend_sweep.TREATMENTS)
-    assert len(rows) == wanted
-    text = bend_sweep_page.PAGE.read_text(encoding="utf-8")
-    for tension in bend_sweep.TENSIONS:
-        assert bend_sweep_page.table(rows, tension) in text
-
-
-def test_what_the_page_says_of_the_band_holds_in_the_table() -> None:
-    """1 % up to 800 N and elastic up to 0.40: what the text of the page is about."""
-    for (mu, tension, treatment), row in bend_sweep.kept().items():
-        if treatment == "literal":
-            assert row["status"] == "failed"
-        else:
-            assert abs(row["excess"]) <= (0.01 if tension < 1000 else 0.035)
-            assert (row["registration_mm"] < ELASTIC) or mu > 0.40
-            assert not math.isnan(row["lowest_hose_N"])
+@pytest.mark.slow
+@pytest.mark.parametrize("treatment", bend_sweep.TREATMENTS)
+def test_a_row_of_the_table_comes_out_again(treatment: str, monkeypatch) -> None:
+    """Where the bulkheads drag the hose along; beyond, which element slips when is chance (docs/validation.md)."""
+    monkeypatch.setattr(bend_sweep, "PATIENCE", "300 s")
+    row, kept = bend_sweep.run(0.35, 800.0, treatment), bend_sweep.kept()[0.35, 800.0, treatment]
+    assert row["status"] == kept["status"]
+    if kept["status"] == "finished":  # to half of the last digit that the page prints
+        assert row["excess"] == pytest.approx(kept["excess"], abs=0.0005)
+        assert row["registration_mm"] == pytest.approx(kept["registration_mm"], abs=0.05)
+    else:
+        assert row["end"] == pytest.approx(kept["end"], rel=0.1)
