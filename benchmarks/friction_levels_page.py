@@ -42,8 +42,8 @@ whole run, of the core in the route.
 {table}
 
 One run stands out: at 1.00 and 2 m/s, while hauling, the tensions are far from those of steady sliding, for the whole
-line goes on shaking. At 0.95 it comes to steady sliding. So two motions are possible there, and a small error chooses: a
-mean tension at such frictions wants more than one run.
+line goes on shaking. At 0.95 it comes to steady sliding. So two motions are possible there, and a small error chooses:
+a mean tension at such frictions wants more than one run.
 
 Times are CPU seconds on a machine shared with others (commits {commits}). The
 energy ledger closes to {closure:.0e}
