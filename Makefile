@@ -12,11 +12,11 @@ HARD ?=
 INVARIANCE ?=
 WORKERS ?= auto
 
-.PHONY: help demo test hard invariance lint types bench docs clean
+.PHONY: help demo test test-all hard invariance lint types bench docs clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
-	@awk -F '[:#]+' '/^[a-z]+:.*##/ { printf "  make %-11s%s\n", $$1, $$NF }' Makefile
+	@awk -F '[:#]+' '/^[a-z-]+:.*##/ { printf "  make %-11s%s\n", $$1, $$NF }' Makefile
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
 demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
@@ -25,8 +25,11 @@ demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to 
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
 # Neighbours share runs, so each worker takes a stretch of the tests and steals from the end of another's.
-test: $(VENV)/test.done  ## install with what the tests need, run all tests (WORKERS=0 in one process)
-	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal $(TESTS)
+test: $(VENV)/test.done  ## install with what the tests need, run the tests (WORKERS=0 in one process)
+	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m "not slow" $(TESTS)
+
+test-all: $(VENV)/test.done  ## the rest of the tests, those that take long
+	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
 
 hard: $(VENV)/test.done  ## play all hard cases on all engines, write docs/stability.md (more with HARD="--only tether --table")
 	$(RUN) -m tests.hard $(HARD)
