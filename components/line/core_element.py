@@ -18,6 +18,7 @@ class Core(Component):
     """
 
     exempt = {"zones_reached": "An element closes stretched only faster than stretch times stiffness over damping."}
+    spans, compressible = "length", 1.0  # loose at any length, and its ends do not pass each other
     a = Translational("inboard end")
     b = Translational("outboard end")
     axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)

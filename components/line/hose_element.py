@@ -9,6 +9,7 @@ class Hose(Component):
     tension = (stretch) EA/length + damping * rate,   stretch = b.x - a.x - length
     """
 
+    spans = "length"
     a = Translational("inboard end")
     b = Translational("outboard end")
     axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)

@@ -23,6 +23,7 @@ def step(place: float, edge: float) -> PiecewisePolynomial:
 class LoopedHose(Hose):
     """Elastic element with a loop of 2 y in it when it spans the place of the tensioner."""
 
+    spans = ""  # its way counts the loop
     carriage = Translational("the carriage of the tensioner, at y")
     behind = Table("m", "1", "The step, as the inboard node sees it.")
     ahead = Table("m", "1", "The step, as the outboard node sees it.")

@@ -22,6 +22,7 @@ from fairlead.analysis.released_together import ReleasedTogether
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
+from fairlead.analysis.strains import strains
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
 from fairlead.errors import Fault, ModelError, UsageError
@@ -276,6 +277,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
+        "strains": strains(outcome.problem, outcome.t, outcome.y),
         "jumps": watch.jumps(),
     }  # fmt: skip
 

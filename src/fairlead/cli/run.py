@@ -139,8 +139,10 @@ def _fewer(result: "Result") -> str:
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
     """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
-    for remark in outcome.get("remarks") or ():
-        echo(f"warning: {remark}", err=True)
+    from fairlead.analysis.strains import remark
+
+    for said in outcome.get("remarks") or ():
+        echo(f"warning: {said}", err=True)
     if outcome["status"] != "finished":
         echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
     if chattering := outcome.get("chattering"):
@@ -151,5 +153,7 @@ def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
             f"warning: the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this "
             "run. Ask for a finer accuracy, or look for a number far from all others.", err=True,
         )  # fmt: skip
+    if strained := remark(outcome.get("strains")):
+        echo(f"warning: {strained}", err=True)
     for broken in outcome.get("limits_broken") or ():
         echo(f"limit broken: {broken}", err=True)

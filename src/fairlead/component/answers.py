@@ -82,7 +82,7 @@ def _input(value: Any, has: Declaration) -> str:
 
 def _parameter(value: Any, has: Declaration) -> str:
     known = {*has.parameters, *has.derived}
-    return "" if value in known else f"is {_shown(value)}; the parameters are {sorted(known)}"
+    return "" if value in known or value == "" else f"is {_shown(value)}; the parameters are {sorted(known)}"
 
 
 def _two_inputs(value: Any, has: Declaration) -> str:
@@ -96,6 +96,11 @@ def _budget(value: Any, has: Declaration) -> str:
     return "" if fits else f"is {value!r}; it gives whole numbers for {' and '.join(BUDGETS)}"
 
 
+def _share(value: Any, has: Declaration) -> str:
+    fits = isinstance(value, int | float) and not isinstance(value, bool) and 0 < value <= 1
+    return "" if fits else f"is {_shown(value)}; it is a number above 0 and at most 1"
+
+
 def _map(value: Any, has: Declaration) -> str:
     fits = isinstance(value, dict) and all(isinstance(key, str) for key in value)
     return "" if fits else f"is {_shown(value)}; it is a map with names"
@@ -106,6 +111,7 @@ SAMPLE = Kind("with self, t and what it reads", _sample, method=True)
 YES_OR_NO, SENTENCE, MAP = Kind("True or False", _yes_or_no), Kind("a sentence", _sentence), Kind("a map", _map)
 INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
 PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
+SHARE = Kind("a share", _share)
 
 
 def _asked(kind: Kind, doc: str, of: str = COMPONENT, default: Any = None) -> Any:
@@ -163,6 +169,12 @@ class Answers:
         method("p", "normal"), "of a contact: (name, value, unit) of more that `fairlead friction` tells"
     )
     can_hold: bool = _asked(YES_OR_NO, "of a contact: it can keep a load at rest", default=True)
+    spans: str = _asked(
+        PARAMETER, "the length without load of an element between its ports a and b; a run tells its strain", default=""
+    )
+    compressible: float = _asked(
+        SHARE, "with `spans`: by how much of its length it may get shorter before a run remarks on it", default=0.5
+    )
     budget: Mapping[str, int] = _asked(
         BUDGET, "`max_steps` and `max_events` of its runs, where the netlist gives none", default=dict
     )
