@@ -49,6 +49,7 @@ def shares_left(traced: Traced) -> list[tuple[str, str]]:
 def least_left(shares: Sequence[Sequence[str]], values: Values) -> float:
     """The least share that an instance is left with; 1 when it holds nothing, or lets go of it without a jump."""
     names = {"p": _Parameters(values), "c": _Coefficients(values), **{name: getattr(math, name) for name in FUNCTIONS}}
+    names |= {"nan": math.nan, "zoo": math.inf}  # nothing over nothing, as of a stop that lets go at no force: no jump
     least = 1.0
     for share in shares:
         after, before = (float(eval(_compiled(text), names)) for text in share)
