@@ -12,6 +12,7 @@ import pytest
 from fairlead.integrate import Run, integrate
 from tests.integrate import published
 from tests.integrate.problems import belt_block, bent_dae, falling_ball, stick_slip_times
+from tests.integrate.test_lightness import BENEATH
 
 CHOICES = {
     "rodas5p": {}, "rodas3p": {"method": "rodas3p"}, "ida": {"engine": "ida"}, "stepping": {"engine": "stepping"},
@@ -136,7 +137,7 @@ def test_a_block_sticks_and_slips_at_the_times_of_the_closed_form(engine):
 
 
 def test_nothing_else_of_fairlead_is_loaded_by_all_this():
-    """The problems and every engine, in a process of their own: of fairlead only integrate, native and errors."""
+    """The problems and every engine, in a process of their own: of fairlead only integrate and what keeps its code."""
     program = "\n".join([
         "import sys, fairlead",
         "before = set(sys.modules)",
@@ -152,4 +153,4 @@ def test_nothing_else_of_fairlead_is_loaded_by_all_this():
     loaded = done.stdout.split()
     assert "fairlead.integrate.driver" in loaded
     others = {name for name in loaded if not name.startswith("fairlead.integrate")}
-    assert others <= {"fairlead.native", "fairlead.errors"}
+    assert others <= BENEATH
