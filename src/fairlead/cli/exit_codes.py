@@ -9,7 +9,8 @@ OK, MODEL_ERROR, USAGE, NUMERICAL_FAILURE, BUDGET, LIMIT_BROKEN, UNFORESEEN, INT
 
 MEANINGS = {
     OK: "done; of `check`: no mistakes, though there may be warnings",
-    MODEL_ERROR: "a mistake in the netlist or in a component; of `doctor`: something to mend",
+    MODEL_ERROR: "a mistake in the netlist or in a component; of `margins`: damaged results; "
+    "of `doctor`: something to mend",
     USAGE: "the command cannot be carried out as typed, such as a run into a folder with results",
     NUMERICAL_FAILURE: "the engine could not go on; what was computed is kept",
     BUDGET: "a budget of the run (`max_wall`, `max_steps`, `max_events`) is used up; what was computed is kept",
