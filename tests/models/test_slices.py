@@ -1,13 +1,12 @@
 """How often the loop returns to Python, and how much its buffers hold, changes nothing: not a bit of any row."""
 
-import functools
 from importlib.util import find_spec
 
 import numpy as np
 import pytest
 
 import fairlead
-from fairlead.integrate import Run, driver, integrate, parts
+from fairlead.integrate import Run, integrate, parts, prepare, underway
 from tests.integrate.problems import belt_block, falling_ball
 from tests.integrate.test_budgets import chattering_machine
 from tests.models.test_names_say_nothing import pads
@@ -16,6 +15,7 @@ from tests.unit.test_controllers import COUNTING, PULLER, SCENE
 
 CUTS = [(10**8, None), (1, None), (7, 6), (64, 7), (10**8, 7)]
 """Trial steps of a slice, and rows that the buffer holds; None: as many as usual. Else few zone changes too."""
+BUFFERS = {name: getattr(prepare, name) for name in ("LEAST_ROWS", "MOST_ROWS", "EVENTS")}
 OFTEN = {"LEAST": 1, "LOOK_COST": 0, "LOOK_BASE": 3, "MOST": 0.97, "MARGIN": 3}
 """Parts are looked for every third step: the rest wakes often, and is cut out again."""
 MODELS = {"single_bend": 0.1, "guidance_route_electric": 0.02, "winch_drive": 0.1, "torsion": 0.05}  # s
@@ -33,21 +33,13 @@ def told(outcome):
 @pytest.fixture
 def all_cuts(monkeypatch):
     """A function that runs a problem made anew with every cut, and returns what each run leaves."""
-    usual = driver.prepare
-
-    def with_rows(rows, *given):
-        memory = usual(*given)
-        if rows is not None:
-            memory.number["row_capacity"] = rows
-            memory.number["event_capacity"] = max(memory.number["n_zones"] + memory.number["n_guards"], 1)
-        return memory
-
     def run(make, settings):
         found = []
         for attempts, rows in CUTS:
-            monkeypatch.setattr(driver, "FIRST_ATTEMPTS", attempts)
-            monkeypatch.setattr(driver, "next_attempts", lambda *_, attempts=attempts: attempts)
-            monkeypatch.setattr(driver, "prepare", functools.partial(with_rows, rows))
+            monkeypatch.setattr(underway, "FIRST_ATTEMPTS", attempts)
+            monkeypatch.setattr(underway, "next_attempts", lambda *_, attempts=attempts: attempts)
+            for name, usual in BUFFERS.items():
+                monkeypatch.setattr(prepare, name, rows or usual)
             found.append(told(integrate(make(), settings)))
         return found
 
@@ -105,8 +97,8 @@ def test_what_a_run_leaves_on_its_grid_is_the_same_however_it_is_handed_over(tmp
     model = fairlead.load(tmp_path / "pads.yaml", set={"record.every": "0.1 s"})
     found = []
     for attempts in (1, 7, 64, 10**8):
-        monkeypatch.setattr(driver, "FIRST_ATTEMPTS", attempts)
-        monkeypatch.setattr(driver, "next_attempts", lambda *_, attempts=attempts: attempts)
+        monkeypatch.setattr(underway, "FIRST_ATTEMPTS", attempts)
+        monkeypatch.setattr(underway, "next_attempts", lambda *_, attempts=attempts: attempts)
         result = model.run(out=None)
         kept = [result.t.tobytes(), *(np.asarray(result[signal.name]).tobytes() for signal in result.signals)]
         found.append((len(result.t), kept, result.events, result.run["jumps"], result.run["counters"]))

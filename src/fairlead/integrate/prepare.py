@@ -44,8 +44,11 @@ _PLANS: weakref.WeakKeyDictionary[Problem, dict[bool, Planned]] = weakref.WeakKe
 
 
 def planned(problem: Problem, stepping: bool) -> Planned:
-    """The plan for a problem, which is kept as long as the problem is."""
-    kept = _PLANS.setdefault(problem, {})
+    """The plan for a problem, which is kept as long as the problem is; one that is no key is planned every time."""
+    try:
+        kept = _PLANS.setdefault(problem, {})
+    except TypeError:
+        return new_plan(problem, stepping)
     if stepping not in kept:
         kept[stepping] = new_plan(problem, stepping)
     return kept[stepping]
