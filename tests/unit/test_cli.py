@@ -68,7 +68,8 @@ class StandIn:
 
     def run(self, **settings: Any) -> SimpleNamespace:
         self._answer("run", settings)
-        return SimpleNamespace(run=self.outcome, path=pathlib.Path("results/belt"))
+        folder = pathlib.Path("results/belt")
+        return SimpleNamespace(run=self.outcome, path=folder, folder=folder)
 
 
 @pytest.fixture

@@ -106,7 +106,7 @@ def test_a_controller_is_checked_when_it_is_declared(library):
     wrong = COUNTING.replace("(self, t, speed)", "(self, t, sped)")
     with pytest.raises((DeclarationError, ModelError), match=r"sample asks for 'sped'; known: \['speed', 't'\]"):
         load_library(library(wrong))
-    with pytest.raises((DeclarationError, ModelError), match="needs a method sample"):
+    with pytest.raises((DeclarationError, ModelError), match=r"'simple'\. Did you mean sample\?"):
         load_library(library(COUNTING.replace("def sample", "def simple")))
 
 
