@@ -12,11 +12,15 @@ FEW = [*((network, seed) for seed in range(len(KINDS))), *((route, seed) for see
 MANY = [*((network, seed) for seed in range(len(KINDS), 100)), *((route, seed) for seed in range(3, 40))]
 
 
+EXPECTED = "varies in time: an error of some percent"
+"""What is remarked on where a scene asks for `stepping` and the limit of a contact is given in time."""
+
+
 def played(make, seed, folder):
     path = folder / "scene.yaml"
     path.write_text(make(seed), encoding="utf-8")
     model = fairlead.load(path)
-    assert model.check() == []
+    assert [remark for remark in model.check() if EXPECTED not in remark.what] == []
     return model.run(out=folder / "run", force=True)
 
 
