@@ -18,6 +18,7 @@ here: see `answers.py`. Imported where a class is traced; SymPy is there already
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -27,6 +28,8 @@ from fairlead.component.piecewise import DEGREE
 from fairlead.component.trace import Traced, TracedGuard, TraceError, symbol
 from fairlead.system.structure import PIECES, Sum
 
+MANY_TERMS = 1000
+"""An expression that would be written out as more than this is not: it counts as not cancelling, which is safe."""
 FEW = 2
 """Tables of a class up to which their constant pieces are told apart: 4 to the power of this many cases."""
 
@@ -84,7 +87,20 @@ def _moves_along(expression: sympy.Expr, keys: Sequence[str]) -> bool:
     if first not in shifted.free_symbols:
         return True
     read = any(s.name.startswith("T:") for s in shifted.free_symbols)  # then the place counts; long to write out
-    return not read and first not in sympy.expand(shifted).free_symbols
+    if read or any(_terms(part) > MANY_TERMS for part in sympy.preorder_traversal(shifted)):
+        return False
+    return first not in sympy.expand(shifted).free_symbols
+
+
+def _terms(expression: sympy.Expr) -> int:
+    """How many terms an expression may have when it is written out."""
+    if expression.is_Add:
+        return sum(map(_terms, expression.args))
+    if expression.is_Mul:
+        return math.prod(map(_terms, expression.args))
+    if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
+        return _terms(expression.base) ** int(expression.exp)
+    return 1
 
 
 def member(expression: sympy.Expr, inputs: Sequence[str]) -> dict[str, Any]:
