@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -54,9 +54,10 @@ class Underway:
 
     def go_on(self, attempts: int | None = None) -> None:
         """Enter the loop for at most so many trial steps (None: some SLICE seconds), and serve what it asks for."""
-        entered, working = time.perf_counter(), time.process_time()
-        self.status = Status(self._advance(self.scope.memory.address, attempts or self._attempts))
-        spent = time.perf_counter() - entered
+        before = self.wall
+        address, most = self.scope.memory.address, attempts or self._attempts
+        self.status = Status(self._timed(lambda: self._advance(address, most)))
+        spent = self.wall - before
         number = self.scope.memory.number
         if self.status == Status.WIDEN and number["woken"]:
             number["rows"] -= 1  # the row after the switch; the whole settles there once more
@@ -65,13 +66,19 @@ class Underway:
         if self.status == Status.REPLAN:
             self._replan()
         elif self.status == Status.NARROW:
-            self.scope.look()
+            self._timed(self.scope.look)
         elif self.status == Status.WIDEN:
-            self.scope.wake()
+            self._timed(self.scope.wake)
         elif self.status == Status.PAUSED:
             self._attempts = next_attempts(self._attempts, spent)
+
+    def _timed(self, work: Callable[[], Any]) -> Any:
+        """Do some of the work of the engine, and count the time it takes; writing down what it recorded is none."""
+        entered, working = time.perf_counter(), time.process_time()
+        done = work()
         self.wall += time.perf_counter() - entered
         self.cpu += time.process_time() - working
+        return done
 
     def _replan(self) -> None:
         """Other pivots; without any the equations are singular."""
