@@ -91,6 +91,10 @@ class DcDrive(Component):
         """The same the other way."""
         return p.most_voltage + command
 
+    def fastest(p):
+        """All the voltage of the supply, without current and without speed, or the current it is limited to."""
+        return p.most_voltage / p.constant, p.constant * min(p.most_current, p.most_voltage / p.resistance)
+
 
 def drive(p, shaft, current, voltage):
     """How much further a voltage would drive a current [A]: the final one less this."""

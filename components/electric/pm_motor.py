@@ -1,5 +1,7 @@
 """A permanent-magnet synchronous motor in the q axis, with its current controller."""
 
+import math
+
 from fairlead.component import (
     Component,
     Effect,
@@ -93,6 +95,11 @@ class PmMotor(PmTorque):
     def comes_back_backward(p, shaft, wanted, flowing, integral):
         """The same the other way."""
         return p.most_voltage + voltage_wanted(p, shaft, wanted, flowing, integral)
+
+    def fastest(p):
+        """All the voltage of the supply, without current and without speed."""
+        stall = p.constant * p.most_voltage / p.resistance if p.resistance else math.inf
+        return p.most_voltage / p.constant, stall
 
 
 def pm_law(p, shaft, current, **own):

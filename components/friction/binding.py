@@ -7,11 +7,12 @@ contacts stay cheap. The price is creep: a stuck contact under load af slips at 
 """
 
 from fairlead.components.friction.binding_law import (
+    BACKWARD,
     BOUND,
+    FORWARD,
     IN_CONTACT,
     applied_force,
     border,
-    direction,
     friction_in,
     rest,
 )  # fmt: skip
@@ -76,7 +77,7 @@ class Binding(Creeping):
     bound_a = Input("1", "1 while the other contact of a is bound.", default=0.0)
     bound_b = Input("1", "1 while the other contact of b is bound.", default=0.0)
     bound = Output("1", "1 while the contact is bound.")
-    zones = Zones(*IN_CONTACT, "off", latched=["break_forward", "break_backward"])
+    zones = Zones(*IN_CONTACT, "off", forward=FORWARD, backward=BACKWARD, latched=["break_forward", "break_backward"])
 
     def prepare(given):
         """What is not set by itself follows from the form."""
@@ -175,9 +176,9 @@ class Binding(Creeping):
         return a.v - b.v - border(p, -1)
 
     @guard("ramp_forward", "ramp_backward", to="plateau", unit="m/s")
-    def settles(p, a, b, zone):
+    def settles(p, a, b, direction):
         """Back on the plateau, somewhat below its end."""
-        return BACK[p.cap] * border(p, direction(zone)) - direction(zone) * (b.v - a.v)
+        return BACK[p.cap] * border(p, direction) - direction * (b.v - a.v)
 
     @guard("ramp_forward", "transit", "break_forward", "break_backward", to="slide_forward", unit="m/s")
     def slides_forward(p, a, b):
@@ -200,9 +201,9 @@ class Binding(Creeping):
         return p.v_n + (b.v - a.v), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("slide_forward", "slide_backward", to="transit", unit="m/s")
-    def reverses(p, a, b, grip, bound_a, bound_b, zone):
+    def reverses(p, a, b, grip, bound_a, bound_b, zone, direction):
         """Slow, and driven on through zero slip."""
-        slow = p.v_n - direction(zone) * (b.v - a.v)
+        slow = p.v_n - direction * (b.v - a.v)
         return slow, -_spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("transit", to="plateau", unit="m/s")
@@ -223,15 +224,15 @@ class Binding(Creeping):
         return a.v - b.v - border(p, -1), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("break_forward", "break_backward", to="plateau", unit="m/s")
-    def gives_up(p, a, b, grip, bound_a, bound_b, zone):
+    def gives_up(p, a, b, grip, bound_a, bound_b, zone, direction):
         """The break-away came to nothing."""
-        slow = border(p, direction(zone)) / 2 - direction(zone) * (b.v - a.v)
+        slow = border(p, direction) / 2 - direction * (b.v - a.v)
         return slow, _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("break_forward", "break_backward", to="transit", unit="N")
-    def turns(p, a, b, grip, bound_a, bound_b, zone):
+    def turns(p, a, b, grip, bound_a, bound_b, zone, direction):
         """Driven hard the other way."""
-        d = direction(zone)
+        d = direction
         return -d * applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, -d)
 
     @guard("off", to="slide_forward", unit="m/s")

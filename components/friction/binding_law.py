@@ -71,18 +71,14 @@ def transit(p: Any, d: int, slip: Any, grip: Any) -> Any:
 
 
 LAWS: dict[str, tuple[Callable[..., Any], int]] = {
-    "plateau": (plateau, +1), "ramp_forward": (ramp, +1), "ramp_backward": (ramp, -1), "slide_forward": (slide, +1),
-    "slide_backward": (slide, -1), "transit": (transit, +1), "break_forward": (latched, +1),
+    "plateau": (plateau, 0), "ramp_forward": (ramp, +1), "ramp_backward": (ramp, -1), "slide_forward": (slide, +1),
+    "slide_backward": (slide, -1), "transit": (transit, 0), "break_forward": (latched, +1),
     "break_backward": (latched, -1),
 }  # fmt: skip
 """The law of every zone in contact, and its direction."""
 IN_CONTACT = tuple(LAWS)
 BOUND = tuple(zone for zone, (law, _) in LAWS.items() if law in (plateau, ramp))
-
-
-def direction(zone: str) -> int:
-    """+1 in a forward zone, -1 in a backward one."""
-    return LAWS[zone][1]
+FORWARD, BACKWARD = (tuple(zone for zone, (_, d) in LAWS.items() if d == sense) for sense in (+1, -1))
 
 
 def friction_in(p: Any, zone: str, slip: Any, grip: Any) -> Any:

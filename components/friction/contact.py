@@ -45,7 +45,7 @@ class Contact(Family, Component, abstract=True):
     normal = Input("N", "Normal force.", default="normal_force")
     temperature = Input("K", "Temperature of the surfaces.", default="ambient")
     slip = Output("m/s", "Slip speed of b over a.")
-    friction = Output("N", "Friction T, positive when it opposes positive slip.")
+    friction = Output("N", "Friction T, positive when it opposes positive slip.", role="share")
     creep_rate = Output("m/s", "Slip speed while the contact should stick, else zero.", role="creep")
 
     @shared
@@ -75,14 +75,8 @@ class Contact(Family, Component, abstract=True):
         return None
 
 
-def direction(zone):
-    """+1 in a zone for forward slip, -1 in one for backward; names of zones end in these words."""
-    return -1 if zone.endswith("backward") else 1
-
-
-def sliding_friction(p, zone, slip, grip, pace):
-    """Friction [N] of a zone in which the contact slides: the curve, against the slip."""
-    d = direction(zone)
+def sliding_friction(p, d, slip, grip, pace):
+    """Friction [N] where the contact slides in direction d, +1 or -1: the curve, against the slip."""
     return d * grip * mu(p.curve, d * slip * pace, d) + drag(p, slip)
 
 
@@ -100,7 +94,7 @@ class Sliding(Contact, abstract=True):
     """A contact with a zone for each direction of sliding."""
 
     @zone("forward", "backward")
-    def sliding(p, a, b, grip, pace, zone):
+    def sliding(p, a, b, grip, pace, direction):
         """The curve gives the force, against the slip."""
         slip = b.v - a.v
-        return opposing(slip, sliding_friction(p, zone, slip, grip, pace), creep_rate=0)
+        return opposing(slip, sliding_friction(p, direction, slip, grip, pace), creep_rate=0)

@@ -27,6 +27,7 @@ class Creeping(Contact, abstract=True):
     g0 = -k time/ln(1 - share), and `creep` is the one that gives this slope.
     """
 
+    sticks_below, creeps = "creep", True
     creep = Parameter("m/s", "Slip speed that scales the line; 0.1 mm/s without a leak.", default=None, above=0)
     leak = Block(LEAK, "Instead of creep: the load that may be lost while the contact sticks.", default=None)
 

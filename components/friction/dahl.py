@@ -1,7 +1,6 @@
 """Dahl's law: friction is a stress that grows with displacement and saturates."""
 
 from fairlead.components.friction.bristles import OneWay, bent, sliding_deflection
-from fairlead.components.friction.contact import direction
 
 from fairlead.component import Zones, zone
 
@@ -24,8 +23,8 @@ class Dahl(OneWay):
     zones = Zones("forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     @zone("forward", "backward")
-    def bends(p, a, b, z, grip, zone):
+    def bends(p, a, b, z, grip, direction):
         """The bristles bend with the slip, less and less as they near their sliding deflection."""
-        d, slip = direction(zone), b.v - a.v
+        d, slip = direction, b.v - a.v
         share = z / sliding_deflection(p, d * slip, d)
         return bent(p, a, b, z, grip, slip * (1 - d * share), damping=0)

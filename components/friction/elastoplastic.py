@@ -1,7 +1,6 @@
 """The elastoplastic law: LuGre bristles that are purely elastic up to a part of their break-away deflection."""
 
 from fairlead.components.friction.bristles import STILL, Bristles, bent, sliding_deflection
-from fairlead.components.friction.contact import direction
 
 from fairlead.component import Parameter, Zones, guard, pi, sin, zone
 
@@ -44,18 +43,18 @@ class Elastoplastic(Bristles):
         return bent(p, a, b, z, grip, b.v - a.v, damping=p.relaxation)
 
     @zone("blend_forward", "blend_backward")
-    def blends(p, a, b, z, grip, zone):
+    def blends(p, a, b, z, grip, direction):
         """Plastic in part."""
-        d, slip = direction(zone), b.v - a.v
+        d, slip = direction, b.v - a.v
         share = z / sliding_deflection(p, d * slip, d)
         middle, width = (1 + p.elastic_share) / 2, 1 - p.elastic_share
         alpha = (1 + sin(pi * (d * share - middle) / width)) / 2
         return bent(p, a, b, z, grip, slip * (1 - alpha * d * share), damping=p.relaxation)
 
     @zone("forward", "backward")
-    def slides(p, a, b, z, grip, zone):
+    def slides(p, a, b, z, grip, direction):
         """Fully plastic."""
-        d, slip = direction(zone), b.v - a.v
+        d, slip = direction, b.v - a.v
         share = z / sliding_deflection(p, d * slip, d)
         return bent(p, a, b, z, grip, slip * (1 - d * share), damping=p.relaxation)
 
@@ -65,50 +64,49 @@ class Elastoplastic(Bristles):
         return normal - 2 * p.lift
 
     @guard("elastic", to="blend_forward", unit="m/s")
-    def yields_forward(p, a, b, z, zone):
+    def yields_forward(p, a, b, z):
         """Loaded forward beyond the elastic part."""
-        return b.v - a.v - STILL, _beyond(p, zone, b.v - a.v, z, +1, p.elastic_share)
+        return b.v - a.v - STILL, _beyond(p, abs(b.v - a.v), z, +1, p.elastic_share)
 
     @guard("elastic", to="blend_backward", unit="m/s")
-    def yields_backward(p, a, b, z, zone):
+    def yields_backward(p, a, b, z):
         """The same the other way."""
-        return a.v - b.v - STILL, _beyond(p, zone, b.v - a.v, z, -1, p.elastic_share)
+        return a.v - b.v - STILL, _beyond(p, abs(b.v - a.v), z, -1, p.elastic_share)
 
     @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="m/s")
-    def unloads(p, a, b, zone):
+    def unloads(p, a, b, direction):
         """The slip has changed its direction."""
-        return -direction(zone) * (b.v - a.v) - STILL
+        return -direction * (b.v - a.v) - STILL
 
     @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="1")
-    def recovers(p, a, b, z, zone):
+    def recovers(p, a, b, z, direction):
         """The sliding deflection has grown away from the bristles, or they have straightened."""
-        return -_beyond(p, zone, b.v - a.v, z, direction(zone), 0.99 * p.elastic_share)
+        return -_beyond(p, direction * (b.v - a.v), z, direction, 0.99 * p.elastic_share)
 
     @guard("blend_forward", to="forward", unit="1")
-    def slides_forward(p, a, b, z, zone):
+    def slides_forward(p, a, b, z):
         """Bent beyond the sliding deflection."""
-        return _beyond(p, zone, b.v - a.v, z, +1, 1 + MARGIN)
+        return _beyond(p, b.v - a.v, z, +1, 1 + MARGIN)
 
     @guard("blend_backward", to="backward", unit="1")
-    def slides_backward(p, a, b, z, zone):
+    def slides_backward(p, a, b, z):
         """The same the other way."""
-        return _beyond(p, zone, b.v - a.v, z, -1, 1 + MARGIN)
+        return _beyond(p, a.v - b.v, z, -1, 1 + MARGIN)
 
     @guard("forward", to="blend_forward", unit="1")
-    def lags_forward(p, a, b, z, zone):
+    def lags_forward(p, a, b, z):
         """Bent less than the sliding deflection."""
-        return -_beyond(p, zone, b.v - a.v, z, +1, 1 - MARGIN)
+        return -_beyond(p, b.v - a.v, z, +1, 1 - MARGIN)
 
     @guard("backward", to="blend_backward", unit="1")
-    def lags_backward(p, a, b, z, zone):
+    def lags_backward(p, a, b, z):
         """The same the other way."""
-        return -_beyond(p, zone, b.v - a.v, z, -1, 1 - MARGIN)
+        return -_beyond(p, a.v - b.v, z, -1, 1 - MARGIN)
 
 
-def _beyond(p, zone, slip, z, d, share):
-    """How far z is, in direction d, beyond a share of the sliding deflection at this slip; over `presliding`.
+def _beyond(p, speed, z, d, share):
+    """How far z is, in direction d, beyond a share of the sliding deflection at a slip speed; over `presliding`.
 
-    Only `elastic` has slip of either sign; elsewhere the law reads the curve at the same speed.
+    Only `elastic` has slip of either sign; elsewhere the speed is that at which the law reads the curve.
     """
-    speed = abs(slip) if zone == "elastic" else direction(zone) * slip
     return (d * z - share * sliding_deflection(p, speed, d)) / p.presliding

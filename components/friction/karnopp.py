@@ -1,6 +1,5 @@
 """Karnopp's law: below a small slip speed a contact counts as stuck, and its slip is taken to be zero."""
 
-from fairlead.components.friction.contact import direction
 from fairlead.components.friction.curve import mu_s
 from fairlead.components.friction.rigid import Rigid, settled
 
@@ -25,9 +24,11 @@ class Karnopp(Rigid):
     Sys. Meas. Control 107, 100, DOI 10.1115/1.3140698.
     """
 
+    sticks_below = "band"
     band = Parameter("m/s", "Slip speed below which the contact counts as stuck.", default=1e-4, above=0)
     zones = Zones(
         "stuck", "breaking_forward", "breaking_backward", "forward", "backward", "off",
+        forward=["forward", "breaking_forward"], backward=["backward", "breaking_backward"],
         latched=["breaking_forward", "breaking_backward"],
     )  # fmt: skip
 
@@ -39,10 +40,9 @@ class Karnopp(Rigid):
                    bound=1, dissipated=force * slip)  # fmt: skip
 
     @zone("breaking_forward", "breaking_backward")
-    def breaking(p, a, b, force, grip, zone):
+    def breaking(p, a, b, force, grip, direction):
         """More is applied than stiction: friction stays at its limit until the slip leaves the band."""
-        d = direction(zone)
-        return settled(b.v - a.v, force, d * grip * mu_s(p.curve, d))
+        return settled(b.v - a.v, force, direction * grip * mu_s(p.curve, direction))
 
     @guard("stuck", "breaking_forward", "breaking_backward", to="forward", unit="m/s")
     def leaves_forward(p, a, b):

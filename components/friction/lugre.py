@@ -1,7 +1,6 @@
 """The LuGre law: bristles with damping, and a sliding curve that gives stiction and the Stribeck effect."""
 
 from fairlead.components.friction.bristles import OneWay, bent, sliding_deflection
-from fairlead.components.friction.contact import direction
 
 from fairlead.component import Parameter, Zones, zone
 
@@ -32,8 +31,8 @@ class LuGre(OneWay):
     zones = Zones("forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     @zone("forward", "backward")
-    def bends(p, a, b, z, grip, zone):
+    def bends(p, a, b, z, grip, direction):
         """The bristles bend with the slip and slip off as they near their sliding deflection."""
-        d, slip = direction(zone), b.v - a.v
+        d, slip = direction, b.v - a.v
         share = z / sliding_deflection(p, d * slip, d)
         return bent(p, a, b, z, grip, slip * (1 - d * share), damping=p.relaxation)

@@ -25,7 +25,7 @@ class NaiveZone(Sliding):
     )
     can_hold = False
     budget = {"max_steps": 100_000, "max_events": 50_000}
-    zones = Zones("forward", "backward", "off")
+    zones = Zones("forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     @guard("off", to="forward", unit="N")
     def lands(p, normal):

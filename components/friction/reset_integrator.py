@@ -24,7 +24,7 @@ class ResetIntegrator(Bristles):
     """
 
     relaxation = Parameter("s", "Damping over stiffness of the spring, s1/s0.", default=2e-3, least=0)
-    zones = Zones("spring", "forward", "backward", "off")
+    zones = Zones("spring", "forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     @zone("spring")
     def spring(p, a, b, z, grip):
@@ -35,11 +35,11 @@ class ResetIntegrator(Bristles):
                    stored=stiffness * z**2 / 2, dissipated=stiffness * p.relaxation * slip**2)  # fmt: skip
 
     @zone("forward", "backward")
-    def slides(p, a, b, z, grip, pace, zone):
+    def slides(p, a, b, z, grip, pace, direction):
         """The curve gives the force; the spring stays as it is."""
         slip = b.v - a.v
         stored = grip * p.ratio * z**2 / 2
-        return opposing(slip, sliding_friction(p, zone, slip, grip, pace), z=0, deflection=z, stored=stored)
+        return opposing(slip, sliding_friction(p, direction, slip, grip, pace), z=0, deflection=z, stored=stored)
 
     @guard("off", to="spring", unit="N")
     def lands(p, normal):

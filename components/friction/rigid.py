@@ -12,10 +12,10 @@ class Rigid(Contact, abstract=True):
     bound = Output("1", "1 while the contact sticks.")
 
     @zone("forward", "backward")
-    def sliding(p, a, b, force, grip, pace, zone):
+    def sliding(p, a, b, force, grip, pace, direction):
         """The curve gives the force, against the slip."""
         slip = b.v - a.v
-        return settled(slip, force, sliding_friction(p, zone, slip, grip, pace))
+        return settled(slip, force, sliding_friction(p, direction, slip, grip, pace))
 
     @zone("off")
     def off(p, a, b, force):

@@ -22,7 +22,7 @@ class Saturation(Sliding, Creeping):
     laws of this kind.
     """
 
-    zones = Zones("line", "forward", "backward", "off")
+    zones = Zones("line", "forward", "backward", "off", forward=["forward"], backward=["backward"])
 
     def prepare(given):
         """The creep, which a leak may stand for."""

@@ -16,6 +16,7 @@ class HydraulicMotor(Component):
     a = Hydraulic("high pressure when it drives forward")
     b = Hydraulic("the other side")
     shaft = Rotational("the shaft")
+    swept = "displacement"
     displacement = Parameter("m^3/rad", "Oil per angle; 125 cm^3/rev is a size.", above=0)
     leakage = Effect("Oil leaks across and out.")
     internal_leakage = Parameter("m^3/s/Pa", "C_i, leakage from side to side.", default=0.0, least=0)

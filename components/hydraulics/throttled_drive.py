@@ -37,6 +37,7 @@ class ThrottledDrive(Component, abstract=True):
     """Half-model: lands, ports of the supply, zones by the sign of the opening."""
 
     supply, tank = Hydraulic("pressure line"), Hydraulic("return line")
+    metered, fed = "conductance", ("supply", "tank")
     opening = Input("1", "Opening, -1 to 1.", signed=True)
     rated_flow = Parameter("m^3/s", "Flow through one land, fully open, at the rated drop.", above=0)
     rated_drop = Parameter("Pa", "Pressure drop over one land at which the rated flow is told.", default=35e5, above=0)
@@ -98,6 +99,7 @@ class ThrottledMotor(ThrottledDrive):
     """torque = displacement * (p_a - p_b), both pressures from the speed in closed form; without leakage."""
 
     shaft = Rotational("the shaft of the motor")
+    swept = "displacement"
     displacement = Parameter("m^3/rad", "Oil per angle.", above=0)
     holding = Unknown("N*m", "Torque of the oil on the shaft.")
     torque = Output("N*m", "Torque of the oil on the shaft.")

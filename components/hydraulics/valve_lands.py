@@ -41,6 +41,7 @@ class ValveLands(Component):
     tank = Hydraulic("return line")
     a = Hydraulic("joined with supply at positive opening")
     b = Hydraulic("joined with tank at positive opening")
+    metered, fed = "conductance", ("supply", "tank")
     opening = Input("1", "Opening, -1 to 1.", signed=True)
     rated_flow = Parameter("m^3/s", "Flow through one land, fully open, at the rated drop.", above=0)
     rated_drop = Parameter("Pa", "Pressure drop over one land at which the rated flow is told.", default=35e5, above=0)

@@ -26,9 +26,9 @@ def fits(assembly: Any, line: Any, laid: Any, route: Any) -> list[Fault]:
         name = f"{route.path}.{one.name}"
         found += [Fault(where, f"{name}: {what}.", way) for what, way in _device(one, line, laid)]
     for one in placed:
-        if one.station.type.word == "Winch":
+        if one.station.stores():
             found += [Fault(_start(assembly, laid), what, way) for what, way in _untouched(assembly, laid, route, one)]
-    shortest, loops = finest(line.mesh), [one for one in placed if one.station.type.word == "Tensioner"]
+    shortest, loops = finest(line.mesh), [one for one in placed if one.station.draws(0.0) is not None]
     if len(loops) > 1:
         what = f"{route.path} has {len(loops)} tensioners; a line runs through one at most."
         found.append(Fault(_where(assembly, route, loops[1]), what, "Leave out the others."))
@@ -68,7 +68,7 @@ def _device(one: Placed, line: Any, laid: Any) -> Iterator[tuple[str, str]]:
         )
     if one.station.edge is not None and math.isfinite(extent) and extent < one.station.edge:
         yield f"it is {extent:.3g} m long, shorter than its edge of {one.station.edge:.3g} m", "Use a shorter edge."
-    if one.station.type.word == "Winch" and one.station.layers == "on":
+    if one.station.stores() and one.station.layers == "on":
         yield from _drum(one, p)
 
 
@@ -89,7 +89,7 @@ def _untouched(assembly: Any, laid: Any, route: Any, winch: Placed) -> Iterator[
 def _held_otherwise(assembly: Any, laid: Any, route: Any) -> bool:
     """Whether something else moves the line: a connection at its inboard end, or a device that grips it."""
     named = {end.text for ends in assembly.netlist.connections for end in ends}
-    return f"{laid.path}.inboard" in named or any(one.station.type.word == "Deployer" for one in route.line.placed)
+    return f"{laid.path}.inboard" in named or any(route.line.squeezing())
 
 
 def _start(assembly: Any, laid: Any) -> Location:

@@ -24,9 +24,11 @@ from fairlead.components.route.drum import StoredNode, WoundNode
 from fairlead.components.route.far_line import FarNode
 from fairlead.components.route.placing import Placed
 from fairlead.components.route.route_line import RouteLine, Surface
-from fairlead.components.route.sea import HANDS_OVER, LEAST_MARGIN
+from fairlead.components.route.sea import HANDS_OVER, LEAST_MARGIN, Sea
+from fairlead.components.route.tensioner import Tensioner
 from fairlead.components.route.tow import SeaDrag, TailEnd
 from fairlead.components.route.untouched import Untouched
+from fairlead.components.route.winch import Winch
 from fairlead.components.route.window import Reach, Window, total
 
 from fairlead.component.alike import Parts, agree
@@ -288,7 +290,7 @@ class _On:
 
     def storage(self, i: int, body: str) -> None:
         """The bond with the drum."""
-        for one in self.route.of_type("Winch"):
+        for one in self.route.of_type(Winch):
             made, station = self.route.machinery[one.name], one.station
             given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
             name = self.of_layer("stored", body, i)
@@ -307,7 +309,7 @@ class _On:
     def far_out(self, i: int, body: str) -> None:
         """The bond with the outboard end, where the line out in the sea is to move as one body with it."""
         last = self.line.mesh.elements
-        for one in self.route.of_type("Sea"):
+        for one in self.route.of_type(Sea):
             if one.station.form == "rigid" and i != last:
                 place = self.line.rigid_from(one.begin, one.station) + HANDS_OVER / 2
                 bond = self.to.child(self.of_layer("far", body, i), FarNode, place=place, edge=HANDS_OVER)
@@ -320,7 +322,7 @@ class _On:
 
     def drums(self) -> list[Placed]:
         """The drum that the inboard end of the line is fastened to, if it is."""
-        winches = self.route.of_type("Winch")
+        winches = self.route.of_type(Winch)
         return [one for one in winches if one.station.layers == "off" and self.line.values.start < one.end]
 
     def given_by(self, drum: Placed) -> bool:
@@ -339,7 +341,7 @@ class _On:
         p = self.line.values
         if p.torsion is None:
             return
-        for one in self.route.of_type("Winch"):
+        for one in self.route.of_type(Winch):
             if one.station.layers == "off":
                 drum = {"place": one.end, "edge": one.station.edge or 0.1, "lay": one.station.lay}
                 laid = self.to.child(f"laid[{i}]", LaidOn, **drum)
@@ -361,7 +363,7 @@ class _On:
 
     def drag(self, i: int, body: str, reach: Reach) -> None:
         """Drag of the sea."""
-        for one in self.route.of_type("Sea"):
+        for one in self.route.of_type(Sea):
             if one.station.form != "lumped" and one.station.drag_coefficient > 0:
                 per_length = one.station.per_length(self.line.values.diameter)
                 window = self.table(reach, one.window())
@@ -372,7 +374,7 @@ class _On:
     def ends(self) -> None:
         """What pulls at the outboard end; and how much lies on the drum at the start."""
         p, last = self.line.values, self.line.mesh.elements
-        for one in self.route.of_type("Sea"):
+        for one in self.route.of_type(Sea):
             s = one.station
             lumped = s.form == "lumped"
             beyond = s.beyond if lumped else 0.0
@@ -381,7 +383,7 @@ class _On:
             child = self.to.child("tail", TailEnd, **pull, beyond=beyond, place=p.start + p.length)
             self.to.join(f"{child}.node", f"{self.line.outer}[{last}].flange")
             self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
-        for one in self.route.of_type("Winch"):
+        for one in self.route.of_type(Winch):
             if one.station.layers == "on":
                 wound = one.station.filled + max(one.end - p.start, 0.0)
                 path, instances = f"{self.path}.{one.name}.layers", self.to.assembly.instances
@@ -392,7 +394,7 @@ class _On:
         """Elements that run through a tensioner take the loop into their stretch."""
         looped = {Hose: LoopedHose, Core: LoopedCore}
         instances, path = self.to.assembly.instances, self.to.line.path
-        for one in self.route.of_type("Tensioner"):
+        for one in self.route.of_type(Tensioner):
             table = step(one.begin, one.station.edge or max(self.line.mesh.lengths))
             for layer in self.line.layers:
                 for k in range(self.line.mesh.elements):

@@ -24,7 +24,7 @@ class LateralLoad(Component):
     core_in = Input("N", "Core tension on the inboard side.", default=0.0)
     core_out = Input("N", "Core tension on the outboard side.", default=0.0)
     more = Input("N", "What presses besides.", default=0.0)
-    force = Output("N", "Normal force.")
+    force = Output("N", "Normal force.", role="share")
 
     def law(p, flange, hose_in, hose_out, core_in, core_out, more):
         """A signal only; the contact makes friction of it."""
@@ -73,7 +73,7 @@ class PressedLoad(Component):
     load = Table("m", "N/m", "Load per length times window along the route.")
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
     more = Input("N", "What presses besides.", default=0.0)
-    force = Output("N", "Normal force.")
+    force = Output("N", "Normal force.", role="share")
 
     def law(p, flange, more):
         """A signal only."""
@@ -91,7 +91,7 @@ class ClampLoad(Component):
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
     pressing = Input("N/m", "Load of the belts, per length.", default=0.0)
     more = Input("N", "What presses besides.", default=0.0)
-    force = Output("N", "Normal force.")
+    force = Output("N", "Normal force.", role="share")
 
     def law(p, flange, pressing, more):
         """A signal only."""

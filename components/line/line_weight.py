@@ -12,7 +12,7 @@ class LineWeight(Component):
     node = Translational("the node")
     fall = Table("m", "N/m", "Weight per length along the route, positive where it goes down outboard.")
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
-    force = Output("N", "Force outboard.")
+    force = Output("N", "Force outboard.", role="share")
 
     def law(p, node):
         """The earth gives the power."""

@@ -16,7 +16,7 @@ class Meter(Component):
     slip = Input("m/s", "Slip speed of the contact.", default=0.0)
     friction = Input("N", "Friction of the contact.", default=0.0)
     scuffed = Output("m", "Length slipped, in either direction.")
-    work = Output("J", "Work of friction.")
+    work = Output("J", "Work of friction.", role="share")
 
     def law(p, slip, friction, slipped, worked):
         """Two integrals."""

@@ -35,13 +35,14 @@ class PlanarContact(Component):
     turning = Rotational("the line, turning about its axis")
     curve = Part(Curve, "Coefficient of friction over slip speed.")
     radius = Parameter("m", "Radius of the line's surface.", above=0)
+    sticks_below, creeps = "creep", True
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
     lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     normal = Input("N", "Normal force.", default="normal_force")
     slip = Output("m/s", "Slip speed along the line.")
-    friction = Output("N", "Friction along the line.")
-    torque = Output("N*m", "Friction torque about the line.")
+    friction = Output("N", "Friction along the line.", role="share")
+    torque = Output("N*m", "Friction torque about the line.", role="share")
     zones = Zones("on", "off")
 
     def check(p):
@@ -89,7 +90,7 @@ class LaidOn(Component):
     edge = Parameter("m", "Length over which the drum takes hold.", default=0.1, above=0.02, most=2.0)
     bond = Parameter("N*m*s/rad", "Torque per slip in turning.", default=1e5, above=0)
     lay = Parameter("rad/m", "Twist that winding gives the line, per length.", default=0.0)
-    torque = Output("N*m", "Torque of the drum on the line.")
+    torque = Output("N*m", "Torque of the drum on the line.", role="share")
     zones = Zones("stored", "edge", "free")
 
     @zone("stored", "edge")

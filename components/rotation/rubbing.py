@@ -65,6 +65,7 @@ class Rubbing(Composite, abstract=True):
     radius = Parameter("m", "Mean radius at which friction acts.", above=0)
     curve = Part(Curve, "Coefficient of friction over slip speed at the radius.")
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
+    hands_on = ("method", "creep")
     creep = Parameter("m/s", "Tolerated creep at the radius; the scene's when not given.", default=None, above=0)
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     faces = Count("Number of rubbing faces, each pressed with the whole normal force.", default=1)

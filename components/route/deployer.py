@@ -35,6 +35,10 @@ class Deployer(Station):
         """The belts."""
         return p.friction
 
+    def lever(p):
+        """The radius of the drive wheel."""
+        return p.wheel_radius
+
     def machinery(p, scene):
         """Wheel, belts and clamp."""
         children = {
@@ -44,4 +48,5 @@ class Deployer(Station):
         }
         ports = {"shaft": "wheel.shaft", "belt": "belts.rack", "clamp": "clamps.added"}
         shown = {"rate": "wheel.rate", "pressing": "clamps.pressing"}
-        return Machinery(children, (("wheel.shaft", "belts.pinion"),), ports, shown, "belts.rack", "clamps.pressing")
+        clamp = {"clamp": "clamps.pressing", "load": p.clamp, "added": "clamps.added"}
+        return Machinery(children, (("wheel.shaft", "belts.pinion"),), ports, shown, "belts.rack", **clamp)

@@ -50,6 +50,20 @@ class Pulley(Station):
         """The groove."""
         return p.friction
 
+    def lever(p):
+        """The radius."""
+        return p.radius
+
+    def taken_by_bearing(p):
+        """Torque mu r Q over the radius, Q = 2 T sin(angle/2).
+
+        T is the mean of both sides, which differ by just that much: T = tension + half of it at the slack side.
+        """
+        if p.bearing is None:
+            return 0.0
+        share = p.bearing.friction.breakaway() * p.bearing.radius / p.radius * 2 * math.sin(min(p.angle, math.pi) / 2)
+        return share / (1 - share / 2) if share < 2 else math.inf
+
     def machinery(p, scene):
         """Wheel and rim; the bearing with the load it carries, if it rubs."""
         if p.turns == "locked":

@@ -10,7 +10,7 @@ from typing import Any
 
 from fairlead.components.friction.coulomb import Coulomb
 from fairlead.components.route.placing import Placed
-from fairlead.components.route.station import Machinery
+from fairlead.components.route.station import Machinery, Station
 from fairlead.components.route.window import Window
 
 from fairlead.component.alike import Parts, agree
@@ -116,9 +116,9 @@ class RouteLine(OfRoute):
             if made is not None and made.clamp:
                 yield one, f"{one.name}.{made.clamp}"
 
-    def of_type(self, word: str) -> list[Placed]:
-        """Devices of a type."""
-        return [one for one in self.placed if one.station.type.word == word]
+    def of_type(self, kind: type[Station]) -> list[Placed]:
+        """Devices of a type, or of one that builds on it."""
+        return [one for one in self.placed if issubclass(one.station.type, kind)]
 
 
 def alike(one: Any, other: Any) -> bool:

@@ -52,6 +52,10 @@ class Sea(Station):
         """All that is outboard of it."""
         return start, math.inf
 
+    def immerses(p):
+        """What is outboard of it."""
+        return True
+
     def per_length(p, diameter):
         """1/2 rho C_t pi d [kg/m^2]: drag per length and speed squared."""
         return 0.5 * p.density * p.drag_coefficient * math.pi * diameter

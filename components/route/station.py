@@ -14,7 +14,8 @@ class Machinery:
     """The bodies of a device that moves: what stands below `route.<name>` when it is expanded.
 
     `surface` is the flange that moves with the surface the line touches; `clamp` the output that gives the load
-    with which a device squeezes the line [N/m]. `ports` and `outputs` give inner ones an outer name.
+    with which belts squeeze the line [N/m]: on each of them `load` as given in time, and what the input `added` adds.
+    `ports` and `outputs` give inner ones an outer name.
     """
 
     children: dict[str, Any]
@@ -23,6 +24,8 @@ class Machinery:
     outputs: dict[str, str] = field(default_factory=dict)
     surface: str = ""
     clamp: str = ""
+    load: Any = None
+    added: str = ""
     total: str = ""  # port that is told the load of every node on the device
 
 
@@ -72,6 +75,30 @@ class Station(Family, abstract=True):
     def reads(p):
         """What a metre of line counts in a mean of tensions that the device tells [1/m]; 0 when it tells none."""
         return 0.0
+
+    def stores(p):
+        """True for a drum (`Winch`): the line inboard of its end is wound on it and moves with it."""
+        return False
+
+    def leaves_at(p, stored):
+        """Radius of a drum at which the line leaves it, with `stored` [m] of the line on it [m]."""
+        raise NotImplementedError
+
+    def immerses(p):
+        """True for a water (`Sea`) that drags the line outboard of its start."""
+        return False
+
+    def lever(p):
+        """Radius from the surface to the shaft that drives it [m]; None where no shaft does."""
+        return None
+
+    def taken_by_bearing(p):
+        """Part of the tension that the bearing of a wheel takes."""
+        return 0.0
+
+    def draws(p, t):
+        """Force that draws a loop of line out [N]; None for a device without a loop."""
+        return None
 
     def machinery(p, scene):
         """The bodies that move; None for a device that stands."""

@@ -30,6 +30,10 @@ class Tensioner(Station):
         """It takes no length of the route; the loop is told apart."""
         return 0.0
 
+    def draws(p, t):
+        """The force on the carriage, which carries both sides of the loop."""
+        return p.force(t)
+
     def machinery(p, scene):
         """Carriage and dancer."""
         dancer = {name: p.given[name] for name in ("force", "stiffness", "damping", "stroke", "stop_stiffness")}

@@ -32,7 +32,7 @@ class SeaDrag(Component):
     per_length = Parameter("kg/m^2", "1/2 rho C_t pi d.", least=0)
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
     speed = Input("m/s", "Speed of the ship through the water.", default=0.0)
-    drag = Output("N", "Drag, positive outboard.")
+    drag = Output("N", "Drag, positive outboard.", role="share")
 
     def law(p, node, speed):
         """The water takes what the line does against it; towing it through the water gives power."""

@@ -51,6 +51,14 @@ class Winch(Station):
         """All that is inboard of it."""
         return -math.inf, start
 
+    def stores(p):
+        """What is inboard of it."""
+        return True
+
+    def leaves_at(p, stored):
+        """The radius, which grows by layers if they are on."""
+        return p.radius if p.layers == "off" else p.wound().radius_at(p.filled + stored)
+
     def wound(p):
         """Layers of the drum."""
         return Layers(p.radius, p.line_diameter, p.width, p.packing == "nested", p.height)

@@ -1,8 +1,13 @@
-"""What a contact is called decides nothing: kinds of contacts are class variants."""
+"""What things are called decides nothing: contacts, and what a class of a library has for parameters and zones."""
 
 import pytest
 
 import fairlead
+from fairlead.analysis.fastest import motors
+from fairlead.analysis.laid_route import laid_routes
+from fairlead.analysis.statics import statics
+from fairlead.analysis.treatments import contacts, creep, creep_of
+from fairlead.component.answers import METHODS
 from fairlead.integrate import Run, integrate
 
 NAMES = {"numbers": "012345", "letters": "abcdef", "words": ("left", "right", "7up", "in0", "out", "pad")}
@@ -50,3 +55,162 @@ def test_machines_of_one_class_variant_are_of_one_kind_and_others_are_not(tmp_pa
     kind = dict(zip(system.machine_names, system.machine_kind.tolist(), strict=True))
     assert kind["pad_a"] == kind["pad_c"]
     assert len({kind["pad_a"], kind["pad_b"], kind["hand"]}) == 3
+
+
+GREASE = """
+    from fairlead.component import Choice, Component, Law, Output, Parameter, Translational, tanh
+
+    class Grease(Component):
+        '''Drags like a sticky fluid.'''
+        {a}, {b} = Translational("one side"), Translational("the other side")
+        {speed} = Parameter("m/s", "Speed over which it yields.", default=1e-3, above=0)
+        {more} = Parameter("1", "Of no use.", default=0.5)
+        {force} = Output("N", "Drag.")
+
+        def law(p, {a}, {b}):
+            drag = 5 * tanh(({b}.v - {a}.v) / p.{speed})
+            return Law({a}=-drag, {b}=drag, {force}=drag, dissipated=drag * ({b}.v - {a}.v))
+"""
+GREASED = """
+    components:
+      wall: {{type: Ground}}
+      grease: {{type: Grease}}
+      block: {{type: Mass, mass: 1 kg, velocity: 0.2 m/s}}
+      spring: {{type: Spring, stiffness: 100 N/m}}
+    connections: [[wall.flange, grease.{a}, spring.a], [grease.{b}, spring.b, block.flange]]
+    run: {{stop: 2 s, accuracy: 1e-3}}
+"""
+PLAIN = {"a": "left", "b": "right", "speed": "pace", "more": "other", "force": "pull"}
+LOADED = [
+    {"a": "a", "b": "b", "speed": "creep", "more": "curve", "force": "friction"},
+    {"a": "a", "b": "b", "speed": "band", "more": "normal_force", "force": "creep_rate"},
+    {"a": "b", "b": "a", "speed": "stick_speed", "more": "clamp", "force": "stored"},
+    {"a": "flange", "b": "node", "speed": "displacement", "more": "constant", "force": "law_"},
+]
+"""Names that contacts, motors and devices of the library have."""
+
+
+@pytest.mark.parametrize("names", LOADED, ids=lambda names: names["speed"])
+def test_a_class_with_the_words_of_a_contact_is_none(scene, library, names):
+    told = []
+    for each in (PLAIN, names):
+        model = scene(GREASED.format(**each), (library(GREASE.format(**each)),))
+        outcome = integrate(model.system, Run(stop=2.0, accuracy=1e-3))
+        assert outcome.ok, outcome.sentence
+        told.append((outcome.times.tobytes(), outcome.y.tobytes(), outcome.counters.steps))
+        assert contacts(model) == []
+        assert creep_of(model) is None
+        assert motors(model.flat, {0: 1.0}) == []
+    assert told[0] == told[1]
+
+
+SWITCHING = """
+    from fairlead.component import Component, Law, Parameter, Translational, Zones, guard, zone
+
+    class Kinked(Component):
+        '''A spring of two stiffnesses.'''
+        a, b = Translational(), Translational()
+        zones = Zones("{soft}", "{hard}")
+
+        @zone("{soft}")
+        def {soft}(p, a, b):
+            return 0.0 * (b.x - a.x), 0.0
+
+        @zone("{hard}")
+        def {hard}(p, a, b):
+            tension = 400.0 * (b.x - a.x)
+            return Law(a=-tension, b=tension, stored=200.0 * (b.x - a.x) ** 2)
+
+        @guard("{soft}", to="{hard}", unit="m")
+        def {up}(p, a, b):
+            return b.x - a.x
+
+        @guard("{hard}", to="{soft}", unit="m")
+        def {down}(p, a, b):
+            return a.x - b.x
+"""
+BOUNCING = """
+    components:
+      wall: {type: Ground}
+      kinked: {type: Kinked}
+      back: {type: Spring, stiffness: 50 N/m}
+      block: {type: Mass, mass: 1 kg, velocity: 0.2 m/s}
+    connections: [[wall.flange, kinked.a, back.a], [kinked.b, back.b, block.flange]]
+    run: {stop: 1 s}
+"""
+
+
+@pytest.mark.parametrize("start", range(0, len(METHODS), 4))
+def test_zone_laws_and_guards_may_have_the_names_of_what_the_framework_asks_for(scene, library, start):
+    told = []
+    for words in (("soft", "hard", "up", "down"), [*METHODS, *METHODS][start : start + 4]):
+        given = dict(zip(("soft", "hard", "up", "down"), words, strict=True))
+        model = scene(BOUNCING, (library(SWITCHING.format(**given)),))
+        outcome = integrate(model.system, Run(stop=1.0))
+        assert outcome.ok, outcome.sentence
+        assert outcome.counters.switches > 2
+        told.append((outcome.times.tobytes(), outcome.y.tobytes(), outcome.counters.steps))
+    assert told[0] == told[1]
+
+
+DEVICES = """
+    from fairlead.components.route.deployer import Deployer
+    from fairlead.components.route.pulley import Pulley
+    from fairlead.components.route.sea import Sea
+    from fairlead.components.route.winch import Winch
+
+    class Reel(Winch):
+        word = "Reel"
+
+    class Sheave(Pulley):
+        word = "Sheave"
+
+    class Tracks(Deployer):
+        word = "Tracks"
+
+    class Lake(Sea):
+        word = "Lake"
+"""
+WORDS = {"Winch": "Reel", "Pulley": "Sheave", "Deployer": "Tracks", "Sea": "Lake"}
+ROUTE = """
+    components:
+      rope: {type: Cable, length: 24 m, element: 0.125 m, start: -10 m, mass: 0.5 kg/m, stiffness: 1 MN}
+      route:
+        type: Route
+        stations:
+          - {type: Winch, start: 0 m, radius: 0.5 m, name: drum}
+          - {type: Straight, length: 1 m}
+          - {type: Pulley, angle: 90 deg, radius: 0.6 m, friction: 0.3, bearing: {friction: 0.1}, name: wheel}
+          - {type: Deployer, length: 1.5 m, friction: 0.5, clamp: 2 kN/m, name: belts}
+          - {type: Sea, start: 6 m, speed: 3 m/s, tail: 300 N, name: water}
+      haul: {type: MotionSource, velocity: {ramp: {to: 0.3 m/s, over: 1 s}}}
+      brake: {type: ForceSource, force: -200 N}
+    connections:
+      - [rope.path, route.path]
+      - [haul.flange, route.belts.belt]
+      - [brake.flange, route.drum.rim]
+    run: {stop: 3 s}
+"""
+
+
+def test_a_device_that_builds_on_another_counts_as_that_under_any_word(scene, library):
+    """A drum, a pulley, belts and a sea of a library: statics says of them what it says of ours."""
+    text = ROUTE
+    for word, other in WORDS.items():
+        text = text.replace(f"type: {word},", f"type: {other},")
+    models = [scene(ROUTE), scene(text, (library(DEVICES),))]
+    routes = [laid_routes(model.flat)[0] for model in models]
+    assert all(one.winch is not None and len(one.seas) == 1 for one in routes)
+    states = [statics(model.flat)[0].moving for model in models]
+    tensions = [[one.tension.tolist() for state in found for one in state.passages] for found in states]
+    assert tensions[0] == tensions[1]
+    drives = [[(one.force, one.capacity, one.lever) for state in found for one in state.drives] for found in states]
+    assert drives[0] == drives[1]
+    assert any(capacity for _, capacity, _ in drives[0])
+
+
+def test_only_the_settings_of_contacts_are_changed_with_the_treatment(scene, library):
+    """What another component calls `creep` is its own affair."""
+    model = scene(GREASED.format(**LOADED[0]).replace("Grease}", "Grease, creep: 2 mm/s}"),
+                  (library(GREASE.format(**LOADED[0])),))  # fmt: skip
+    assert creep(model, 1e-5) == {"friction.creep": "1e-05"}

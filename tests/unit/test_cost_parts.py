@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import fairlead
+from fairlead.analysis.compared_outputs import recorded, recorded_of_meshes
 from fairlead.analysis.deviation import output_errors, switching
 from fairlead.analysis.kept_runs import KeptRuns, key_of
 from fairlead.analysis.ladder import Ladder, other_equations
@@ -12,6 +13,7 @@ from fairlead.analysis.timed_run import Timed
 from fairlead.analysis.treatments import treatment
 from fairlead.errors import ModelError, UsageError
 from fairlead.netlist.settings_file import read_settings, write_settings
+from fairlead.results.signal import family
 
 T = np.linspace(0.0, 1.0, 1001)
 
@@ -63,15 +65,21 @@ def test_switches_are_paired_by_component_zones_and_order():
 
 
 def test_nodes_and_elements_of_two_meshes_are_matched():
-    """Node i is node 2 i; element i is the mean of elements 2 i and 2 i + 1; the friction of one node is nobody's."""
+    """Node i is node 2 i; element i is the mean of elements 2 i and 2 i + 1."""
     coarse = [f"l.node[{i}].x" for i in range(4)] + [f"l.rod[{i}].tension" for i in range(3)]
     fine = [f"l.node[{i}].x" for i in range(7)] + [f"l.rod[{i}].tension" for i in range(6)]
-    alone = ["l.outer[0].friction", "l.outer[1].friction", "haul.force"]
-    found = correspondence(coarse + alone, fine + alone)
+    found = correspondence([*coarse, "haul.force"], [*fine, "haul.force"])
     assert found["l.node[3].x"] == ["l.node[6].x"]
     assert found["l.rod[2].tension"] == ["l.rod[4].tension", "l.rod[5].tension"]
     assert found["haul.force"] == ["haul.force"]
-    assert "l.outer[0].friction" not in found
+
+
+def test_what_belongs_to_one_element_is_not_compared_across_meshes():
+    model = fairlead.load("capstan", set={"record.signals": "[rope.*, haul.*]"})
+    every, kept = recorded(model), recorded_of_meshes(model)
+    left_out = {family(name)[0] for name in every} - {family(name)[0] for name in kept}
+    assert left_out == {"rope.outer[*].friction", "rope.outer_load[*].force"}
+    assert {"rope.line[*].tension", "rope.outer[*].slip", "haul.force"} <= {family(name)[0] for name in kept}
 
 
 def test_a_finer_mesh_is_one_of_smaller_elements_or_of_more_blocks():

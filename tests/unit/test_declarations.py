@@ -32,9 +32,18 @@ REFUSED = {
     ),
     "an argument nobody declared": (
         "def law(p, a, b):\n    return (0,)",
-        "law asks for 'b'; known: ['a', 'p', 't', 'zone']",
+        "law asks for 'b'; known: ['a', 'direction', 'p', 't', 'zone']",
     ),
     "no law at all": ("", "zone 'always' has no law"),
+    "a parameter called law, and no law": ("law = Parameter('N')", "zone 'always' has no law"),
+    "a direction that zones do not tell": (
+        "zones = Zones('on')\n@zone('on')\ndef on(p, a, direction):\n    return (direction * a.v,)",
+        "on asks for the direction of 'on', which the zones do not tell",
+    ),
+    "a direction without its mirror image": (
+        "zones = Zones('up', 'down', forward=['up'])\n@zone('up', 'down')\ndef both(p, a):\n    return (0,)",
+        "forward=['up'], backward=[] are not pairs of zones that mirror one another",
+    ),
     "a discrete variable that nothing samples": (f"{LAW}\nheld = Discrete('N')", "no sampled law gives ['held']"),
     "a period that is no parameter": (
         f"{LAW}\nheld = Discrete('N')\n@sampled(every='period')\ndef sample(p, a):\n    return Law(held=0)",
@@ -72,7 +81,7 @@ REFUSED = {
     "a budget of something else": (f"{LAW}\nbudget = {{'steps': 5}}", "whole numbers for max_steps and max_events"),
     "a ledger that reads what there is not": (
         f"{LAW}\ndef stored(p, a, b):\n    return 0",
-        "stored asks for 'b'; known: ['a', 'p', 't', 'zone']",
+        "stored asks for 'b'; known: ['a', 'direction', 'p', 't', 'zone']",
     ),
     "a unit inside a block": (LAW + "\nhose = Block({'mass': Parameter('kg per m')})", "kg per m"),
 }  # fmt: skip

@@ -180,3 +180,13 @@ def test_the_contract_suite_asks_with_and_without_each_effect(parts):
 
     asked = {str(check).rpartition(" ")[0] for check in checks(load_library(parts[0]).Pad)}
     assert asked == {"Pad", "Pad[elasticity off]", "Pad[damping on]"}
+
+
+def test_a_boolean_of_yaml_switches_as_the_word_does(scene, parts):
+    """Also the ledger, which the framework keeps; a number is no switch."""
+    for word, closed in (("off", False), ("false", False), ("on", True), ("true", True)):
+        names = scene(f"{PAD}    effects: {{energy: {word}}}\n", parts).system.unknown_names
+        assert ("energy.dissipated" in names) == closed
+    for name in ("energy", "damping"):
+        with pytest.raises(ModelError, match=f"effects.{name} = 0 is not a switch"):
+            scene(f"{PAD}    effects: {{{name}: 0}}\n", parts).check()

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.base import terms_of
+from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Hold
 from fairlead.component.values import Values
 
@@ -38,6 +39,7 @@ class Characteristic:
     branches: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # zone -> slip, friction
     driven: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while driven
     caught: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)  # the same, only while slowing down
+    called: dict[str, str] = field(default_factory=dict)  # zone -> name of its branch, the same for mirror images
     latched: frozenset[str] = frozenset()  # zones of the branches that are entered by breaking away
     holds: bool = False  # a zone holds the slip at zero
     capacity: float = 0.0  # largest force below the first maximum
@@ -106,7 +108,7 @@ def _measured(
     numbers = tuple(p.type.answers.numbers(p, normal)) if p.type.answers.numbers is not None else ()
     common = {"label": label, "normal": normal, "breakaway": breakaway, "branches": steady, "driven": driven,
               "numbers": numbers, "can_hold": p.type.answers.can_hold,
-              "latched": p.type.declaration.zones.latched}  # fmt: skip
+              "latched": p.type.declaration.zones.latched, "called": _branches(p.type.declaration)}  # fmt: skip
     if holds or p.type.declaration.states:
         ratio = getattr(p, "ratio", None)
         stiffness = None if holds or ratio is None else normal * ratio
@@ -124,6 +126,12 @@ def _measured(
     return Characteristic(**common, capacity=capacity, slope=float(force[0] / v[0]), creep=creep)
 
 
+def _branches(has: Declaration) -> dict[str, str]:
+    """By zone the name of its branch: its own; of a zone and its mirror image both."""
+    pairs = {(one, other): f"{one}, {other}" for one, other in zip(has.zones.forward, has.zones.backward, strict=True)}
+    return dict(zip(has.zones, has.zones, strict=True)) | {zone: both for pair, both in pairs.items() for zone in pair}
+
+
 def _forward(branches: list[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
     """All points of positive slip, in order."""
     pairs = sorted((float(v), float(f)) for slip, force in branches for v, f in zip(slip, force, strict=True) if v > 0)
@@ -133,8 +141,7 @@ def _forward(branches: list[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
 
 def _slips(p: Values) -> Floats:
     """Slip speeds of both signs, logarithmic, that show the treatment's own scale and the curve's."""
-    names = ("creep", "band", "stick_speed")
-    own = [getattr(p, name) for name in names if name in p.type.declaration.parameters and getattr(p, name) is not None]
+    own = [p.path(p.type.answers.sticks_below)] if p.type.answers.sticks_below else []
     curve = [scale for scale in (p.curve.scale(),) if scale]
     scales = [*own, *curve] or [1e-3]
     half = np.geomspace(min(scales) / 100, max([*curve, *(100 * s for s in own), *scales]) * 10, POINTS)
@@ -194,7 +201,7 @@ def _arguments(p: Values, zone: str, slip: float, normal: float, push: float, ow
     has = p.type.declaration
     given = {
         **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0),
-        "p": p, "t": 0.0, "zone": zone, "normal": normal,
+        "p": p, "t": 0.0, "zone": zone, "direction": has.zones.direction(zone), "normal": normal,
         "a": SimpleNamespace(x=0.0, v=0.0, a=0.0, inverse_mass=0.0),
         "b": SimpleNamespace(x=0.0, v=slip, a=push, inverse_mass=1.0), **own,
     }  # fmt: skip

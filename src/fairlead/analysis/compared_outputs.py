@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.declare import CREEP
+from fairlead.component.declare import CREEP, SHARE
 from fairlead.errors import UsageError, did_you_mean, listing
 from fairlead.results.signal import family, matching
 
@@ -31,8 +31,16 @@ def outputs(model: Any, patterns: Sequence[str]) -> tuple[list[str], list[str], 
 
 def recorded(model: Any) -> list[str]:
     """What the netlist records, without the creep, which is an error measure itself."""
-    found = model.system.recording(model.netlist.record.signals).chosen
-    return [signal.name for signal in found if signal.role != CREEP]
+    return [signal.name for signal in _chosen(model) if signal.role != CREEP]
+
+
+def recorded_of_meshes(model: Any) -> list[str]:
+    """Of that what means the same on another mesh: of a family of elements nothing that belongs to their length."""
+    return [one.name for one in _chosen(model) if not one.role or (one.role == SHARE and family(one.name)[1] is None)]
+
+
+def _chosen(model: Any) -> Any:
+    return model.system.recording(model.netlist.record.signals).chosen
 
 
 def thinned(names: list[str]) -> list[str]:

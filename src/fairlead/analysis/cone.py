@@ -87,7 +87,7 @@ def _through(
     widest = math.inf
     if not device.machine.drives:
         widest = max(bearing(device, abs(x)) if math.isfinite(x) else 0.0 for x in now)
-    elif device.word == "Deployer":
+    elif device.clamping:
         widest = device.friction(0.0) * piece.pressed * piece.length
     elif math.isfinite(low) and math.isfinite(high):
         grip = math.exp(device.friction(0.0) * piece.curvature * piece.length)

@@ -3,7 +3,8 @@
     hydraulic   w = K sqrt((p_s - p_t - p_load)/2)/D,   p_load = torque/D      (two lands, physics 5.3)
     electric    w = (U - R torque/k)/k
 
-The numbers are read from what is joined with the shaft; a drive that is none of both has no limit that is known.
+A motor on the shaft says what it is: `fastest`, or `swept` and the valve `metered` that feeds it. A drive that says
+neither has no limit that is known.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from fairlead.component.declare import HYDRAULIC
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
 
@@ -46,34 +48,28 @@ def motors(flat: FlatModel, ratios: dict[int, float]) -> list[Motor]:
 
 def _limits(flat: FlatModel, instance: Instance) -> tuple[float, float, bool] | None:
     """No-load speed [rad/s], stall torque [N m], hydraulic or not; None for what is no motor."""
-    has, values = set(instance.type.declaration.parameters), instance.values
-    if "displacement" in has:
-        lands = _lands(flat, instance)
-        if lands is None:
-            return None
-        drop = _pressure(flat, lands, "supply") - _pressure(flat, lands, "tank")
-        if drop <= 0:
-            return None
-        flow = lands.values.conductance * math.sqrt(drop / 2)
-        return flow / values.displacement, values.displacement * drop, True
-    if {"most_voltage", "constant"} <= has:
-        torque = values.constant * getattr(values, "most_current", math.inf)
-        if values.resistance:
-            torque = min(torque, values.constant * values.most_voltage / values.resistance)
-        return values.most_voltage / values.constant, torque, False
-    return None
+    says, values = instance.type.answers, instance.values
+    if says.fastest is not None:
+        return (*says.fastest(values), False)
+    lands = _lands(flat, instance) if says.swept else None
+    if lands is None or lands.type.answers.fed is None:
+        return None
+    inward, back = (_pressure(flat, lands, port) for port in lands.type.answers.fed)
+    if inward <= back:
+        return None
+    swept, flow = values.path(says.swept), lands.values.path(lands.type.answers.metered)
+    return flow * math.sqrt((inward - back) / 2) / swept, swept * (inward - back), True
 
 
 def _lands(flat: FlatModel, motor: Instance) -> Instance | None:
-    """The valve that feeds a motor: the motor itself when both are one law."""
-    if "conductance" in motor.type.declaration.derived:
+    """The valve that feeds a motor: the motor itself when both are one law, else what its oil comes from."""
+    if motor.type.answers.metered:
         return motor
-    if "a" not in motor.type.declaration.ports:
-        return None
-    for ref in flat.nodes[flat.node_of[PortRef(motor.path, "a")]].ports:
-        instance = flat.assembly.instances[ref.instance]
-        if "conductance" in instance.type.declaration.derived and "supply" in instance.type.declaration.ports:
-            return instance
+    for name, port in motor.type.declaration.ports.items():
+        for ref in flat.nodes[flat.node_of[PortRef(motor.path, name)]].ports if port.domain is HYDRAULIC else ():
+            instance = flat.assembly.instances[ref.instance]
+            if instance.type.answers.metered and ref.port not in (instance.type.answers.fed or ()):
+                return instance
     return None
 
 

@@ -14,6 +14,7 @@ from fairlead.analysis.machines import Machine, machine
 from fairlead.analysis.schedule import Schedule, scaled
 from fairlead.analysis.tracing import trace
 from fairlead.component.along import OfLine, OfRoute
+from fairlead.component.declare import ROTATIONAL
 from fairlead.component.instantiate import Line, PortRef
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
@@ -29,7 +30,6 @@ class Device:
     """
 
     name: str
-    word: str
     begin: float
     end: float
     station: Any
@@ -40,6 +40,11 @@ class Device:
     def squeeze(self, t: float) -> float:
         """Load with which it presses on the line all round [N/m], as far as it can be told."""
         return float(self.station.squeeze()) + 2 * sum(wave(t) for wave in self.clamps or ())
+
+    @property
+    def clamping(self) -> bool:
+        """True for belts that clamp the line, also where nobody can tell how hard."""
+        return self.clamps != ()
 
     @property
     def curvature(self) -> float:
@@ -127,10 +132,7 @@ class LaidRoute:
         """Radius at which the line leaves the drum [m]; 1 when there is none."""
         if self.winch is None:
             return 1.0
-        station = self.winch.station
-        if station.layers == "off":
-            return float(station.radius)
-        return float(station.wound().radius_at(station.filled + self.stored(way)))
+        return float(self.winch.station.leaves_at(self.stored(way)))
 
     def drivers(self) -> Iterator[tuple[str, Machine]]:
         """All that takes whatever force its motion needs, inboard first."""
@@ -165,9 +167,11 @@ class LaidRoute:
         return drive.inertia / self.lever(drive, way) ** 2
 
     def lever(self, drive: Machine, way: float) -> float:
-        """Way of the line over that of the machine's port: the radius of a drum with layers [m], else 1."""
-        shaft = self.winch is not None and self.winch.station.layers == "on" and drive is self.inboard
-        return self.radius(way) if shaft else 1.0
+        """Way of the line over that of the machine's port: the radius [m] where that is the shaft of a drum, else 1."""
+        if self.winch is None or drive is not self.inboard:
+            return 1.0
+        ports = self.flat.assembly.instances[drive.port.instance].type.declaration.ports
+        return self.radius(way) if ports[drive.port.port].domain is ROTATIONAL else 1.0
 
     def signal(self, device: Device, t: float) -> float:
         """Speed of the ship at a sea [m/s]."""
@@ -189,32 +193,30 @@ def laid_routes(flat: FlatModel) -> list[LaidRoute]:
 def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
     ends, devices = (line.path, route.path), []
     for one in sorted(route.line.placed, key=lambda one: (one.begin, one.end)):
-        word = one.station.type.word
-        made = route.line.machinery.get(one.name)
-        moved = made is not None and made.surface and word != "Winch"
-        port = _port(f"{route.path}.{one.name}.{made.surface}") if moved else None
-        mover = machine(flat, port, *ends) if port is not None else None
-        clamps = _clamps(flat, f"{route.path}.{one.name}", one.station) if made is not None and made.clamp else ()
+        made, path = route.line.machinery.get(one.name), f"{route.path}.{one.name}"
+        moved = made is not None and made.surface and not one.station.stores()
+        mover = machine(flat, _port(f"{path}.{made.surface}"), *ends) if moved else None
+        clamps = _clamps(flat, path, made) if made is not None and made.clamp else ()
         curve = one.station.rubs() if line.values.device_friction == "on" else None
-        devices.append(Device(one.name, word, one.begin, one.end, one.station, curve, mover, clamps))
+        devices.append(Device(one.name, one.begin, one.end, one.station, curve, mover, clamps))
     aliases = flat.assembly.aliases
-    winch = next((one for one in devices if one.word == "Winch" and line.values.start < one.end), None)
+    winch = next((one for one in devices if one.station.stores() and line.values.start < one.end), None)
     inboard = aliases[f"{line.path}.inboard"]
     if winch is not None:
         inboard = _port(f"{route.path}.{winch.name}.{route.line.machinery[winch.name].surface}")
     return LaidRoute(
-        flat, line, route, tuple(one for one in devices if one.word not in ("Winch", "Sea")),
+        flat, line, route,
+        tuple(one for one in devices if not (one.station.stores() or one.station.immerses())),
         machine(flat, inboard, *ends), machine(flat, aliases[f"{line.path}.outboard"], *ends), winch,
-        tuple(one for one in devices if one.word == "Sea"),
+        tuple(one for one in devices if one.station.immerses()),
     )  # fmt: skip
 
 
-def _clamps(flat: FlatModel, path: str, station: Any) -> tuple[Wave, ...] | None:
+def _clamps(flat: FlatModel, path: str, made: Any) -> tuple[Wave, ...] | None:
     """What presses each belt: as given, and what a signal adds."""
-    entry, given = flat.assembly.aliases.get(f"{path}.clamp"), getattr(station, "clamp", None)
-    added = trace(flat, entry) if entry is not None else None
+    added = trace(flat, _port(f"{path}.{made.added}")) if made.added else None
     told = added.told() if added is not None else None
-    return None if told is None or given is None else (given, told)
+    return None if told is None or made.load is None else (made.load, told)
 
 
 def _port(path: str) -> PortRef:

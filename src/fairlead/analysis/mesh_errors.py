@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fairlead.analysis.boxed_runs import BoxedRuns
-from fairlead.analysis.compared_outputs import recorded, thinned
+from fairlead.analysis.compared_outputs import recorded_of_meshes, thinned
 from fairlead.analysis.deviation import output_errors, switching
 from fairlead.analysis.ladder import Equations, Ladder, other_meshes, rungs
 from fairlead.analysis.meshes import Mesh, correspondence
@@ -60,7 +60,7 @@ class MeshErrors:
     def _names_of(self, mesh: Mesh) -> list[str]:
         """What a mesh records; nothing, and a remark, where a scene cannot be divided so."""
         try:
-            return recorded(self.runs.load(mesh.settings))
+            return recorded_of_meshes(self.runs.load(mesh.settings))
         except FairleadError as error:
             self.study.remarks.append(f"{mesh.label} is left out. {str(error).splitlines()[0]}")
             return []

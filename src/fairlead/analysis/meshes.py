@@ -2,7 +2,7 @@
 
 A family of m signals at the ends of elements has k (m - 1) + 1 of them with elements k times as fine: number i becomes
 number k i. A family of m elements has k m: element i becomes the mean of elements k i ... k i + k - 1. What an
-element or a node takes in (the friction of one contact) belongs to its length and is not compared.
+element or a node takes in (the friction of one contact) belongs to its length and is not compared (`role` of outputs).
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from fairlead.results.signal import family
 
 SIZES, COUNTS = ("element",), ("elements", "blocks")  # how netlists and components call the size and the number
 GRADED, SIZE = "graded", 1  # rows of a place and the size of elements there
-PER_ELEMENT = ("friction", "normal", "drag", "dissipated", "creep_rate")  # last words of what belongs to one element
 
 
 @dataclass(frozen=True)
@@ -71,7 +70,7 @@ def correspondence(coarse: Sequence[str], fine: Sequence[str]) -> dict[str, list
     found = {name: [name] for name in coarse if family(name)[1] is None and name in set(fine)}
     for key, mine in ours.items():
         other = theirs.get(key, [])
-        if key.rpartition(".")[2] in PER_ELEMENT or len(mine) < 2 or not other:
+        if len(mine) < 2 or not other:
             continue
         first, last, start, end = mine[0], mine[-1], other[0], other[-1]
         nodes, elements = (end - start) / (last - first), (end - start + 1) / (last - first + 1)

@@ -16,7 +16,7 @@ TOUCHES = 1e-6  # m
 def off_the_drum(route: LaidRoute) -> Iterator[Fault]:
     """A line that begins outboard of a winch; one that stays on it; one of which more is paid out than is stored."""
     p, name = route.values, route.line.path
-    listed = [one for one in route.route.line.placed if one.station.type.word == "Winch"]
+    listed = [one for one in route.route.line.placed if one.station.stores()]
     for one in listed if route.winch is None else ():
         what = (
             f"{name} begins at {p.start:g} m, and what lies inboard of {one.end:g} m is on "

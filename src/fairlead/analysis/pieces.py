@@ -70,18 +70,6 @@ def tail(route: LaidRoute, t: float, speed: float, way: float) -> float:
 
 
 def bearing(device: Device, tension: float) -> float:
-    """What the bearing of a wheel takes of the tension [N]: torque mu r Q over the radius, Q = 2 T sin(angle/2).
-
-    T is the mean of both sides, which differ by just that much: T = tension + half of it at the slack side.
-    """
-    p = device.station
-    if device.word != "Pulley" or p.bearing is None:
-        return 0.0
-    lever = p.bearing.radius / p.radius
-    share = coefficient_of(p) * lever * 2 * math.sin(min(p.angle, math.pi) / 2)
-    return abs(tension) * share / (1 - share / 2) if share < 2 else math.inf
-
-
-def coefficient_of(station: object) -> float:
-    """Coefficient of a bearing at low speed."""
-    return float(station.bearing.friction.breakaway())  # type: ignore[attr-defined]
+    """What the bearing of a wheel takes of the tension [N]."""
+    share = float(device.station.taken_by_bearing())
+    return abs(tension) * share if share else 0.0

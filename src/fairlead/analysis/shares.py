@@ -98,7 +98,7 @@ def _slips(state: State, one: Passage, together: float) -> bool:
     can = held * (together * tension * one.piece.curvature + _squeezed(one))
     if one.device.machine is not None and not one.device.machine.drives and not one.piece.curvature:
         return False
-    if one.device.word == "Deployer":
+    if one.device.clamping:
         needed = np.full_like(tension, together * abs(one.outboard - one.inboard) / one.piece.length)
     elif one.device.machine is not None:  # a wheel goes with the hose
         return False

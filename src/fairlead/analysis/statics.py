@@ -117,9 +117,10 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
         end = march.inward(tension, range(len(laid) - 1, -1, -1))
     between = [k for k in range(begin, end) if k not in found and not _drives(laid[k][0])]
     if between:
-        loop = next((one for one in route.devices if one.word == "Tensioner" and _holds(laid, between, one)), None)
+        loops = [one for one in route.devices if one.station.draws(t) is not None]
+        loop = next((one for one in loops if _holds(laid, between, one)), None)
         here = between[0] if loop is None else next(k for k in between if laid[k][1].begin == loop.begin)
-        tension = float(route.values.tension) if loop is None else loop.station.force(t) / 2
+        tension = float(route.values.tension) if loop is None else float(loop.station.draws(t)) / 2
         remarks += [_undetermined(laid, between, tension)] if loop is None else []
         march.outward(tension, [k for k in between if k >= here])
         march.inward(tension, [k for k in reversed(between) if k < here])
@@ -260,15 +261,13 @@ def _end_tension(march: _March, *, inboard: bool) -> float:
 
 def capacity(device: Device, piece: Piece) -> float | None:
     """Largest force of belts on the line, 2 mu q length [N]; None for what is not clamped, or nobody knows how."""
-    known = device.word == "Deployer" and device.clamps is not None
-    return device.friction(0.0) * piece.pressed * piece.length if known else None
+    return device.friction(0.0) * piece.pressed * piece.length if device.clamps else None
 
 
 def lever(device: Device) -> float | None:
     """Radius from the surface of a device to its shaft [m]."""
-    if device.word == "Deployer":
-        return float(device.station.wheel_radius)
-    return float(device.station.radius) if device.word == "Pulley" else None
+    radius = device.station.lever()
+    return None if radius is None else float(radius)
 
 
 def _not_counted(route: LaidRoute) -> Iterator[str]:

@@ -21,6 +21,7 @@ from fairlead.analysis.timed_run import Load
 from fairlead.analysis.treatments import EXACT, treatment, treatment_of
 from fairlead.component.base import Family
 from fairlead.component.declare import Block, Choice, Effect, Parameter, Table
+from fairlead.component.effects import switch
 from fairlead.component.scene import FRAMEWORK_EFFECTS
 from fairlead.errors import FairleadError, ModelError
 
@@ -79,7 +80,7 @@ def _effects(model: Any) -> Iterator[Switch]:
         yield _effect(model, name, now)
     for name in FRAMEWORK_EFFECTS:
         given = model.netlist.effects.get(name)
-        now = "off" if given is not None and given.plain() in ("off", False) else "on"
+        now = "off" if given is not None and switch(given.plain()) == "off" else "on"
         yield _effect(model, name, now)
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from fairlead.component.base import Family
-from fairlead.netlist.netlist import Value
+from fairlead.component.registry import known_types
 
 EXACT = "hold"
 """The treatment in which a stuck contact does not move; what modelling errors are measured against."""
@@ -20,7 +20,7 @@ EXACT = "hold"
 
 def contacts(model: Any) -> list[Any]:
     """Instances that are members of a family chosen by `method`."""
-    return [one for one in model.flat.instances if issubclass(one.type, Family) and one.type.key == "method"]
+    return [one for one in model.flat.instances if _is_contact(one.type)]
 
 
 def treatment_of(model: Any) -> str:
@@ -31,8 +31,8 @@ def treatment_of(model: Any) -> str:
 
 def creep_of(model: Any) -> float | None:
     """The smallest creep [m/s] that a contact is given; None when none has such a setting."""
-    given = [one.values.given.get("creep") for one in contacts(model)]
-    return min((creep for creep in given if creep), default=None)
+    creeping = [one for one in contacts(model) if one.type.answers.creeps]
+    return min((one.values.path(one.type.answers.sticks_below) for one in creeping), default=None)
 
 
 def treatment(model: Any, word: str) -> dict[str, str]:
@@ -59,19 +59,15 @@ def _head(kind: type[Any]) -> type[Any]:
 
 
 def _settings(model: Any, key: str) -> Iterator[tuple[str, Any]]:
-    """Where components set `key` themselves, as paths for an override, and to what."""
+    """Where contacts, and what hands it on to contacts, set `key` themselves: paths for an override, and to what."""
+    types = known_types(getattr(model, "libraries", ()))
     for name, entry in model.netlist.components.items():
-        for word, value in entry.parameters.items():
-            yield from _within(f"{name}.{word}", word, value, key)
+        kind, value = types[entry.type], entry.parameters.get(key)
+        if value is None or value.content is None or isinstance(value.content, dict | list):
+            continue
+        if _is_contact(kind) or key in kind.answers.hands_on:
+            yield f"{name}.{key}", value.content
 
 
-def _within(path: str, word: str, value: Value, key: str) -> Iterator[tuple[str, Any]]:
-    if word == key and not isinstance(value.content, dict | list):
-        if value.content is not None:
-            yield path, value.content
-    elif isinstance(value.content, dict):
-        for inner, one in value.content.items():
-            yield from _within(f"{path}.{inner}", inner, one, key)
-    elif isinstance(value.content, list):
-        for number, one in enumerate(value.content):
-            yield from _within(f"{path}.{number}", "", one, key)
+def _is_contact(kind: type[Any]) -> bool:
+    return issubclass(kind, Family) and kind.key == "method"

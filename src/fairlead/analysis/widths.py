@@ -59,16 +59,15 @@ def _steady_speeds(motion: Wave) -> Iterator[float]:
 def _remarks(alike: list[Instance], drive: Scale | None) -> Iterator[Fault]:
     first = alike[0]
     values: Values = first.values
-    width, scale = values.narrowest(), values.curve.scale()
-    if width is None:
+    width, scale, own = values.narrowest(), values.curve.scale(), first.type.answers.sticks_below
+    if width is None or not own:
         return
     scales = [Scale(scale, "the curve's velocity")] if scale else []
     scales += [drive] if drive is not None else []
     path = first.path + (f" and {len(alike) - 1} more like it" if len(alike) > 1 else "")
     for speed, name in scales:
         if width > SHARE * speed * (1 + 1e-9):
-            own = next(n for n in ("creep", "band") if n in values.given)
-            given: float = getattr(values, own)
+            given: float = values.path(own)
             most = given * SHARE * speed / width
             what = (
                 f"{path}: friction is that of sliding only from {1e3 * width:.3g} mm/s on "

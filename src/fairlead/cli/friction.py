@@ -61,12 +61,12 @@ def _contacts(
     if subject.startswith("{") or subject.replace(".", "", 1).isdigit():
         return {subject: _of_curve(subject, libraries, method)}, []
     import fairlead
+    from fairlead.analysis.treatments import contacts
     from fairlead.analysis.widths import too_wide
 
     model = fairlead.load(subject, set=parse_settings(settings), libraries=libraries)
     found: dict[str, list[Any]] = {}
-    contacts = [one for one in model.flat.instances if {"curve", "normal_force"} <= set(one.values.given)]
-    for instance in contacts:
+    for instance in contacts(model):
         found.setdefault(repr(instance.values), []).append(instance)
     if not found:
         raise typer.BadParameter(f"{subject} has no contact.")

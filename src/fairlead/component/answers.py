@@ -91,6 +91,16 @@ def _two_inputs(value: Any, has: Declaration) -> str:
     return next((said for each in value if (said := _input(each, has))), "")
 
 
+def _two_ports(value: Any, has: Declaration) -> str:
+    fits = isinstance(value, tuple) and len(value) == 2 and set(value) <= set(has.ports)
+    return "" if fits else f"is {_shown(value)}; it names two ports of {sorted(has.ports)}"
+
+
+def _parameters(value: Any, has: Declaration) -> str:
+    fits = isinstance(value, tuple) and set(value) <= {*has.parameters}
+    return "" if fits else f"is {_shown(value)}; it names parameters of {sorted(has.parameters)}"
+
+
 def _budget(value: Any, has: Declaration) -> str:
     fits = isinstance(value, dict) and all(key in BUDGETS and isinstance(n, int) for key, n in value.items())
     return "" if fits else f"is {value!r}; it gives whole numbers for {' and '.join(BUDGETS)}"
@@ -110,6 +120,8 @@ LAW = Kind("as a law", _law, method=True)
 SAMPLE = Kind("with self, t and what it reads", _sample, method=True)
 YES_OR_NO, SENTENCE, MAP = Kind("True or False", _yes_or_no), Kind("a sentence", _sentence), Kind("a map", _map)
 INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
+TWO_PORTS = Kind("two ports", _two_ports)
+PARAMETERS = Kind("parameters", _parameters)
 PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
 SHARE = Kind("a share", _share)
 
@@ -147,6 +159,9 @@ class Answers:
     expand: Callable[[Any, Any], Any] | None = _asked(
         method("p", "scene"), "what it is made of, as an Expansion", COMPOSITE
     )
+    hands_on: tuple[str, ...] = _asked(
+        PARAMETERS, "parameters that it gives to the contacts it makes, under their own names", COMPOSITE, default=()
+    )
     check: Callable[[Any], Iterable[tuple[str, str, str]]] | None = _asked(
         method("p"), "yields (parameter, what is wrong, way out) for values that contradict each other", EVERYWHERE
     )
@@ -162,6 +177,21 @@ class Answers:
         TWO_INPUTS, "the second input becomes the first (controllers with an integral)"
     )
     keeps: str = _asked(PARAMETER, "it keeps the tension of the line at that parameter [N]", default="")
+    fastest: Callable[[Any], tuple[float, float]] | None = _asked(
+        method("p"), "of a motor with a supply: its speed without load [rad/s] and its torque at rest [N*m]"
+    )
+    swept: str = _asked(PARAMETER, "of a hydraulic motor: its oil per angle [m^3/rad]", default="")
+    metered: str = _asked(
+        PARAMETER, "of a valve: flow per root of the drop over one land, fully open [m^3/s/Pa^0.5]", default=""
+    )
+    fed: tuple[str, str] | None = _asked(TWO_PORTS, "with `metered`: where oil comes in and where it goes back")
+    sticks_below: str = _asked(
+        PARAMETER, "of a contact: the slip speed below which it counts as sticking", default=""
+    )
+    creeps: bool = _asked(
+        YES_OR_NO, "with `sticks_below`: sticking it still slips, by a share of that speed that goes with the load",
+        default=False,
+    )
     narrowest: Callable[[Any], float | None] | None = _asked(
         method("p"), "of a contact: slip speed [m/s] from which on friction is that of sliding; None without a band"
     )

@@ -160,7 +160,7 @@ def _collect(members: dict[str, Any]) -> Declaration:
     laws: dict[str, Callable[..., Any]] = {}
     for marked in of(ZoneLaw).values():
         laws.update(dict.fromkeys(marked.zones, marked.law))
-    if "law" in members and zones is None:
+    if inspect.isfunction(members.get("law")) and zones is None:
         laws["always"] = members["law"]
     effects = of(Effect)
     parameters = {name: one for name, one in of(PARAMETER_KINDS).items() if name not in effects}
@@ -200,8 +200,7 @@ def _check(cls: type[Declared]) -> None:
         return
     if not issubclass(cls, Component):
         return
-    for name in has.zones.forward | has.zones.backward | has.zones.latched:
-        _demand(cls, name in has.zones, f"zones tell the direction of {name!r}, which is none of them")
+    _check_directions(cls)
     for name in has.zones:
         _demand(cls, name in has.laws, f"zone {name!r} has no law")
     if has.carries is not None:
@@ -227,6 +226,20 @@ def _check(cls: type[Declared]) -> None:
             _demand(cls, zone in has.zones, f"guard {name!r} names {zone!r}, which is not in zones {has.zones}")
         _demand(cls, mark.to not in mark.zones, f"guard {name!r} leads from {mark.to!r} to itself")
         _check_arguments(cls, mark.function, has.arguments)
+
+
+def _check_directions(cls: type[Declared]) -> None:
+    """Zones that mirror one another are told in pairs, wherever a law or a guard asks for the direction."""
+    zones = cls.declaration.zones
+    for name in (*zones.forward, *zones.backward, *zones.latched):
+        _demand(cls, name in zones, f"zones tell the direction of {name!r}, which is none of them")
+    pairs = f"forward={list(zones.forward)}, backward={list(zones.backward)}"
+    _demand(cls, len(zones.forward) == len(zones.backward), f"{pairs} are not pairs of zones that mirror one another")
+    asking = [(function, name) for name, function in cls.declaration.laws.items()]
+    asking += [(mark.function, name) for mark in cls.declaration.guards.values() for name in mark.zones]
+    for function, name in asking if "direction" not in cls.declaration.inputs else ():
+        told = zones.direction(name) != 0 or "direction" not in inspect.signature(function).parameters
+        _demand(cls, told, f"{function.__name__} asks for the direction of {name!r}, which the zones do not tell")
 
 
 def _check_units(cls: type[Declared]) -> None:

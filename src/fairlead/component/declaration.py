@@ -52,4 +52,4 @@ class Declaration:
     @property
     def given(self) -> set[str]:
         """Names a shared expression may ask for."""
-        return {"p", "t", "zone", *self.ports, *self.inputs, *self.states, *self.unknowns, *self.discrete}
+        return {"p", "t", "zone", "direction", *self.ports, *self.inputs, *self.states, *self.unknowns, *self.discrete}

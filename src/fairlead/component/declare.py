@@ -95,8 +95,8 @@ class Input:
     signed: bool = False  # what it means may be negative, such as a command; the contract suite asks with both signs
 
 
-CREEP = "creep"
-ROLES = (CREEP,)
+CREEP, SHARE = "creep", "share"
+ROLES = (CREEP, SHARE)
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,8 @@ class Output:
     """A directed signal, computed by the law in force; free unless recorded or connected.
 
     `role` is what it means to the framework: CREEP is the slip speed of a contact while it should stick. Of it every
-    run tells the worst.
+    run tells the worst. SHARE is what an element or a node of a line takes in, which belongs to its length: with finer
+    elements there are more and smaller ones, so two meshes are not compared by it. Creep is not compared either.
     """
 
     unit: str
@@ -268,12 +269,13 @@ class Stations:
 class Zones(tuple[str, ...]):
     """The zones of a component, in the order in which a start tries them.
 
-    Of a contact with states those in `forward` are for positive slip and those in `backward` for negative; those in
+    Of a contact those in `forward` are for positive slip and those in `backward` for negative, each the mirror image of
+    the one in its place among the others; laws and guards ask for the `direction` of the zone, +1 or -1. Those in
     `latched` are entered by breaking away, not from rest. `fairlead friction` draws them so.
     """
 
-    forward: frozenset[str]
-    backward: frozenset[str]
+    forward: tuple[str, ...]
+    backward: tuple[str, ...]
     latched: frozenset[str]
 
     def __new__(
@@ -281,12 +283,17 @@ class Zones(tuple[str, ...]):
     ) -> Zones:
         """Zones by name."""
         zones = super().__new__(cls, names)
-        zones.forward, zones.backward, zones.latched = frozenset(forward), frozenset(backward), frozenset(latched)
+        zones.forward, zones.backward, zones.latched = tuple(forward), tuple(backward), frozenset(latched)
         return zones
 
     def direction(self, zone: str) -> int:
         """+1 in a zone for forward slip, -1 in one for backward, 0 in others."""
         return (zone in self.forward) - (zone in self.backward)
+
+    def mirrored(self, zone: str) -> str:
+        """The zone of the other direction; the same for one that has none."""
+        pairs = dict(zip(self.forward, self.backward, strict=True))
+        return pairs.get(zone) or {other: one for one, other in pairs.items()}.get(zone, zone)
 
 
 @dataclass(frozen=True)

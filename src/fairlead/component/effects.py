@@ -26,6 +26,11 @@ from fairlead.component.base import Declared
 from fairlead.component.values import Values
 
 
+def switch(value: Any) -> Any:
+    """The word for a YAML boolean, `on` or `off`; anything else as it is."""
+    return {True: "on", False: "off"}[value] if isinstance(value, bool) else value
+
+
 def in_force(values: Values) -> Values:
     """The values themselves, or those of the limiting model that takes their place."""
     for name, effect in values.type.declaration.effects.items():

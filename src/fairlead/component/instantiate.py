@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.declare import PATH, SWITCH, Input, Output, Port
+from fairlead.component.effects import switch
 from fairlead.component.friction_block import sound
 from fairlead.component.parameters import read
 from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_head
@@ -347,7 +348,7 @@ def _unknown_effects(assembly: Assembly, types: Mapping[str, type[Declared]]) ->
         if name not in known:
             what = f"effects.{name}: nothing in this scene has such an effect. {did_you_mean(name, known)}"
             faults.append(Fault(value.named_at, what.rstrip(), f"It has {listing(known)}."))
-        elif value.plain() not in (*SWITCH, True, False):
+        elif switch(value.plain()) not in SWITCH:
             what = f"effects.{name} = {shown(value.plain())} is not a switch."
             faults.append(Fault(value.where, what, "Write on or off."))
     return faults

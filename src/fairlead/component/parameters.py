@@ -32,7 +32,7 @@ from fairlead.component.declare import (
     Table,
     Waveform,
 )  # fmt: skip
-from fairlead.component.effects import in_force, nested
+from fairlead.component.effects import in_force, nested, switch
 from fairlead.component.mistakes import explain
 from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
 from fairlead.component.values import Values
@@ -122,7 +122,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
         schema = {"type": ["number", "string"], **_schema_bounds(declared)}
         kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: si(v, u)), limits, _Schema(schema)]
     elif isinstance(declared, Effect):
-        kind = Annotated[Literal["on", "off"], BeforeValidator(_switch)]
+        kind = Annotated[Literal["on", "off"], BeforeValidator(switch)]
     elif isinstance(declared, Choice):
         kind = Literal[declared.options]
     elif isinstance(declared, Count):
@@ -185,10 +185,6 @@ def _named(value: Any) -> str:
     if not isinstance(value, str) or not NAME.match(value):
         raise ValueError("write a name of small letters, digits and underscores")
     return value
-
-
-def _switch(value: Any) -> Any:
-    return {True: "on", False: "off"}[value] if isinstance(value, bool) else value
 
 
 def _whole(value: Any) -> Any:

@@ -9,6 +9,7 @@ from typing import Any, TypeGuard
 
 from fairlead.component.base import Declared, Family
 from fairlead.component.declare import SWITCH
+from fairlead.component.effects import switch
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
 from fairlead.errors import Fault, Location, ModelError
@@ -109,7 +110,7 @@ class Scene:
     def switched(self, kind: type[Declared], given: Mapping[str, Any]) -> dict[str, Value]:
         """Effects of `kind` that the scene switches; what is no switch is told elsewhere."""
         declared = self.member(kind, given).declaration.effects
-        return {name: v for name, v in self.effects.items() if name in declared and v.plain() in (*SWITCH, True, False)}
+        return {name: v for name, v in self.effects.items() if name in declared and switch(v.plain()) in SWITCH}
 
 
 def is_head(kind: type[Declared]) -> TypeGuard[type[Family]]:

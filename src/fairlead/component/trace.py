@@ -242,6 +242,7 @@ def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, s
         "p": _Recorder(variant, "", reads),
         "t": symbol("t"),
         "zone": zone,
+        "direction": has.zones.direction(zone),
         **{name: _PortReader(name, port) for name, port in has.ports.items()},
         **{name: symbol(f"in:{name}") for name in has.inputs},
         **{name: symbol(f"own:{name}") for name in (*has.states, *has.unknowns)},

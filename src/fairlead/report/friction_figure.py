@@ -43,11 +43,11 @@ def draw(found: Characteristic, path: Path, title: str) -> Path:
 
 def _draw_branches(ax: Axes, found: Characteristic) -> None:
     kinds = ((found.branches, "-", ""), (found.caught, ":", " (caught)"), (found.driven, "--", " (driven)"))
-    names = list(dict.fromkeys(_stem(zone) for branches, _, _ in kinds for zone in branches))
+    names = list(dict.fromkeys(found.called[zone] for branches, _, _ in kinds for zone in branches))
     for branches, line, how in kinds:
         for zone, (slip, force) in branches.items():
-            colour = COLOURS[names.index(_stem(zone)) % len(COLOURS)]
-            label = _stem(zone) + how
+            colour = COLOURS[names.index(found.called[zone]) % len(COLOURS)]
+            label = found.called[zone] + how
             whole = _with_gaps(slip, force)
             ax.plot(*whole, line, color=colour, label=label if label not in ax.get_legend_handles_labels()[1] else "_")
             if zone not in found.latched:
@@ -56,11 +56,6 @@ def _draw_branches(ax: Axes, found: Characteristic) -> None:
         ax.plot([0, 0], [-found.capacity, found.capacity], color="black", linewidth=2, label="held")
     elif found.stiffness is not None:
         ax.plot([0, 0], [-found.capacity, found.capacity], ":", color="black", label="presliding")
-
-
-def _stem(zone: str) -> str:
-    """`ramp` for ramp_forward and ramp_backward; `slide` for plain forward and backward."""
-    return zone.removesuffix("forward").removesuffix("backward").strip("_") or "slide"
 
 
 def _with_gaps(slip: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

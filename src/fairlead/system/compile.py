@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 
+from fairlead.component.effects import switch
 from fairlead.component.values import Variant
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.collection import collected_later
@@ -44,7 +45,7 @@ def compile(flat: FlatModel) -> System:
 def energy_counted(flat: FlatModel) -> bool:
     """Whether the scene has its ledger of energy."""
     effect = flat.assembly.netlist.effects.get("energy")
-    return effect is None or effect.plain() != "off"
+    return effect is None or switch(effect.plain()) != "off"
 
 
 def untraceable(flat: FlatModel) -> list[Fault]:

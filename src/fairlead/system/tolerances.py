@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.declare import TRANSLATIONAL
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.unknowns import Numbering, Unknown
@@ -88,19 +89,24 @@ def slow_speeds(flat: FlatModel, numbering: Numbering) -> tuple[Floats, Floats]:
         for least, most in zip((creep, width), known[key], strict=True):
             if most == np.inf:
                 continue
-            for port in ("a", "b"):
+            for port in _slipping(instance):
                 rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
                 if rate is not None:
                     least[rate] = min(least[rate], most)
     return creep, width
 
 
+def _slipping(instance: Instance) -> list[str]:
+    """Ports of a contact between which it slips along a line."""
+    return [name for name, port in instance.type.declaration.ports.items() if port.domain is TRANSLATIONAL]
+
+
 def _most(instance: Instance) -> tuple[float, float]:
     """The creep of a contact, and the weight of a speed at which its curve is seen, m/s; infinite where it has none."""
-    creep = instance.values.given.get("creep")
-    if isinstance(creep, float):
-        return creep, np.inf
-    if instance.type.answers.narrowest is None:
+    says = instance.type.answers
+    if says.creeps:
+        return instance.values.path(says.sticks_below), np.inf
+    if says.narrowest is None:
         return np.inf, np.inf
     return np.inf, CURVE_SHARE * (instance.values.curve.scale() or np.inf)
 

@@ -198,14 +198,14 @@ def odd(make: Maker, rng: np.random.Generator) -> None:
     for world, at in _anywhere(make, rng, alone=True):
         if "slip" not in world.structure.outputs:
             return
-        start = world.zone(at)
-        ends = [*_end(world, at, start), *_end(world, _mirrored(at), _opposite(start, world.structure.zones))]
+        start, zones = world.zone(at), world.kind.declaration.zones
+        ends = [*_end(world, at, start), *_end(world, _mirrored(at), zones.mirrored(start))]
         if len(ends) < 2:
             continue
         one, other = ends
         # With no motion at all either direction may claim the instant, as on landing; the forces must agree even so.
         moves = any(value != 0 for key, value in at.values.items() if key.startswith("port:") and key.endswith(":v"))
-        if moves and _opposite(world.zone(one), world.structure.zones) != world.zone(other):
+        if moves and zones.mirrored(world.zone(one)) != world.zone(other):
             raise ContractError(
                 f"{world.where(one)}: with every motion and force reversed it is in zone {world.zone(other)}"
             )
@@ -289,6 +289,7 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         said |= {domain.acceleration: port["a"].real} if domain.acceleration else {}
         return SimpleNamespace(**said, inverse_mass=1 / world.masses.get(name, 1.0), **{domain.through[0]: port["R"]})
     known = {"p": world.of, "t": values["t"], "zone": world.zone(at)}
+    known["direction"] = has.zones.direction(known["zone"])
     known |= {name: parameter(world.of, f"#{name}") for name in has.discrete}
     if name in has.shared:
         function = has.shared[name].function
@@ -340,9 +341,3 @@ def _power_met(world: World, at: Instant) -> float:
 def _mirrored(at: Instant) -> Instant:
     turned = {key: -value if key.startswith(("port:", "own:")) else value for key, value in at.values.items()}
     return replace(at, values=turned, loads={name: -load for name, load in at.loads.items()})
-
-
-def _opposite(zone: str, zones: list[str]) -> str:
-    """The zone of the other direction: forward and backward change places."""
-    turned = zone.replace("forward", "?").replace("backward", "forward").replace("?", "backward")
-    return turned if turned in zones else zone
