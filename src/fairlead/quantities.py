@@ -141,6 +141,15 @@ def si(value: object, unit: str) -> float:
     return _finite(number * (given.factor if given else 1.0), unit, value)
 
 
+def whole(value: object) -> object:
+    """A whole number for what is one to everybody but a parser, such as 1e6 or a number in quotes; else as it is."""
+    try:
+        number = si(value, "1")
+    except QuantityError:
+        return value
+    return int(number) if number.is_integer() else value
+
+
 def quantity(text: str) -> Quantity:
     """The quantity a text holds, whatever its dimension; raises QuantityError when it holds none."""
     number, unit = _read(text)

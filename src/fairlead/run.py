@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.analysis.counts import unreasonable
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
 from fairlead.analysis.event_rows import EventRows, Rows
 from fairlead.analysis.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.limits import Limits, read_limits
-from fairlead.analysis.recording import unreasonable
 from fairlead.analysis.released_together import ReleasedTogether
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
@@ -130,7 +130,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
 
     They go to the directory `path`, or stay in memory when that is None.
     """
-    if faults := unreasonable(netlist, settings):
+    if faults := unreasonable(netlist, settings, system.flat):
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()

@@ -115,8 +115,8 @@ class Model:
         A stage that finds mistakes is passed on to the next as far as it goes, so that one call tells as many
         as can be told.
         """
+        from fairlead.analysis.counts import unreasonable
         from fairlead.analysis.names import unknown_signals
-        from fairlead.analysis.recording import unreasonable
         from fairlead.analysis.remarks import remarks
         from fairlead.analysis.start_profile import laid_under_statics
         from fairlead.component.instantiate import survey as instantiate
@@ -133,7 +133,7 @@ class Model:
             assembly.excuse(assembly.instances)
         flat, found = flatten(assembly)
         faults += without_echoes(found, faults)
-        faults += unknown_signals(assembly) + unreasonable(self.netlist, self.netlist.run)
+        faults += unknown_signals(assembly) + unreasonable(self.netlist, self.netlist.run, flat)
         if faults:
             faults += without_echoes(untraceable(flat), faults)
         else:

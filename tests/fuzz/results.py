@@ -61,6 +61,13 @@ def template(path: pathlib.Path) -> None:
     placing.place(path / "series.csv", "time [s],side\n0.0,0\n")
 
 
+def as_of_a_killed_run(path: pathlib.Path) -> None:
+    """Take what run.json says of the other files away, as a run that was killed never says it."""
+    record = json.loads((path / "run.json").read_text())
+    del record["files"]
+    (path / "run.json").write_text(json.dumps(record))
+
+
 def play(folder: pathlib.Path, seed: int, count: int) -> Iterator[str]:
     """Damage `count` copies of a folder of results and yield what was answered badly."""
     sound = folder / "sound"
@@ -79,6 +86,8 @@ def damaged(dice: Dice, path: pathlib.Path) -> list[str]:
     """Damage a folder and say what was answered badly."""
     chosen = dice.choices(list(DAMAGES), k=dice.choice([1, 1, 1, 2, 4]))
     chosen.sort(key=lambda name: DAMAGES[name] not in BY_HDF5)  # which must find a file that it can open
+    if all(DAMAGES[name] in WELL_FORMED for name in chosen):
+        as_of_a_killed_run(path)
     for name in chosen:
         with contextlib.suppress(Exception):
             DAMAGES[name](dice, path)  # a second damage may find nothing left to damage
@@ -320,3 +329,5 @@ DAMAGES: dict[str, Callable[[Dice, pathlib.Path], None]] = {
     "more variables of series.nc": _variable, "an attribute of series.nc": _attribute, "foreign series.nc": _foreign,
 }  # fmt: skip
 BY_HDF5 = (_variable, _attribute, _foreign)
+WELL_FORMED = (*BY_HDF5, _line)
+"""Damages that leave files which HDF5, or a reader of CSV, can read; they are told without a checksum too."""

@@ -197,6 +197,43 @@ def test_escapes_of_others_do_not_reach_the_terminal(tmp_path):
         assert "\x1b" not in said.output, given
 
 
+@pytest.mark.parametrize("typed", [
+    ["ru\x1b[31mn\u202e"], ["run", "belt", "--fo\x1b[31mo\u202e"], ["friction", "{\x1b\u202e"],
+    ["compare", "belt", "--vary", "a\x1b[8m\u202e"],
+])  # fmt: skip
+def test_what_was_typed_is_told_back_without_its_escapes(typed):
+    said = CliRunner().invoke(app, typed)
+    assert said.exit_code in (1, 2)
+    assert said.output
+    assert not {"\x1b", "\u202e"} & set(said.output)
+
+
+SAMPLED = """schema: 1
+components:
+  given: {type: SignalSource, value: 1}
+  eye: {type: SampledSensor, period: 1e-15 s}
+connections: [[given.signal, eye.value]]
+run: {stop: 10 s}
+"""
+
+
+@pytest.mark.parametrize(("setting", "told"), [
+    ("run.max_step=1e-12 s", "run.max_step = 1e-12 s makes at least 4e+13 steps in 40 s."),
+    ("record.every=1 ns", "record.every = 1e-09 s makes 4e+10 rows in 40 s."),
+    ("run.max_steps=1e30", "run.max_steps = 1e+30 is above 1e+12"),
+])  # fmt: skip
+def test_counts_that_nobody_can_want_are_refused_before_the_run(setting, told):
+    said = check("belt", "--set", setting)
+    assert (said.exit_code, told in said.output) == (1, True), said.output
+
+
+def test_a_sensor_that_samples_without_end_is_refused_before_the_run(tmp_path):
+    (tmp_path / "a.yaml").write_text(SAMPLED)
+    said = check(tmp_path / "a.yaml")
+    assert said.exit_code == 1
+    assert "a.yaml:4:3: eye is sampled every 1e-15 s, 1e+16 times in 10 s.\n    At most 1000000000" in said.output
+
+
 def test_every_verb_prints_through_one_place():
     folder = pathlib.Path(fairlead.__file__).parent / "cli"
     direct = re.compile(r"typer\.(echo|secho)|click\.echo|(?<!\.)\bprint\(|\bConsole\(")

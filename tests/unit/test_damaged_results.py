@@ -14,7 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fairlead.cli import app
-from fairlead.results import Result
+from fairlead.results import Result, RunDirectory, Signal, retrieve
 from fairlead.results.damage import DamagedResultsError
 from tests.fuzz import results
 
@@ -25,7 +25,9 @@ def test_a_damaged_folder_is_answered_in_words(tmp_path: Path) -> None:
 
 @pytest.fixture
 def sound(tmp_path: Path) -> Path:
+    """A run whose files nothing is known of, as those of a run that was killed."""
     results.template(tmp_path / "run")
+    results.as_of_a_killed_run(tmp_path / "run")
     return tmp_path / "run"
 
 
@@ -118,3 +120,43 @@ def test_a_foreign_file_of_hdf5_is_told_as_such(sound: Path) -> None:
     with h5py.File(sound / "series.nc", "w") as file:
         file["time"] = [1.0]
     assert "series.nc: the file is damaged (it holds no signals of fairlead)" in refused(sound)
+
+
+@pytest.mark.parametrize("place", [8, 900, -9])
+def test_a_byte_that_the_run_did_not_leave_is_told_before_hdf5_sees_it(tmp_path, monkeypatch, place):
+    """In the structure or in a value: HDF5 might go round in a circle, or read another number."""
+    path = tmp_path / "run"
+    results.template(path)
+    assert len(Result.open(path).t) == 11
+    data = bytearray((path / "series.nc").read_bytes())
+    data[place] ^= 4
+    (path / "series.nc").write_bytes(bytes(data))
+    monkeypatch.setattr(retrieve, "open_file", None)
+    assert "series.nc: its bytes are not those that the run left (SHA-256)." in refused(path)
+    (path / "series.nc").write_bytes(bytes(data[:-1]))
+    assert f"series.nc: it has {len(data) - 1} bytes; the run left {len(data)}." in refused(path)
+
+
+def test_an_event_that_the_run_did_not_leave_is_told_and_signals_are_read(tmp_path):
+    path = tmp_path / "run"
+    results.template(path)
+    text = (path / "events.csv").read_text()
+    assert "0.2,pad2" in text
+    (path / "events.csv").write_text(text.replace("0.2,pad2", "0.3,pad2"))
+    result = Result.open(path)
+    assert len(result.t) == 11
+    with pytest.raises(DamagedResultsError, match=r"events\.csv: its bytes are not those"):
+        assert result.events is None
+    edit(path, "files", "events.csv", "bytes", value="many")
+    with pytest.raises(DamagedResultsError, match=r"run\.json: files\.events\.csv\.bytes = many"):
+        assert Result.open(path).events is None
+
+
+def test_a_run_that_goes_on_is_read_without_a_checksum(tmp_path):
+    run = RunDirectory.create(tmp_path / "run", [Signal("a", "N")], {})
+    run.append([0.0, 1.0], [1.0, 2.0], [0, 0])
+    run.flush(at_once=True)
+    assert Result.open(tmp_path / "run")["a"].tolist() == [1.0, 2.0]
+    run.append([2.0], [3.0], [0])
+    run.finish("finished", {})
+    assert Result.open(tmp_path / "run")["a"].tolist() == [1.0, 2.0, 3.0]

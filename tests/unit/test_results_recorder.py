@@ -208,5 +208,5 @@ def test_a_run_killed_before_its_first_rows_is_told_in_a_sentence(tmp_path: Path
 def test_a_damaged_series_is_told_in_a_sentence(tmp_path: Path) -> None:
     finished(tmp_path / "run")
     (tmp_path / "run" / "series.nc").write_bytes(b"\x89HDF\r\n\x1a\n and no more")
-    with pytest.raises(DamagedResultsError, match=r"run/series\.nc: the file is damaged .*\n.*run the netlist again\."):
+    with pytest.raises(DamagedResultsError, match=r"run/series\.nc: it has 20 bytes; .*\n.*run the netlist again\."):
         Result.open(tmp_path / "run")

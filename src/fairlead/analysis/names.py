@@ -45,7 +45,7 @@ def _signals(assembly: Assembly) -> list[OutputSignal]:
 
 def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
     """The patterns under record.signals and record.plots, each with its place."""
-    block = assembly.netlist.recorded
+    block = assembly.netlist.written["record"]
     lists = [block.get("signals")]
     plots = block["plots"].content if "plots" in block else []
     plots = plots if isinstance(plots, list) else []

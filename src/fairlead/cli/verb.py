@@ -4,10 +4,12 @@ A mistake in a netlist is told without a traceback, in the words of the error. A
 stage foresaw is a mistake of fairlead: the user gets a short text to send, and with -v the traceback.
 """
 
+import contextlib
 import json
 import sys
 import traceback
 import warnings
+from collections.abc import Iterator
 from typing import Any
 
 import typer
@@ -15,10 +17,14 @@ import typer.core
 
 from fairlead.cli.exit_codes import INTERRUPTED, UNFORESEEN
 from fairlead.cli.terminal import echo
-from fairlead.errors import FairleadError, Fault, ModelError
+from fairlead.errors import FairleadError, Fault, ModelError, printable
 
 MOST_FAULTS_TOLD = 1000
 """In JSON; on the screen it is a tenth of that, and the text of `error` says how many there are."""
+
+
+USAGE_ERRORS = typer.BadParameter.__mro__[2]
+"""ClickException, of the click that typer brings along or, in older versions, imports."""
 
 
 class Verbs(typer.core.TyperGroup):
@@ -26,22 +32,28 @@ class Verbs(typer.core.TyperGroup):
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Read the arguments. Raises typer.Exit when that is interrupted."""
-        try:
+        with _told():
             return super().make_context(*given, **more)
-        except KeyboardInterrupt as error:
-            raise _interrupted() from error
 
     def invoke(self, ctx: Any) -> Any:
         """Call the verb. Raises typer.Exit when finding it is interrupted."""
-        try:
+        with _told():
             return super().invoke(ctx)
-        except KeyboardInterrupt as error:
-            raise _interrupted() from error
 
 
-def _interrupted() -> typer.Exit:
-    echo("interrupted", err=True)
-    return typer.Exit(INTERRUPTED)
+@contextlib.contextmanager
+def _told() -> Iterator[None]:
+    """What ends before a verb has begun: Ctrl-C, and usage errors, which typer prints with what was typed in them."""
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        echo("interrupted", err=True)
+        raise typer.Exit(INTERRUPTED) from error
+    except Exception as error:
+        if isinstance(error, USAGE_ERRORS):
+            text = printable(error.format_message())  # type: ignore[attr-defined]
+            error.format_message = lambda: text  # type: ignore[attr-defined]
+        raise
 
 
 class Verb(typer.core.TyperCommand):
@@ -91,7 +103,7 @@ def _as_json(error: FairleadError) -> str:
 
 def _belongs_to_typer(error: Exception) -> bool:
     """Usage errors and exits are printed by typer; a closed pipe (`| head`) is nobody's mistake."""
-    return isinstance(error, typer.Exit | typer.Abort | BrokenPipeError) or hasattr(error, "format_message")
+    return isinstance(error, typer.Exit | typer.Abort | BrokenPipeError | USAGE_ERRORS)
 
 
 def _report_text(error: Exception, verbose: bool) -> str:

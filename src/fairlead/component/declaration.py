@@ -45,6 +45,11 @@ class Declaration:
     python: bool = False  # its discrete variables are set by plain Python, see controller.py
 
     @property
+    def periods(self) -> list[str]:
+        """Parameters that give a sample period [s]."""
+        return ["period"] if self.python else [sample.period for sample in self.samples.values()]
+
+    @property
     def arguments(self) -> set[str]:
         """Names a law may ask for."""
         return {*self.given, *self.shared}

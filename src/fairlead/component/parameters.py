@@ -38,7 +38,7 @@ from fairlead.component.tables import read_table, read_waveform, table_schema, w
 from fairlead.component.values import Values
 from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
-from fairlead.quantities import si, wanted
+from fairlead.quantities import si, wanted, whole
 
 NAME = re.compile(r"^[a-z][a-z0-9_]{0,59}$")
 STRICT = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, hide_input_in_errors=True)
@@ -126,7 +126,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
     elif isinstance(declared, Choice):
         kind = Literal[declared.options]
     elif isinstance(declared, Count):
-        kind = Annotated[int, BeforeValidator(_whole), Field(ge=declared.least, le=declared.most)]
+        kind = Annotated[int, BeforeValidator(whole), Field(ge=declared.least, le=declared.most)]
     elif isinstance(declared, Name):
         kind = Annotated[str, BeforeValidator(_named), _Schema({"type": "string", "pattern": NAME.pattern})]
     elif isinstance(declared, Part):
@@ -185,10 +185,6 @@ def _named(value: Any) -> str:
     if not isinstance(value, str) or not NAME.match(value):
         raise ValueError("write a name of small letters, digits and underscores")
     return value
-
-
-def _whole(value: Any) -> Any:
-    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def _values(kind: type[Declared], model: BaseModel) -> Values:

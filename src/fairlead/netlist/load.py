@@ -85,7 +85,7 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
         record=record,
         **{block: _block(tree, block) for block in ("effects", "friction", "initial", "limits")},
         digest=digest,
-        recorded=_block(tree, "record"),
+        written={block: _block(tree, block) for block in ("run", "record")},
     )
 
 

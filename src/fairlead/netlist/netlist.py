@@ -89,7 +89,8 @@ class Netlist:
     initial: Mapping[str, Value] = field(default_factory=dict)
     limits: Mapping[str, Value] = field(default_factory=dict)
     digest: str = ""
-    recorded: Mapping[str, Value] = field(default_factory=dict)  # the record block as written, for messages about it
+    written: Mapping[str, Mapping[str, Value]] = field(default_factory=lambda: {"run": {}, "record": {}})
+    """The blocks `run` and `record` as written, for messages about them."""
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
 from fairlead.errors import shown
-from fairlead.quantities import QuantityError, si, wanted
+from fairlead.quantities import QuantityError, si, wanted, whole
 
 
 class Strict(BaseModel):
@@ -23,22 +23,13 @@ def _schema_of(unit: str) -> WithJsonSchema:
     return WithJsonSchema({"type": ["number", "string"], "description": wanted(unit)})
 
 
-def _whole(value: object) -> object:
-    """1e6 is a whole number to everybody but a parser."""
-    return int(value) if isinstance(value, float) and value.is_integer() else value
-
-
-def _number(value: object) -> float:
-    if isinstance(value, str):
-        raise QuantityError(f"{shown(value)} is a text, not a number", wanted("1"))
-    return si(value, "1")
-
+MOST_COUNTED = 10**12  # steps or switches of a budget; a processor needs weeks for them
 
 # Text with a unit (or an expression in braces) or a bare number comes in, an SI float is kept.
 Seconds = Annotated[float, BeforeValidator(lambda value: si(value, "s")), _schema_of("s")]
 Metres = Annotated[float, BeforeValidator(lambda value: si(value, "m")), _schema_of("m")]
-Number = Annotated[float, BeforeValidator(_number), _schema_of("1")]
-Count = Annotated[int, BeforeValidator(_whole), Field(gt=0)]
+Number = Annotated[float, BeforeValidator(lambda value: si(value, "1")), _schema_of("1")]
+Count = Annotated[int, BeforeValidator(whole), Field(gt=0, le=MOST_COUNTED)]
 Duration = Annotated[Seconds, Field(gt=0)]
 
 

@@ -51,9 +51,10 @@ class EventWriter:
             self._lines.truncate()
 
     def close(self) -> None:
-        """Flush and close the file."""
-        self.flush()
-        self._file.close()
+        """Flush and close the file, if that is not done."""
+        if not self._file.closed:
+            self.flush()
+            self._file.close()
 
 
 def read_events(path: Path) -> list[Event]:

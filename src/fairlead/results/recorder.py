@@ -28,6 +28,7 @@ import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError
 from fairlead.results.claim import FINISHED, Claim
 from fairlead.results.events import EVENT_FILE, Event, EventWriter
+from fairlead.results.seal import sealed
 from fairlead.results.signal import Signal
 from fairlead.results.sink import Block, Sink, without_twins
 from fairlead.results.store import SERIES_FILE, SeriesWriter
@@ -122,15 +123,18 @@ class RunDirectory(Sink):
             self._claim.release(finished=False)
 
     def _write_all(self, status: str, summary: Mapping[str, Any]) -> None:
-        """Rows and events first: a run.json that says `finished` has all of them beside it."""
+        """Rows and events first: a run.json that says `finished` has all of them beside it, as it says."""
+        left: dict[str, Any] = {}
         try:
             self._write_blocks(last=True)
-            self._events.flush()
+            self._events.close()
+            self._series.close()
+            left = sealed(self.path / SERIES_FILE, self.path / EVENT_FILE)
         except BaseException:
             status = "failed"  # Rows are missing.
             raise
         finally:
-            run_file.write(self.path, self._ended(status, summary))
+            run_file.write(self.path, self._ended(status, {**summary, **left}))
             self._events.close()
             self._series.close()
 

@@ -38,6 +38,13 @@ class Head(_Entry):
     locked: bool = False
 
 
+class Left(_Entry):
+    """A file as the run left it (see `seal.py`)."""
+
+    bytes: Annotated[int, Field(ge=0)]
+    sha256: str
+
+
 class Station(_Entry):
     """A place on a route, and what touches the line there (see `analysis/route_record.py`). Lengths in m."""
 
@@ -78,6 +85,12 @@ class Limit(_Entry):
 def check_head(file: Path, record: Mapping[str, Any]) -> None:
     """Refuse a run.json, `file`, whose head is damaged. Raises DamagedResultsError."""
     _valid(Head, file, record, ())
+
+
+def files(file: Path, record: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the files of a run as it left them, from its run.json, `file`. Raises DamagedResultsError."""
+    left = _valid(dict[str, Left], file, record.get("files") or {}, ("files",))
+    return {name: one.model_dump() for name, one in left.items()}
 
 
 def routes(file: Path, record: Mapping[str, Any]) -> list[dict[str, Any]]:

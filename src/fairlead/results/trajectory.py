@@ -27,6 +27,7 @@ from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.kept import earlier
 from fairlead.results.retrieve import SeriesReader
+from fairlead.results.seal import require_intact
 from fairlead.results.signal import Signal, matching
 from fairlead.results.store import SERIES_FILE
 
@@ -89,7 +90,13 @@ class Result:
         status = run_file.status(path, run)
         if run["status"] == run_file.CLAIMED or not (path / SERIES_FILE).exists():
             raise UsageError(_unreadable(path, status))
-        result = cls(path, {**run, "status": status}, SeriesReader(path / SERIES_FILE))
+        try:
+            require_intact(path / SERIES_FILE, run)
+            series = SeriesReader(path / SERIES_FILE)
+        except DamagedResultsError:
+            run_file.refuse_another(path, run)
+            raise
+        result = cls(path, {**run, "status": status}, series)
         result._refuse_another()
         return result
 
@@ -114,6 +121,7 @@ class Result:
         return self._mine(self._read_events)
 
     def _read_events(self) -> list[Event]:
+        require_intact(self.folder / EVENT_FILE, self.run)
         return read_events(self.folder / EVENT_FILE)
 
     @property

@@ -374,7 +374,7 @@ class KernelText:
                 mass: port for port in has.ports if (mass := inverse_mass(port)[2:]) in self.parameters
             },
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
-            period="period" if has.python else next((sample.period for sample in has.samples.values()), ""),
+            period=next(iter(has.periods), ""),
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
         )  # fmt: skip
 
