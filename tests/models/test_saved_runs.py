@@ -11,6 +11,7 @@ from fairlead.integrate import Run
 from fairlead.integrate.memory import LAYOUT, LINKS
 from fairlead.integrate.underway import Underway
 from tests.integrate.problems import belt_block
+from tests.models.lost_pivots import PAIR, lost_pivots
 from tests.models.test_two_runs import IDLE
 from tests.unit.test_controllers import COUNTING, PULLER, SCENE
 
@@ -107,6 +108,19 @@ def test_so_does_a_run_of_which_a_part_moves(tmp_path, engine):
         slices += 1
     going = taken_back_and_cloned(system, run, slices=slices + 2)
     assert going.scope.whole.number["partial_steps"] > 0
+
+
+@pytest.mark.parametrize("after", [0, 1])
+def test_so_does_a_run_that_has_chosen_or_is_to_choose_fresh_pivots(scene, library, after):
+    """Saved before the replan, which is taken twice; and behind it, where its pivots go along."""
+    system, run = scene(lost_pivots(), (library(PAIR),)).system, Run(stop=1.0)
+    slices, (going, _) = 0, begin(system, run)
+    while going.served and going.scope.whole.number["replans"] == 0:
+        going.go_on(3)
+        slices += 1
+    assert going.served
+    going = taken_back_and_cloned(system, run, slices=slices if after else slices - 2, attempts=3)
+    assert going.scope.whole.number["replans"] == 1
 
 
 def test_there_is_no_address_in_an_arena():

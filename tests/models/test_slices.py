@@ -9,6 +9,7 @@ import fairlead
 from fairlead.integrate import Run, integrate, parts, prepare, underway
 from tests.integrate.problems import belt_block, falling_ball
 from tests.integrate.test_budgets import chattering_machine
+from tests.models.lost_pivots import PAIR, lost_pivots
 from tests.models.test_names_say_nothing import pads
 from tests.models.test_narrowing_at_random import network
 from tests.unit.test_controllers import COUNTING, PULLER, SCENE
@@ -83,6 +84,13 @@ def test_bundled_models_take_the_same_path(all_cuts, name, engine):
     start, span = model.netlist.run.start, MODELS[name]
     settings = Run(start=start, stop=start + span, every=span / 20, engine=engine)
     assert all_the_same(all_cuts(lambda: model.system, settings))
+
+
+def test_a_run_that_chooses_fresh_pivots_on_its_way_takes_the_same_path(scene, library, all_cuts):
+    model = scene(lost_pivots(), (library(PAIR),))
+    found = all_cuts(lambda: model.system, Run(stop=1.0, every=0.02))
+    assert all_the_same(found)
+    assert found[0][2]["replans"] > 0
 
 
 def test_controllers_in_plain_python_see_the_same(scene, library, all_cuts):

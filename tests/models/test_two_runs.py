@@ -1,8 +1,10 @@
 """Two runs give bitwise the same result: other processes, another order of runs, another order of Python's sets.
 
-What is compared is all a run leaves: every recorded row, the zone log, the last state and the counters.
+What is compared is all a run leaves: every recorded row, the zone log, the last state and the counters; and of runs
+by command the files, every variable of `series.nc` and the bytes of `events.csv`, also beside a busy process.
 """
 
+import contextlib
 import hashlib
 import json
 import os
@@ -10,10 +12,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import h5py
 import pytest
 
 import fairlead
 from fairlead.integrate import Run, integrate
+from tests.scenes.networks import network
+from tests.scenes.routes import route
 
 ROOT = Path(__file__).parents[2]
 IDLE = """schema: 1
@@ -84,3 +89,67 @@ def test_two_runs_are_the_same_to_the_last_bit(processes, name, engine):
 @pytest.mark.parametrize("engine", ["rodas", "stepping"])
 def test_the_runs_that_were_compared_did_leave_out_what_stands(processes, engine):
     assert processes[0][f"idle {engine}"][2] > 20
+
+
+def files_of(folder):
+    """Every variable of series.nc with its numbers, and events.csv, as bytes."""
+    with h5py.File(folder / "series.nc") as file:
+        found = {name: file[name][()].tobytes() for name in file if file[name].dtype.kind in "fi"}
+    return {**found, "events.csv": (folder / "events.csv").read_bytes()}
+
+
+@contextlib.contextmanager
+def busy():
+    """A process beside that takes all it is given of the processor."""
+    process = subprocess.Popen([sys.executable, "-c", "while True: pass"])
+    try:
+        yield
+    finally:
+        process.kill()
+        process.wait()
+
+
+def by_command(scene, folder, seed):
+    """The files of a run by the command line, in a process of its own."""
+    command = [sys.executable, "-m", "fairlead", "run", str(scene), "--out", str(folder), "--quiet"]
+    given = {**os.environ, "PYTHONHASHSEED": seed}
+    made = subprocess.run(command, env=given, capture_output=True, text=True, check=False)
+    assert made.returncode == 0, made.stderr
+    return files_of(folder)
+
+
+def runs_as_files(scene, folder):
+    """What a scene leaves: alone; beside a busy process; and in this process, which has run much, twice."""
+    yield by_command(scene, folder / "alone", "1")
+    with busy():
+        yield by_command(scene, folder / "pressed", "2")
+    model = fairlead.load(scene)
+    for name in ("here", "again"):
+        model.run(out=folder / name)
+        yield files_of(folder / name)
+
+
+def all_files_agree(scene, folder):
+    first, *others = runs_as_files(scene, folder)
+    assert first["events.csv"].count(b"\n") > 1  # something switched
+    assert len(first) > 3
+    for other in others:
+        assert other.keys() == first.keys()
+        assert [name for name in first if other[name] != first[name]] == []
+
+
+def test_runs_by_command_leave_the_same_files(tmp_path):
+    all_files_agree("belt", tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("make", "seed"), [(make, seed) for make in (route, network) for seed in range(1, 4)])
+def test_runs_of_random_scenes_by_command_leave_the_same_files(tmp_path, make, seed):
+    (tmp_path / "scene.yaml").write_text(make(seed), encoding="utf-8")
+    all_files_agree(tmp_path / "scene.yaml", tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["single_bend", "winch_drive", "torsion"])
+def test_runs_of_bundled_models_by_command_leave_the_same_files(tmp_path, name):
+    all_files_agree(name, tmp_path)

@@ -61,8 +61,7 @@ class Underway:
         number = self.scope.memory.number
         if self.status == Status.WIDEN and number["woken"]:
             number["rows"] -= 1  # the row after the switch; the whole settles there once more
-        if self.status != Status.REPLAN:
-            self.flush()
+        self.flush()
         if self.status == Status.REPLAN:
             self._replan()
         elif self.status == Status.NARROW:
@@ -89,11 +88,10 @@ class Underway:
             number["replanned"] = 1
         elif not found:
             self.status = Status.SINGULAR
-            self.flush()
         self._replanned_at = int(number["factorisations"])
 
     def flush(self) -> None:
-        """Hand over what the buffers hold and empty them."""
+        """Hand over what the buffers hold and empty them: they are no part of what is saved."""
         number, array, run = self.scope.memory.number, self.scope.memory.array, self.run
         rows, n_outputs = int(number["rows"]), int(number["n_outputs"])
         events, t = self.scope.events(int(number["events"])), float(number["t"])
