@@ -136,6 +136,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         require_package()
     if settings.engine == "stepping" and system.uneven:
         raise UsageError(_uneven(system.uneven))
+    if settings.engine == "stepping" and (stops := system.rigid_stops):
+        raise UsageError(_met_rigidly(stops))
     patterns = _patterns(netlist)
     recording = system.recording(patterns)
     limits = read_limits(netlist.limits, recording.recorded)
@@ -198,6 +200,8 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
         return settings.engine, "chosen by run.engine"
     if system.uneven:
         return "rodas", "auto: a contact holds between a node with mass and one without"
+    if system.rigid_stops:
+        return "rodas", "auto: it locates the instants at which rigid stops are met"
     smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
     engine, reason = choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
     if engine == "stepping" and (names := timed_limits(system, settings.start, settings.stop)):
@@ -229,6 +233,14 @@ def _uneven(contacts: list[str]) -> str:
         "run.engine: stepping does not hold contacts between a node with mass and one without "
         f"({_few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
         "rodas (or auto)."
+    )
+
+
+def _met_rigidly(stops: list[str]) -> str:
+    """Why `stepping` does not take these stops."""
+    return (
+        f"run.engine: stepping rounds switches to its steps, and a rigid stop ({_few(stops)}) is met at an instant, "
+        "with an impulse. Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether)."
     )
 
 

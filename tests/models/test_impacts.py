@@ -51,7 +51,7 @@ BLOW = """
     run: {stop: 0.3 s, accuracy: 1e-6}
     record: {signals: ["*"]}
 """
-ENGINES = ("rodas", "stepping", "ida")
+ENGINES = ("rodas", "ida")
 
 
 @pytest.fixture

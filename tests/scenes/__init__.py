@@ -1,6 +1,7 @@
 """Random scenes: netlists from a seed, for whoever wants many that nobody has thought of.
 
     networks.network(seed)   masses, shafts, springs, stops and contacts in rows, stacks, trees, rings and nets
+    blows.blow(seed)         bodies that run into each other, and what decides each impact (impulses.py)
     routes.route(seed)       a line through bends, pulleys, tubes and clamps, hauled or paid out
 
 A seed gives the same text on every machine. Every scene loads and checks clean, and runs to its end in a moment.

@@ -1,7 +1,7 @@
 """Random scenes by hand: `python -m tests.scenes --seed 7 --count 20` makes, checks and runs them.
 
-    --kind networks|routes   one kind only         --seed N --count N   which ones (a random seed when not given)
-    --write FOLDER           write the netlists    --check              do not run them
+    --kind networks|blows|routes   one kind only   --seed N --count N   which ones (a random seed when not given)
+    --write FOLDER                 write them      --check              do not run them
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ import time
 
 import fairlead
 from fairlead.errors import FairleadError
+from tests.scenes.blows import blow
 from tests.scenes.networks import network
 from tests.scenes.routes import route
 
-MAKERS = {"networks": network, "routes": route}
+MAKERS = {"networks": network, "blows": lambda seed: blow(seed).text, "routes": route}
 
 
 def main() -> int:

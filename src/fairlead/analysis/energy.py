@@ -12,6 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+NOTHING = 1e-20
+"""Throughput [J] below which nothing has passed: the thermal motion of one particle is as much (Boltzmann's k T)."""
+
 
 @dataclass
 class Ledger:
@@ -38,6 +41,6 @@ class Ledger:
         dissipated, supplied, stored = (float(x) for x in self.last - self.first)
         missing = abs(stored + dissipated - supplied)
         return {
-            "closure": missing / self.most if self.most > 0 else None,
+            "closure": missing / self.most if self.most > NOTHING else None,
             "supplied": supplied, "dissipated": dissipated, "stored_change": stored,
         }  # fmt: skip

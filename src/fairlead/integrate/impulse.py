@@ -9,9 +9,10 @@ force, and an impulse is a force beyond all limits for no time. So the guards of
 
 A contact whose normal force is finite lets go. One whose normal force is an impulse itself holds while |P_t| <= mu P_n,
 and slides with P_t = mu P_n beyond that, because C has the slopes of the law; it is caught if that would turn its slip
-round. A stop that would have to pull opens. Who changes changes C, so all is asked again until nobody does. Then the
-speeds change by dV: momentum is conserved, and every row that holds is at rest. What was let go slips, and is caught
-later as any contact is. The rebound is zero.
+round. A stop that would have to pull opens. One that touches at that instant, and that the speeds v + dV would close,
+closes: all impacts of an instant are one problem, whichever stop was found first. Who changes changes C, so all is
+asked again until nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
+What was let go slips, and is caught later as any contact is. The rebound is zero.
 
 A slip whose dV is below the error weights is no impact but rounding, and so is one that a contact says it may take
 (`within`): `project` takes these away.
@@ -38,6 +39,12 @@ SHORT = 1e-12
 """Share of the span during which an impulse acts as a force: less than time can resolve in a run."""
 ROUNDED = 1.0
 """Change of speed, in error weights, below which a slip is no impact."""
+LEAST_IMPULSE = 1e-10
+"""Share of the largest impulse below which one is rounding: that row keeps the force it has."""
+LATER = 1e-6
+"""Share of the span after which it is asked which stops come nearer: long enough to be more than rounding of places."""
+LEAST_APPROACH = 1e-8
+"""Share of the largest change of speed at which stops that touch must approach to take part: less is rounding."""
 
 
 @compiled
@@ -89,25 +96,59 @@ def change_of_speed(m):
 
 @compiled
 def change_zones_for(m):
-    """Fill `fired` with the guards of contacts and stops that the impulse sends into another zone."""
+    """Fill `fired` with the guards of contacts and stops that the impulse sends into another zone.
+
+    All at once; once a pattern of zones has recurred in this settlement, the one of least index (settling.py).
+    """
     n, ng = m.n, m.n_guards
     y, b, loaded = reals(m.at_y, n), reals(m.at_b, n), reals(m.at_y_probe, n)
     takes, differential = indices(m.at_takes_impulse, n), indices(m.at_differential, n)
+    largest = 0.0
+    for k in range(n):
+        if takes[k] > 0:
+            largest = max(largest, abs(b[k]))
     for k in range(n):
         loaded[k] = y[k]
         if differential[k] == 1:
             loaded[k] += b[k]
-        elif takes[k] > 0:
-            loaded[k] += b[k] / (SHORT * (m.stop - m.start))
+        elif takes[k] > 0 and abs(b[k]) > LEAST_IMPULSE * largest:
+            loaded[k] = b[k] / (SHORT * (m.stop - m.start))
     evaluate_guards(m, m.t, m.at_y, m.at_g)
     evaluate_guards(m, m.t, m.at_y_probe, m.at_g_probe)
+    least = LEAST_APPROACH * move_on(m)
     g, under, tolerance = reals(m.at_g, ng), reals(m.at_g_probe, ng), reals(m.at_guard_tolerance, ng)
+    ahead = reals(m.at_wrong, ng)
     may_hold, fired = indices(m.at_may_hold, ng), indices(m.at_fired, ng)
     m.n_fired = 0
     for i in range(ng):
-        if may_hold[i] == 1 and under[i] > tolerance[i] >= g[i]:
+        changes = may_hold[i] > 0 and under[i] > tolerance[i] and under[i] != g[i]
+        touches = may_hold[i] == UNLIMITED and abs(under[i]) <= tolerance[i]
+        if changes or (touches and ahead[i] - under[i] > least):
             fired[m.n_fired] = i
             m.n_fired += 1
+    if m.stage > 0 and m.n_fired > 1:
+        m.n_fired = 1
+
+
+@compiled
+def move_on(m):
+    """Guards a little later than at `y_probe`, into `wrong`; the largest way of what dV (in u) moves till then."""
+    n = m.n
+    loaded, dv, moved, f = reals(m.at_y_probe, n), reals(m.at_u, n), reals(m.at_x, n), reals(m.at_f, n)
+    differential, quadrature = indices(m.at_differential, n), indices(m.at_quadrature, n)
+    values, rows = reals(m.at_mass, m.n_mass), indices(m.at_mass_rows, m.n_mass)
+    columns = indices(m.at_mass_columns, m.n_mass)
+    later, most = LATER * (m.stop - m.start), 0.0
+    for k in range(n):
+        moved[k] = loaded[k]
+        most = max(most, abs(dv[k]))
+    field_at(m.call_rhs, (m.context, m.t, m.at_x, m.at_f))
+    for e in range(m.n_mass):
+        k = rows[e]
+        if k == columns[e] and differential[k] == 1 and quadrature[k] == 0 and dv[k] == 0.0 and values[e] != 0.0:
+            moved[k] += later * f[k] / values[e]
+    evaluate_guards(m, m.t + later, m.at_x, m.at_wrong)
+    return later * most
 
 
 @compiled

@@ -87,7 +87,7 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "mass_columns": columns_of(problem.mass_pattern),
         **plan.arrays,
     }  # fmt: skip
-    numbers["takes_impulses"] = int((given["takes_impulse"] == 2).any())
+    numbers["takes_impulses"] = int((given["takes_impulse"] == RIGID).any())
     if stepping:
         given |= held_entries(problem) | neighbours(problem) | known_rows(problem)
         given |= {"controlled": controlled(problem), "position_of": position_of(problem)}
@@ -100,11 +100,15 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
 
 
 def _of_contacts(problem: Problem) -> Integers:
-    """1 for every guard of a machine that decides whether a row holds."""
+    """By guard: 1 for those of a machine that decides whether a row holds, 2 if that row takes any impulse."""
     holder = np.asarray(getattr(problem, "holder", ()), dtype=np.int64)
-    return np.isin(problem.guard_machine, holder[holder >= 0]).astype(np.int64)
+    takes = np.asarray(getattr(problem, "takes_impulse", np.zeros(len(holder))), dtype=np.int64)
+    held, rigid = np.isin(problem.guard_machine, holder[holder >= 0]), holder[(holder >= 0) & (takes == RIGID)]
+    return held.astype(np.int64) + np.isin(problem.guard_machine, rigid)
 
 
+RIGID = 2
+"""What a row takes that takes any impulse."""
 OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "neighbours", "own_slopes", "own_masses")
 """Arrays of `stepping` whose lengths the loop is told."""
 

@@ -21,6 +21,7 @@ from fairlead.system.blocks import Block, Memory, Tables
 from fairlead.system.break_away import least_left
 from fairlead.system.plain_python import CalledController, Known, called_controllers
 from fairlead.system.recording import OutputSignal, Recording, choose
+from fairlead.system.structure import Structure
 from fairlead.system.timing import PlacedTable
 from fairlead.system.tolerances import Scales, Weights
 from fairlead.system.unknowns import Numbering
@@ -140,6 +141,11 @@ class System:
         in_mass = np.zeros(self.n, dtype=bool)
         in_mass[self.mass_pattern.rows] = True
         return sorted({self.machine_names[m] for m in self.holder[(self.holder >= 0) & ~in_mass]})
+
+    @property
+    def rigid_stops(self) -> list[str]:
+        """What is met at a place and then takes any impulse, by name."""
+        return [i.path for block in self.blocks if _meets_rigidly(block.kernel.structure) for i in block.instances]
 
     @property
     def longest_step(self) -> float:
@@ -266,3 +272,9 @@ def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> 
         of=system, piece=piece, context=context.ctypes.data, absolute=weights.absolute, relative=weights.relative,
         cap=weights.cap, guard_tolerance=weights.guard_tolerance, record=record, controllers=controllers,
     )  # fmt: skip
+
+
+def _meets_rigidly(s: Structure) -> bool:
+    """True if a guard on a place leads to a zone that holds without a limit."""
+    rigid = {s.zones.index(zone) for unknown in s.rigid for zone in s.holds[unknown]}
+    return any(g["to"] in rigid and g["unit"] in ("m", "rad") for known in s.guards.values() for g in known)

@@ -1,0 +1,45 @@
+"""A stop that does not give."""
+
+from fairlead.component import Component, Law, Output, Parameter, Translational, Unknown, Zones, guard, hold, zone
+
+MOMENT = 1.0  # s; gap and approach are both asked for, in metres
+
+
+class RigidStop(Component):
+    """Keeps b from coming nearer to a than `length`:  b.x - a.x >= length.
+
+    free       b.x - a.x > length     force = 0
+    touching   b.v = a.v              force = whatever holds, force >= 0
+
+    The force pushes b forward and a back. Where the ends meet, an impulse takes away the speed at which they meet
+    (`docs/integrator.md`). The other way round and with a negative length it is a rope that cannot stretch: RigidStop
+    from b to a of length -L keeps b.x - a.x <= L. Limits: a stop that gives under load, and rings, is an EndStop.
+    """
+
+    a = Translational("the one behind")
+    b = Translational("the one in front")
+    length = Parameter("m", "Least distance of b from a.", default=0.0)
+    push = Unknown("N", "Force that keeps them apart.")
+    force = Output("N", "Force that keeps them apart, never negative.")
+    gap = Output("m", "b.x - a.x - length.")
+    zones = Zones("free", "touching")
+
+    @zone("free")
+    def apart(p, a, b, push):
+        """Nothing touches."""
+        return Law(a=0, b=0, push=push, force=0, gap=b.x - a.x - p.length)
+
+    @zone("touching")
+    def together(p, a, b, push):
+        """One speed."""
+        return Law(a=push, b=-push, push=hold(b.v - a.v), force=push, gap=b.x - a.x - p.length)
+
+    @guard("free", to="touching", unit="m")
+    def meets(p, a, b):
+        """The gap is closed, and they do not move apart."""
+        return a.x + p.length - b.x, MOMENT * (a.v - b.v)
+
+    @guard("touching", to="free", unit="N")
+    def parts(p, push):
+        """It would have to pull."""
+        return -push
