@@ -7,6 +7,7 @@ import textwrap
 import pytest
 
 import fairlead
+from fairlead.component.dependencies import dependencies
 from fairlead.errors import ModelError
 
 NETLIST = """\
@@ -202,6 +203,21 @@ def test_functions_and_powers_say_in_machine_code_what_they_say_in_python(tmp_pa
     """
     _, (library,) = scene(tmp_path, body, name="functions")
     contract(load_library(library).Mine)
+
+
+def test_a_member_that_joins_a_family_later_does_not_change_what_the_others_depend_on(scene, library):
+    """Its kernel would be compiled again under another name, in every process with another library."""
+    belt = fairlead.load("belt")
+    before = [dependencies(instance.variant) for instance in belt.flat.instances]
+    relative = library("""
+        from fairlead.components.friction.hold import Hold
+
+        class HeldOtherwise(Hold):
+            '''Exact hold by another word.'''
+            word = "held_otherwise"
+    """)
+    fairlead.load("belt", set={"pad.method": "held_otherwise"}, libraries=[relative]).check()
+    assert [dependencies(instance.variant) for instance in belt.flat.instances] == before
 
 
 def test_a_new_netlist_of_known_classes_compiles_nothing(tmp_path, monkeypatch):

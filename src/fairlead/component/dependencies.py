@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
+from fairlead.component.answers import SET_HERE
 from fairlead.component.declare import Derived, Guard, Sampled, Shared, ZoneLaw
 from fairlead.component.values import Variant
 
@@ -90,8 +91,8 @@ def _wrapped(thing: Any) -> list[Any]:
 
 
 def _matters(name: str, member: Any) -> bool:
-    """False for what Python notes of a class (its lines, its documentation) and for the list of its relatives."""
-    return name not in ("members", "exempt") and (not name.startswith("__") or callable(member))
+    """False for what Python notes of a class (its lines, its documentation), and the framework (its relatives)."""
+    return name not in (*SET_HERE, "exempt") and (not name.startswith("__") or callable(member))
 
 
 def _of_function(function: FunctionType, seen: set[int]) -> list[str]:
