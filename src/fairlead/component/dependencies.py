@@ -34,9 +34,9 @@ def dependencies(variant: Variant) -> str:
 def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
-    tracing = "declare declaration answers base functions trace values piecewise"
+    tracing = "declare declaration answers base functions keys trace values piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
-    text = "kernels kernel_text dependence held_pairs lowering lowered_values layout structure break_away"
+    text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away"
     files += [here.parent / "system" / f"{name}.py" for name in text.split()]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 

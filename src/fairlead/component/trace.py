@@ -20,6 +20,7 @@ import sympy
 from fairlead.component.base import LEDGER, source_place, terms_of
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Choice, Count, Hold, Law, Part, Port, Table, Waveform
+from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TABLE, TIME, Key, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.values import Variant
 
@@ -167,9 +168,9 @@ def inverse_mass(port: str) -> str:
 
 
 @functools.cache
-def symbol(key: str) -> sympy.Symbol:
-    """The real symbol of a key such as `port:a:v`, `own:force`, `in:normal`, `p:stiffness`, `t`."""
-    return sympy.Symbol(key, real=True)
+def symbol(text: str) -> sympy.Symbol:
+    """The real symbol of a key (`keys.py`)."""
+    return sympy.Symbol(text, real=True)
 
 
 def trace(variant: Variant) -> Traced:
@@ -209,18 +210,18 @@ def trace_function(
 def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     zone, law = TracedZone(), has.laws[name]
     arguments = _arguments(variant, has, name, zone.tables)
-    for key, value in _terms(variant, law, arguments):
-        if key in has.ports:
-            zone.flows[key] = _smooth(value, law)
+    for term, value in _terms(variant, law, arguments):
+        if term in has.ports:
+            zone.flows[term] = _smooth(value, law)
         elif isinstance(value, Hold):
-            zone.holds[key] = _hold_row(value, law)
-            zone.own[key] = _hold_right_side(zone.holds[key].slip)
-        elif key in has.outputs:
-            zone.outputs[key] = _expression(value, law)
-        elif key in LEDGER:
-            zone.ledger[key] = _power(value, law)
+            zone.holds[term] = _hold_row(value, law)
+            zone.own[term] = _hold_right_side(zone.holds[term].slip)
+        elif term in has.outputs:
+            zone.outputs[term] = _expression(value, law)
+        elif term in LEDGER:
+            zone.ledger[term] = _power(value, law)
         else:
-            zone.own[key] = _smooth(value, law)
+            zone.own[term] = _smooth(value, law)
     for name in has.outputs.keys() & has.discrete.keys():  # what a controller in plain Python holds
         zone.outputs[name] = symbol(f"p:#{name}")
     for line in LEDGER:
@@ -312,25 +313,25 @@ def _smooth(value: Any, law: Callable[..., Any]) -> sympy.Expr:
     kinks = sorted(map(str, expression.atoms(*KINKED)))
     if kinks:
         raise TraceError(f"{source_place(law)}: {kinks[0]} is not smooth; give each branch a zone")
-    return _without(expression, law, (":a", ":R"), "a law must not read an acceleration or a reaction")
+    return _without(expression, law, ("a", "R"), "a law must not read an acceleration or a reaction")
 
 
 def _power(value: Any, law: Callable[..., Any]) -> sympy.Expr:
     """A line of the ledger; it may read a reaction, which is known by then."""
-    return _without(_expression(value, law), law, (":a",), "power and energy must not read an acceleration")
+    return _without(_expression(value, law), law, ("a",), "power and energy must not read an acceleration")
 
 
-def _without(expression: sympy.Expr, law: Callable[..., Any], ends: tuple[str, ...], what: str) -> sympy.Expr:
-    read = sorted(s.name for s in expression.free_symbols if s.name.startswith("port:") and s.name.endswith(ends))
+def _without(expression: sympy.Expr, law: Callable[..., Any], parts: tuple[str, ...], what: str) -> sympy.Expr:
+    read = sorted(one for s in expression.free_symbols if (one := key(s.name)).kind == PORT and one.part in parts)
     if read:
-        _, port, kind = read[0].split(":")
-        raise TraceError(f"{source_place(law)}: {what} ({port}'s {'acceleration' if kind == 'a' else 'reaction'})")
+        said = "acceleration" if read[0].part == "a" else "reaction"
+        raise TraceError(f"{source_place(law)}: {what} ({read[0].name}'s {said})")
     return expression
 
 
 def _hold_row(said: Hold, law: Callable[..., Any]) -> HoldRow:
     slip = _smooth(said.slip, law)
-    speeds = [s for s in slip.free_symbols if s.name.startswith("port:") and s.name.endswith(":v")]
+    speeds = [s for s in slip.free_symbols if key(s.name).is_speed]
     rates = {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)}
     if not speeds or any(rate.free_symbols & set(speeds) for rate in rates.values()):
         raise TraceError(f"{source_place(law)}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
@@ -345,13 +346,13 @@ def _fixed(slip: sympy.Expr, rates: dict[str, sympy.Expr], law: Callable[..., An
     The row of a hold is d(slip)/dt = -slip/tau, with d(slip)/dt the sum of ratio times acceleration. What a moving
     ratio, or a moving speed that is added, would add to that is not in it.
     """
-    for key, rate in rates.items():
+    for speed, rate in rates.items():
         if moving := _moving(rate):
-            _, port, _ = key.split(":")
-            what = f"the ratio of {port}'s speed varies with {moving}. A ratio must be made of numbers and parameters"
+            whose = f"{key(speed).name}'s speed"
+            what = f"the ratio of {whose} varies with {moving}. A ratio must be made of numbers and parameters"
             way_out = "Write a ratio that moves as a stiff spring and a damper between the two motions"
             raise TraceError(f"{source_place(law)}: hold({slip}): {what}. {way_out}.")
-    if moving := _moving(slip.xreplace({symbol(key): sympy.S.Zero for key in rates})):
+    if moving := _moving(slip.xreplace({symbol(speed): sympy.S.Zero for speed in rates})):
         what = f"what is added to the speeds varies with {moving}. It must be made of numbers and parameters"
         way_out = "Prescribe a speed that moves as that of a port, by a motion source"
         raise TraceError(f"{source_place(law)}: hold({slip}): {what}. {way_out}.")
@@ -359,23 +360,23 @@ def _fixed(slip: sympy.Expr, rates: dict[str, sympy.Expr], law: Callable[..., An
 
 def _moving(expression: sympy.Expr) -> str:
     """What may vary within a run in this part of a slip; empty if nothing does."""
-    varies = (s for s in expression.free_symbols if s.name.startswith("p:#") or not s.name.startswith("p:"))
-    return ", ".join(dict.fromkeys(_said(key) for key in sorted(s.name for s in varies)))
+    varies = sorted(s.name for s in expression.free_symbols if not key(s.name).is_fixed)
+    return ", ".join(dict.fromkeys(_said(key(text)) for text in varies))
 
 
-def _said(key: str) -> str:
-    """The author's words for the key of a symbol."""
-    kind, _, name = key.partition(":")
+def _said(one: Key) -> str:
+    """The author's words for what a symbol stands for."""
     words = {
-        "t": "time", "T": f"the table {name.rpartition(':')[0]!r}", "in": f"the signal {name!r}", "own": repr(name),
-        "p": f"the discrete {name[1:]!r}", "port": f"the motion of {name.partition(':')[0]!r}",
+        TIME: "time", TABLE: f"the table {one.name!r}", INPUT: f"the signal {one.name!r}", OWN: repr(one.name),
+        PARAMETER: f"the discrete {one.name[1:]!r}", PORT: f"the motion of {one.name!r}",
     }  # fmt: skip
-    return words[kind]
+    return words[one.kind]
 
 
 def _hold_right_side(slip: Any) -> sympy.Expr:
     """-slip/tau, less the acceleration of prescribed surfaces (zero for free ones)."""
-    prescribed = {s: symbol(s.name[:-1] + "A") for s in slip.free_symbols if s.name.endswith(":v")}
+    speeds = {s: key(s.name) for s in slip.free_symbols if key(s.name).is_speed}
+    prescribed = {s: symbol(f"port:{speed.name}:A") for s, speed in speeds.items()}
     return -slip / symbol(f"p:{TAU}") - sum(sympy.diff(slip, s) * a for s, a in prescribed.items())
 
 

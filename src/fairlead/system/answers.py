@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.keys import OWN, key
 from fairlead.component.piecewise import DEGREE, FAR, STRIDE
 from fairlead.system import layout
 from fairlead.system.asking import ask
@@ -85,7 +86,7 @@ def laws(system: Instance) -> Laws:
         np.concatenate([gives for _, gives, _ in columns]), np.concatenate([row for _, _, row in columns]),
         np.repeat([bool(s.period or s.time_tables) for s in structures], counts),
         np.repeat([s.machines > 0 for s in structures], counts),
-        np.repeat([any(t.startswith("own:") for t in s.targets) for s in structures], counts),
+        np.repeat([any(key(t).kind == OWN for t in s.targets) for s in structures], counts),
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.keys import INPUT, OWN, TIME, key
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
 from fairlead.component.values import number_given, parameter, polynomial
 from fairlead.flatten.flat_model import FlatModel
@@ -90,7 +91,7 @@ def build_blocks(
 def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering: Numbering, ranks: dict[str, int],
            tables: Tables, machines: list[tuple[str, int]], tau: float) -> Block:  # fmt: skip
     s = kernel.structure
-    inputs = [[place_of_input(flat, numbering, instance, key) for key in s.inputs] for instance in instances]
+    inputs = [[place_of_input(flat, numbering, instance, one) for one in s.inputs] for instance in instances]
     flows = [[_target(flat, numbering, instance, target) for target in s.targets] for instance in instances]
     slots = []
     for instance in instances:
@@ -122,17 +123,16 @@ def _signal(numbering: Numbering, output: PortRef) -> int:
     return numbering.dump if place is None else numbering.n + place
 
 
-def place_of_input(flat: FlatModel, numbering: Numbering, instance: Instance, key: str) -> tuple[int, float, float]:
+def place_of_input(flat: FlatModel, numbering: Numbering, instance: Instance, text: str) -> tuple[int, float, float]:
     """Where an input lies in z, its coefficient and its offset."""
-    kind, _, rest = key.partition(":")
-    if kind == "t":
+    one = key(text)
+    if one.kind == TIME:
         return numbering.time, 1.0, 0.0
-    if kind == "own":
-        return numbering.own[instance.path, rest], 1.0, 0.0
-    if kind == "in":
-        return _signal_input(flat, numbering, instance, rest)
-    port, variable = rest.split(":")
-    return _port_input(flat, numbering, PortRef(instance.path, port), variable)
+    if one.kind == OWN:
+        return numbering.own[instance.path, one.name], 1.0, 0.0
+    if one.kind == INPUT:
+        return _signal_input(flat, numbering, instance, one.name)
+    return _port_input(flat, numbering, PortRef(instance.path, one.name), one.part)
 
 
 def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, name: str) -> tuple[int, float, float]:
@@ -175,8 +175,8 @@ def place_of_motion(
 
 def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: str) -> tuple[int, float]:
     """Row of w and coefficient of a flow, rate or balance. A balance is written  M v' = -sum of flows."""
-    kind, name = target.split(":")
-    if kind == "own":
+    kind, name, _ = key(target)
+    if kind == OWN:
         return numbering.own[instance.path, name], 1.0
     index, ratio, _ = flat.place(PortRef(instance.path, name))
     if flat.groups[index].free:

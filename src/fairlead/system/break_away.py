@@ -22,6 +22,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from fairlead.component.keys import PARAMETER, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.values import Values, parameter, polynomial
 
@@ -128,7 +129,7 @@ def _shares(traced: Traced) -> Iterator[tuple[sympy.Expr, Mapping[str, sympy.Exp
 
 def _settled(zone: TracedZone, flow: sympy.Expr, u: sympy.Symbol) -> sympy.Expr | None:
     """What a port takes in, with the unknown as the zone's own balance has it; as it is where the zone holds."""
-    unknown = u.name.removeprefix("own:")
+    unknown = key(u.name).name
     if u not in flow.free_symbols or unknown in zone.holds:
         return flow
     balance = _root(zone.own[unknown], u)
@@ -179,9 +180,9 @@ def _text(share: sympy.Expr, where: Mapping[str, sympy.Expr]) -> tuple[str, str]
 def _written(expression: sympy.Expr, known: Mapping[Any, str]) -> str:
     import sympy
 
-    names = {s: sympy.Symbol(known.get(s) or f'p["{s.name.removeprefix("p:")}"]') for s in expression.free_symbols}
+    names = {s: sympy.Symbol(known.get(s) or f'p["{key(s.name).number}"]') for s in expression.free_symbols}
     return str(sympy.pycode(expression.xreplace(names), fully_qualified_modules=False))
 
 
 def _told(share: sympy.Expr, known: Mapping[Any, str]) -> bool:
-    return all(s in known or s.name.startswith("p:") for s in share.free_symbols)
+    return all(s in known or key(s.name).kind == PARAMETER for s in share.free_symbols)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.component.keys import key
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system import layout
@@ -85,7 +86,7 @@ def _tell_of_the_whole(
         "carried_coef": np.stack([carried.ratio[x], carried.offset[x], carried.ratio[v],
                                   carried.ratio[a] * carried.mass, 1 / carried.bond], axis=1),
     })  # fmt: skip
-    accelerations = any(key.endswith(":a") for block in system.blocks for key in block.kernel.structure.inputs)
+    accelerations = any(key(one).part == "a" for block in system.blocks for one in block.kernel.structure.inputs)
     given = (carried.row[v] >= system.n).any()  # of a carrier whose motion is prescribed the force is a reaction
     part.memory["context"][layout.SLIP_SHOWN] = int(accelerations or given)
     tie(part, system)

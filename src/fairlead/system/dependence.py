@@ -24,6 +24,7 @@ from typing import Any
 
 import sympy
 
+from fairlead.component.keys import INPUT, PORT, TABLE, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.trace import Traced, TracedGuard, TraceError, symbol
 from fairlead.system.structure import PIECES, Sum
@@ -66,8 +67,8 @@ def _alike(used: Sequence[int], inputs: Sequence[str]) -> Iterator[list[int]]:
     """Inputs of one kind: positions of ports, their speeds, their accelerations; every other one by itself."""
     kinds: dict[str, list[int]] = {}
     for j in used:
-        key = inputs[j]
-        kinds.setdefault(key.rpartition(":")[2] if key.startswith("port:") else key, []).append(j)
+        one = key(inputs[j])
+        kinds.setdefault(one.part if one.kind == PORT else inputs[j], []).append(j)
     yield from kinds.values()
 
 
@@ -82,11 +83,11 @@ def _differences(expression: sympy.Expr, alike: list[int], inputs: Sequence[str]
 
 def _moves_along(expression: sympy.Expr, keys: Sequence[str]) -> bool:
     """True if it reads these inputs only over each other: written in the first and the others over it, that cancels."""
-    first, *others = (symbol(key) for key in keys)
+    first, *others = (symbol(text) for text in keys)
     shifted = expression.xreplace({other: other + first for other in others})
     if first not in shifted.free_symbols:
         return True
-    read = any(s.name.startswith("T:") for s in shifted.free_symbols)  # then the place counts; long to write out
+    read = any(key(s.name).kind == TABLE for s in shifted.free_symbols)  # then the place counts; long to write out
     if read or any(_terms(part) > MANY_TERMS for part in sympy.preorder_traversal(shifted)):
         return False
     return first not in sympy.expand(shifted).free_symbols
@@ -142,13 +143,13 @@ def carried_ratio(traced: Traced) -> list[tuple[str, float]]:
     number, factors = ratio.as_coeff_Mul()
     found: list[tuple[str, float]] = [("", float(number))]
     for base, power in factors.as_powers_dict().items():
-        key = getattr(base, "name", "")
         if base == 1:
             continue
-        if not power.is_Integer or not (key.startswith(("p:", "in:")) and not key.startswith("p:#")):
+        read = key(base.name) if base.is_Symbol else None
+        if not power.is_Integer or read is None or not (read.is_fixed or read.kind == INPUT):
             found = []
             break
-        found.append((key, float(power)))
+        found.append((base.name, float(power)))
     if number == 0 or not found:
         raise TraceError(
             f"{kind.__name__}: zone {says.zone!r} is said to carry {says.node!r} by {says.by!r}, and its law ties "

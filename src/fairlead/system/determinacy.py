@@ -19,6 +19,7 @@ import networkx as nx
 import numpy as np
 
 from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.system.blocks import Block
@@ -47,7 +48,7 @@ def _unknown_speeds(flat: FlatModel, numbering: Numbering, blocks: list[Block]) 
     for block in blocks:
         s = block.kernel.structure
         holds = any(s.zones[0] in zones for zones in s.holds.values())
-        ports = [key.split(":")[1] for key in s.inputs if key.startswith("port:") and key.endswith(":v")]
+        ports = [one.name for one in map(key, s.inputs) if one.is_speed]
         for port in (PortRef(instance.path, name) for instance in block.instances for name in ports):
             index, _, _ = flat.place(port)
             group = flat.groups[index]
@@ -90,7 +91,7 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
 def _depends_on_motion(block: Block) -> bool:
     """True when what a component takes in depends on its ports, or on a signal."""
     uses = [keys for zone in block.kernel.structure.flow_inputs.values() for keys in zone.values()]
-    return any(key.startswith(("port:", "in:")) for keys in uses for key in keys)
+    return any(key(one).kind in (PORT, INPUT) for keys in uses for one in keys)
 
 
 def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[int], *, always: bool) -> Fault:
@@ -123,9 +124,9 @@ def _index(block: Block, owners: Iterable[str]) -> int:
     s = block.kernel.structure
     if not set(owners) & {instance.path for instance in block.instances}:
         return 1
-    asked = [keys for target, keys in s.flow_inputs[s.zones[0]].items() if target.startswith("own:")]
-    of_motion = [keys for keys in asked if keys and all(key.startswith("port:") for key in keys)]
-    return max((2 if any(key.endswith(":v") for key in keys) else 3 for keys in of_motion), default=1)
+    asked = [keys for target, keys in s.flow_inputs[s.zones[0]].items() if key(target).kind == OWN]
+    of_motion = [keys for keys in asked if keys and all(key(one).kind == PORT for one in keys)]
+    return max((2 if any(key(one).is_speed for one in keys) else 3 for keys in of_motion), default=1)
 
 
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
@@ -200,8 +201,8 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
         s = block.kernel.structure
         for zone in s.zones[:1] if start else s.zones:
             for k, target in enumerate(s.targets):
-                for key in s.flow_inputs[zone].get(target, ()):
-                    _enter(rows_of, block, k, s.inputs.index(key), signals)
+                for one in s.flow_inputs[zone].get(target, ()):
+                    _enter(rows_of, block, k, s.inputs.index(one), signals)
         for unknown, j in s.mass:
             if s.zones[0] in s.holds[unknown] or not start:
                 row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]

@@ -18,6 +18,7 @@ import numpy as np
 
 from fairlead.component.declare import Carries
 from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import PARAMETER, key
 from fairlead.system.asking import call, guards_at, partials_at
 from fairlead.system.blocks import Block, place_of_motion
 from fairlead.system.rest import Floats, Integers
@@ -188,11 +189,11 @@ def _ratios(system: Instance, block: Block, which: Integers) -> tuple[Floats, li
     """By instance: the ratio of the speeds of node and carrier, and the places of z it is read from."""
     s = block.kernel.structure
     ratio, places = np.full(len(which), s.carries[0][1]), []
-    for key, power in s.carries[1:]:
-        if key.startswith("p:"):
-            factor = block.parameters[which, s.parameters.index(key[2:])]
+    for text, power in s.carries[1:]:
+        if key(text).kind == PARAMETER:
+            factor = block.parameters[which, s.parameters.index(key(text).number)]
         else:
-            j = s.inputs.index(key)
+            j = s.inputs.index(text)
             at = block.in_index[which, j]
             factor = block.in_coef[which, j] * system.memory["z"][at] + block.in_offset[which, j]
             places.append(at)

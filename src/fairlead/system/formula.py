@@ -13,8 +13,9 @@ from collections.abc import Mapping
 import sympy
 
 from fairlead.component.declaration import Declaration
+from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TIME, key
 
-KINDS = ("p", "in", "own", "port", "t")  # of symbols, in the order of factors of a product
+KINDS = (PARAMETER, INPUT, OWN, PORT, TIME)  # of symbols, in the order of factors of a product
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
 Names = Mapping[str, str]  # key of a symbol -> what the author called it
 
@@ -50,7 +51,7 @@ class _Writer:
     def _said(self, e: sympy.Expr) -> tuple[str, int]:
         e = _without_minus(e)
         if e.is_Symbol:
-            return self._names.get(e.name, e.name.partition(":")[2] or e.name), ATOM
+            return self._names.get(e.name) or key(e.name).number or e.name, ATOM
         if e.is_Add:
             return self._sum(e), SUM
         if e.is_Mul or (e.is_Rational and not e.is_Integer):
@@ -110,7 +111,7 @@ class _Writer:
 
 
 def _kind(s: sympy.Symbol) -> int:
-    kind = s.name.partition(":")[0]
+    kind = key(s.name).kind
     return KINDS.index(kind) if kind in KINDS else len(KINDS)
 
 
@@ -129,4 +130,4 @@ def negative(e: sympy.Expr) -> bool:
 
 def is_parameter(e: sympy.Expr) -> bool:
     """True for what does not change during a run: numbers and parameters only."""
-    return all(s.name.startswith("p:") for s in e.free_symbols)
+    return all(key(s.name).kind == PARAMETER for s in e.free_symbols)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 import sympy
 
+from fairlead.component.keys import key
 from fairlead.component.trace import TracedZone, symbol
 
 
@@ -26,7 +27,7 @@ def held_pairs(zones: Iterable[TracedZone]) -> dict[str, tuple[dict[str, float],
 def _held_pair(
     zone: TracedZone, unknown: str, rates: Mapping[str, sympy.Expr]
 ) -> tuple[dict[str, float], float] | None:
-    speeds = {key.split(":")[1]: rate for key, rate in rates.items()}
+    speeds = {key(speed).name: rate for speed, rate in rates.items()}
     taken = {port: sympy.diff(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
     taken = {port: value for port, value in taken.items() if value != 0}
     if taken.keys() != speeds.keys() or not all(v.is_Number for v in (*taken.values(), *speeds.values())):

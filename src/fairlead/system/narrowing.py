@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fairlead.component.keys import OWN, key
 from fairlead.system.answers import Laws, laws
 from fairlead.system.cutting import cut
 from fairlead.system.entrained import Bonds, entrained, nothing_entrained
@@ -155,7 +156,7 @@ def _own_unknowns(system: Instance, laws: Sequence[Booleans]) -> Booleans:
     found = np.zeros(system.n, dtype=bool)
     for block, chosen in zip(system.blocks, laws, strict=True):
         for k, target in enumerate(block.kernel.structure.targets):
-            if target.startswith("own:"):
+            if key(target).kind == OWN:
                 found[block.flow_index[chosen, k]] = True
     return found
 

@@ -24,6 +24,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import OWN, key
 from fairlead.system.answers import Laws, answers
 from fairlead.system.asking import call, guards_at
 from fairlead.system.entrained import Entrained
@@ -136,7 +137,7 @@ class Partition:
         for block in system.blocks:
             mine = self.laws[start : start + block.count]
             for k, target in enumerate(block.kernel.structure.targets):
-                if target.startswith("own:"):
+                if key(target).kind == OWN:
                     kept[block.flow_index[mine, k]] = True
             start += block.count
         sharing = {group for group, _ in self._ends_of_circles(kept)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import networkx as nx
 
 from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import INPUT, PORT, key
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.kernels import Kernel
@@ -59,13 +60,12 @@ def _deciding(structure: Structure, output: str) -> list[str]:
 def _read_by(flat: FlatModel, output: PortRef, keys: list[str]) -> list[PortRef]:
     """Outputs whose values decide this one, through the signal inputs and prescribed motions among `keys`."""
     found = []
-    for key in keys:
-        kind, _, rest = key.partition(":")
-        if kind == "in":
-            source = flat.sources.get(PortRef(output.instance, rest))
+    for one in map(key, keys):
+        if one.kind == INPUT:
+            source = flat.sources.get(PortRef(output.instance, one.name))
             found += [source] if source else []
-        elif kind == "port":
-            found += _prescribing(flat, PortRef(output.instance, rest.split(":")[0]))
+        elif one.kind == PORT:
+            found += _prescribing(flat, PortRef(output.instance, one.name))
     return [source for source in found if source.instance != output.instance]
 
 

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.instantiate import Instance
+from fairlead.component.keys import INPUT, key
 from fairlead.component.values import number_given, polynomial
 from fairlead.errors import ModelError
 from fairlead.flatten.collection import collected_later
@@ -157,7 +158,7 @@ def _offsets(
 ) -> Floats:  # fmt: skip
     """Inputs that nothing is connected to take a number of the component, and those on a fixed body its place."""
     keys, made = old.kernel.structure.inputs, old.in_offset.copy()
-    loose = [j for j, key in enumerate(keys) if key.startswith("in:") and (old.in_index[:, j] == numbering.zero).any()]
+    loose = [j for j, one in enumerate(keys) if key(one).kind == INPUT and (old.in_index[:, j] == numbering.zero).any()]
     for rows_, columns in ((fresh, loose), (beside, range(len(keys)))):
         for i in rows_:
             for j in columns:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.keys import OWN, key
 from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import Wave, polynomial
 from fairlead.system.blocks import Block
@@ -79,9 +80,8 @@ def _places(block: Block) -> Iterator[tuple[NDArray[np.int64], set[int]]]:
     for k in range(len(s.outputs)):
         yield block.sig_index.reshape(block.count, -1)[:, k], _inputs(s, s.zones, k)
     for k, target in enumerate(s.targets):
-        kind, _, name = target.partition(":")
-        if kind == "own":
-            zones = [zone for zone in s.zones if zone not in s.holds.get(name, ())]
+        if key(target).kind == OWN:
+            zones = [zone for zone in s.zones if zone not in s.holds.get(key(target).name, ())]
             rows = block.flow_index.reshape(block.count, -1)[:, k]  # that of an unknown is its place in z
             yield rows, _inputs(s, zones, len(s.outputs) + k)
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.keys import PORT, key
 from fairlead.component.values import number_given
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.system.circles import REST, HeldPair, circles
@@ -155,8 +156,8 @@ def _groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure
 
 def _ports_with_rate_forces(structure: Structure) -> set[str]:
     flows = [flow for uses in structure.flow_inputs.values() for flow in uses.items()]
-    keys = {key for target, read in flows if target.startswith("port:") for key in read}
-    return {key.split(":")[1] for key in keys if key.endswith(":v")}
+    keys = {key(one) for target, read in flows if key(target).kind == PORT for one in read}
+    return {one.name for one in keys if one.is_speed}
 
 
 def reaction_masses(flat: FlatModel, numbering: Numbering) -> list[tuple[int, float, int]]:

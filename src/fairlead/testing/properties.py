@@ -17,6 +17,7 @@ import numpy as np
 
 from fairlead.component.base import terms_of
 from fairlead.component.declare import Hold, Table, Waveform
+from fairlead.component.keys import OWN, PORT, key
 from fairlead.component.values import parameter
 from fairlead.system import layout
 from fairlead.testing.rig import Rig
@@ -204,7 +205,7 @@ def odd(make: Maker, rng: np.random.Generator) -> None:
             continue
         one, other = ends
         # With no motion at all either direction may claim the instant, as on landing; the forces must agree even so.
-        moves = any(value != 0 for key, value in at.values.items() if key.startswith("port:") and key.endswith(":v"))
+        moves = any(value != 0 for one, value in at.values.items() if key(one).is_speed)
         if moves and zones.mirrored(world.zone(one)) != world.zone(other):
             raise ContractError(
                 f"{world.where(one)}: with every motion and force reversed it is in zone {world.zone(other)}"
@@ -283,7 +284,7 @@ def _argument(world: World, at: Instant, name: str) -> Any:
     """What a law asks for, with numbers in it."""
     has, values = world.kind.declaration, at.values
     if name in has.ports:
-        port = {key.split(":")[2]: value for key, value in values.items() if key.startswith(f"port:{name}:")}
+        port = {key(one).part: value for one, value in values.items() if key(one)[:2] == (PORT, name)}
         domain = has.ports[name].domain
         said = {variable: port[kind] for (variable, _), kind in zip(domain.across, "xv", strict=False)}
         said |= {domain.acceleration: port["a"].real} if domain.acceleration else {}
@@ -334,10 +335,10 @@ def _power_in(world: World, at: Instant, rates: dict[str, float]) -> float:
 def _power_met(world: World, at: Instant) -> float:
     """The largest product of a flow and a speed, the scale of rounding."""
     flows = world.flows(at)
-    speeds = [abs(v) for key, v in at.values.items() if key.endswith((":v", ":x"))]
+    speeds = [abs(v) for one, v in at.values.items() if key(one).part in ("v", "x")]
     return max((abs(f) for f in flows.values()), default=0.0) * max(speeds, default=0.0)
 
 
 def _mirrored(at: Instant) -> Instant:
-    turned = {key: -value if key.startswith(("port:", "own:")) else value for key, value in at.values.items()}
+    turned = {one: -value if key(one).kind in (PORT, OWN) else value for one, value in at.values.items()}
     return replace(at, values=turned, loads={name: -load for name, load in at.loads.items()})

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.base import Declared
+from fairlead.component.keys import key
 from fairlead.component.values import Values
 from fairlead.system import layout
 from fairlead.testing.rig import Rig
@@ -129,7 +130,7 @@ class World:
         found: dict[str, dict[str, float]] = {u: {} for u, zones in s.holds.items() if zone in zones}
         for (unknown, j), coefficient in zip(s.mass, rows, strict=True):
             if unknown in found:
-                found[unknown][s.inputs[j].split(":")[1]] = coefficient
+                found[unknown][key(s.inputs[j]).name] = coefficient
         return found
 
     def solve(self, at: Instant) -> Instant:
@@ -229,6 +230,5 @@ def _around(rng: np.random.Generator, most: float) -> float:
     return float(rng.choice([-1, 1]) * most * 10 ** rng.uniform(-6, 0))
 
 
-def _written(key: str) -> str:
-    kind, _, rest = key.partition(":")
-    return rest.replace(":", ".") if kind != "t" else "t"
+def _written(text: str) -> str:
+    return ".".join(said for said in key(text)[1:] if said) or text
