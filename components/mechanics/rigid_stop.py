@@ -9,15 +9,19 @@ class RigidStop(Component):
     free       b.x - a.x > length     force = 0
     touching   b.v = a.v              force = whatever holds, force >= 0
 
-    The force pushes b forward and a back. Where the ends meet, an impulse takes away the speed at which they meet
-    (`docs/integrator.md`). The other way round and with a negative length it is a rope that cannot stretch: RigidStop
-    from b to a of length -L keeps b.x - a.x <= L. Limits: a stop that gives under load, and rings, is an EndStop.
+    The force pushes b forward and a back. Where the ends meet, an impulse takes away the speed at which they meet,
+    and gives back `restitution` of it (`docs/integrator.md`, Impacts). The other way round, with a negative length, it
+    is a rope that cannot stretch: RigidStop from b to a of length -L keeps b.x - a.x <= L. Limits: a stop that gives
+    under load, and rings, is an EndStop.
     """
 
     exempt = {"settles": "bodies pulled apart within each other, which no run comes to: docs/integrator.md, Impacts"}
     a = Translational("the one behind")
     b = Translational("the one in front")
     length = Parameter("m", "Least distance of b from a.", default=0.0)
+    restitution = Parameter(
+        "1", "Share of the speed at which they meet with which they part.", default=0.0, least=0, most=1
+    )
     push = Unknown("N", "Force that keeps them apart.")
     force = Output("N", "Force that keeps them apart, never negative.")
     gap = Output("m", "b.x - a.x - length.")
@@ -31,7 +35,9 @@ class RigidStop(Component):
     @zone("touching")
     def together(p, a, b, push):
         """One speed."""
-        return Law(a=push, b=-push, push=hold(b.v - a.v), force=push, gap=b.x - a.x - p.length)
+        return Law(
+            a=push, b=-push, push=hold(b.v - a.v, restitution=p.restitution), force=push, gap=b.x - a.x - p.length
+        )
 
     @guard("free", to="touching", unit="m")
     def meets(p, a, b):

@@ -387,15 +387,18 @@ class Hold:
 
     slip: Any
     within: Any = None
+    restitution: Any = None
 
 
-def hold(slip: Any, within: Any = None) -> Any:
+def hold(slip: Any, within: Any = None, restitution: Any = None) -> Any:
     """Law of an algebraic unknown in a zone that holds: keep `slip` [m/s or rad/s] at zero.
 
     When the zone is entered with some slip, an impulse brings it to zero: without limit (a rigid link), or
     only a slip of at most `within`. A contact has such a limit: friction is finite, and gives no impulse.
+    What takes any impulse, and may let go, may give back: `restitution`, a number or a parameter from 0 to 1, is
+    the share of the slip with which it parts again (`docs/integrator.md`, Impacts).
     """
-    return Hold(slip, within)
+    return Hold(slip, within, restitution)
 
 
 @dataclass(frozen=True)

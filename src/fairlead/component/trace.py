@@ -46,6 +46,7 @@ class HoldRow:
     slip: sympy.Expr
     rates: dict[str, sympy.Expr]  # input key of a speed -> coefficient in the mass row
     impulse: sympy.Expr  # the slip that an impulse takes away when the zone is entered
+    restitution: sympy.Expr = sympy.S.Zero  # a number, or the symbol of a parameter
 
 
 @dataclass
@@ -337,7 +338,20 @@ def _hold_row(said: Hold, law: Callable[..., Any]) -> HoldRow:
         raise TraceError(f"{source_place(law)}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
     _fixed(slip, rates, law)
     little = 1 if said.within is None else (1 + sympy.sign(_smooth(said.within, law) - sympy.Abs(slip))) / 2
-    return HoldRow(slip, rates, slip * little)
+    return HoldRow(slip, rates, slip * little, _restitution(said, law))
+
+
+def _restitution(said: Hold, law: Callable[..., Any]) -> sympy.Expr:
+    """What a rigid row gives back: a number or one parameter."""
+    value = _smooth(0 if said.restitution is None else said.restitution, law)
+    place = source_place(law)
+    if not (value.is_number or (value.is_Symbol and key(value.name).is_fixed)):
+        raise TraceError(f"{place}: the restitution {value} must be a number or a parameter, such as p.restitution")
+    if value.is_number and not 0 <= value <= 1:
+        raise TraceError(f"{place}: the restitution {value} must lie between 0, no rebound, and 1, no loss")
+    if value != 0 and said.within is not None:
+        raise TraceError(f"{place}: a hold `within` takes no impulse and gives none back; leave out its restitution")
+    return value
 
 
 def _fixed(slip: sympy.Expr, rates: dict[str, sympy.Expr], law: Callable[..., Any]) -> None:

@@ -7,6 +7,7 @@ from fairlead.integrate.codes import (
     CHATTER,
     GO_ON,
     INCONSISTENT,
+    REBOUND_RUBS,
     REPLAN,
     SETTLE,
     SINGULAR_MATRIX,
@@ -16,6 +17,7 @@ from fairlead.integrate.codes import (
 from fairlead.integrate.controller import restart, weigh, weighted_norm
 from fairlead.integrate.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.growth import watch_growth
+from fairlead.integrate.impulse import RUBBED
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
@@ -112,6 +114,8 @@ def settle_here(m):
         return not_finite_here(m, INCONSISTENT)
     if status == NOT_SETTLED:
         return UNSETTLED
+    if status == RUBBED:
+        return REBOUND_RUBS
     if m.stop_asked == 1:
         return CHATTER
     if m.crossed == 1 and m.landing == 1 and m.t < m.stop:

@@ -12,7 +12,8 @@ and slides with P_t = mu P_n beyond that, because C has the slopes of the law; i
 round. A stop that would have to pull opens. One that touches at that instant, and that the speeds v + dV would close,
 closes: all impacts of an instant are one problem, whichever stop was found first. Who changes changes C, so all is
 asked again until nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
-What was let go slips, and is caught later as any contact is. The rebound is zero.
+What was let go slips, and is caught later as any contact is. Where stops rebound the speeds change by
+(1 + e) dV, and those that part again open (rebound.py).
 
 A slip whose dV is below the error weights is no impact but rounding, and so is one that a contact says it may take
 (`within`): `project` takes these away.
@@ -31,8 +32,9 @@ from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals, slip_at
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.linear import DONE, solve_watched
+from fairlead.integrate.rebound import NO_REBOUND, REBOUND, RUBS, rebound
 
-RELEASED = 6
+RELEASED, RUBBED = 6, 7
 LIMITED, UNLIMITED = 1, 2
 """What a row that may hold takes: an impulse as small as rounding leaves it, or any."""
 SHORT = 1e-12
@@ -61,8 +63,45 @@ def impact(m):
     change_zones_for(m)
     if m.n_fired > 0:
         return RELEASED
-    change_speeds(m)
-    return DONE
+    supports = any_support_moves(m)
+    back = NO_REBOUND if m.rebounds == 0 else rebound(m, least_impulse(m))
+    if back == RUBS:
+        return RUBBED
+    if back == REBOUND:
+        throw_back(m)
+    change_speeds(m, back, supports)
+    return RELEASED if m.n_fired > 0 else DONE
+
+
+@compiled
+def least_impulse(m):
+    """The impulse below which one is rounding."""
+    b, takes, largest = reals(m.at_b, m.n), indices(m.at_takes_impulse, m.n), 0.0
+    for k in range(m.n):
+        if takes[k] > 0:
+            largest = max(largest, abs(b[k]))
+    return LEAST_IMPULSE * largest
+
+
+@compiled
+def throw_back(m):
+    """Set u = (1 + e) dV, and fill `fired` with the guards of the stops that part again."""
+    n, ng = m.n, m.n_guards
+    y, b, r, e = reals(m.at_y, n), reals(m.at_b, n), reals(m.at_v, n), reals(m.at_y_probe, n)
+    dv, parting = reals(m.at_u, n), reals(m.at_x, n)
+    takes, least = indices(m.at_takes_impulse, n), least_impulse(m)
+    for k in range(n):
+        dv[k] *= 1.0 + e[k]
+        parting[k] = y[k] + dv[k]
+        if takes[k] == UNLIMITED and r[k] != 0.0 and e[k] > 0.0 and abs(b[k]) > least:
+            parting[k] = -b[k] / (SHORT * (m.stop - m.start))
+    evaluate_guards(m, m.t, m.at_x, m.at_g)
+    under, g, tolerance = reals(m.at_g_probe, ng), reals(m.at_g, ng), reals(m.at_guard_tolerance, ng)
+    may_hold, fired = indices(m.at_may_hold, ng), indices(m.at_fired, ng)
+    for i in range(ng):
+        if may_hold[i] == UNLIMITED and g[i] > tolerance[i] >= under[i]:
+            fired[m.n_fired] = i
+            m.n_fired += 1
 
 
 @compiled
@@ -103,15 +142,12 @@ def change_zones_for(m):
     n, ng = m.n, m.n_guards
     y, b, loaded = reals(m.at_y, n), reals(m.at_b, n), reals(m.at_y_probe, n)
     takes, differential = indices(m.at_takes_impulse, n), indices(m.at_differential, n)
-    largest = 0.0
-    for k in range(n):
-        if takes[k] > 0:
-            largest = max(largest, abs(b[k]))
+    least_taken = least_impulse(m)
     for k in range(n):
         loaded[k] = y[k]
         if differential[k] == 1:
             loaded[k] += b[k]
-        elif takes[k] > 0 and abs(b[k]) > LEAST_IMPULSE * largest:
+        elif takes[k] > 0 and abs(b[k]) > least_taken:
             loaded[k] = b[k] / (SHORT * (m.stop - m.start))
     evaluate_guards(m, m.t, m.at_y, m.at_g)
     evaluate_guards(m, m.t, m.at_y_probe, m.at_g_probe)
@@ -152,22 +188,23 @@ def move_on(m):
 
 
 @compiled
-def change_speeds(m):
-    """Add dV to the speeds and book what is lost, and what supports that move have given."""
+def change_speeds(m, back, supports):
+    """Add the change in u to the speeds and book what is lost, and what supports that move have given."""
     n = m.n
-    y, b, r = reals(m.at_y, n), reals(m.at_b, n), reals(m.at_v, n)
+    y, b, r, e = reals(m.at_y, n), reals(m.at_b, n), reals(m.at_v, n), reals(m.at_y_probe, n)
     dv, lost = reals(m.at_u, n), reals(m.at_lost, n)
+    for k in range(n if back == NO_REBOUND else 0):
+        e[k] = 0.0
     gained, loss = energies(m)
-    supports = any_support_moves(m)
     weight = 0.0
     for k in range(n):
-        y[k] += dv[k]
-        weight += abs(b[k] * r[k])
+        weight += abs(b[k] * r[k]) * (1.0 - e[k] ** 2)
     if not supports:
         loss = -gained
     for k in range(n):
+        y[k] += dv[k]
         if weight > 0.0:
-            lost[k] += loss * abs(b[k] * r[k]) / weight
+            lost[k] += loss * abs(b[k] * r[k]) * (1.0 - e[k] ** 2) / weight
     if m.dissipated_at >= 0:
         y[m.dissipated_at] += loss
         y[m.supplied_at] += gained + loss
@@ -175,16 +212,16 @@ def change_speeds(m):
 
 @compiled
 def energies(m):
-    """The change of kinetic energy that dV (in u) makes, and dV M dV / 2."""
+    """The change of kinetic energy that u makes, and what is lost: (1 - e^2) dV M dV / 2 with u = (1 + e) dV."""
     y, dv, differential = reals(m.at_y, m.n), reals(m.at_u, m.n), indices(m.at_differential, m.n)
     values, rows = reals(m.at_mass, m.n_mass), indices(m.at_mass_rows, m.n_mass)
-    columns = indices(m.at_mass_columns, m.n_mass)
+    columns, e = indices(m.at_mass_columns, m.n_mass), reals(m.at_y_probe, m.n)
     gained = loss = 0.0
-    for e in range(m.n_mass):
-        i, j = rows[e], columns[e]
+    for p in range(m.n_mass):
+        i, j = rows[p], columns[p]
         if differential[i] == 1:
-            loss += 0.5 * values[e] * dv[i] * dv[j]
-            gained += 0.5 * values[e] * (dv[i] * y[j] + y[i] * dv[j] + dv[i] * dv[j])
+            loss += 0.5 * values[p] * dv[i] * dv[j] * (1.0 - e[i]) / (1.0 + e[i])
+            gained += 0.5 * values[p] * (dv[i] * y[j] + y[i] * dv[j] + dv[i] * dv[j])
     return gained, loss
 
 

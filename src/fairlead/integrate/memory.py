@@ -40,7 +40,7 @@ INTEGERS = (
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # impacts: whether any row takes impulses, and the unknowns of the energy ledger (-1: there is none)
-    "takes_impulses", "dissipated_at", "supplied_at",
+    "takes_impulses", "rebounds", "dissipated_at", "supplied_at",
     # the core of W: which matrix is factored there, whether its factors are good, columns of the last factorisation
     "core_kind", "core_valid", "skip_meters", "n_redone", "n_perturbed", "most_perturbed",
     # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
@@ -113,7 +113,7 @@ VECTORS = {
     # machines
     "switched_after": "n_zones", "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
     # energy lost in impacts, by the row that held
-    "lost": "n",
+    "lost": "n", "rebound": "n",
     # the point as it was settled at the start
     "begun": "n",
     # what was recorded
@@ -167,7 +167,7 @@ INDICES = {
 BUFFERS = ("row_t", "row_values", "row_side", *(f"event_{of}" for of in ("t", "machine", "before", "after", "guard",
            "position")))  # fmt: skip
 """Arrays for what is recorded."""
-OF_INSTANCE = ("zones", "guard_inertia", "absolute", "relative", "cap", "column_scale", "guard_tolerance")
+OF_INSTANCE = ("zones", "guard_inertia", "rebound", "absolute", "relative", "cap", "column_scale", "guard_tolerance")
 """Arrays that the instance of the problem has."""
 SCRATCH = ("zones_history", "patterns_met")
 """Arrays that hold nothing between two steps, and are long."""

@@ -169,14 +169,16 @@ def check_lengths(problem: Problem, lengths: dict[str, int]) -> None:
 def point_at_instance(memory: Memory, own: Instance) -> None:
     """Tell the loop of the zones and weights of the run."""
     inertia = getattr(own, "guard_inertia", np.zeros(len(own.guard_machine)))
+    back = np.asarray(getattr(own, "rebound", np.zeros(len(own.initial))), np.float64)
     of_run = {
         "absolute": own.absolute, "relative": own.relative, "cap": own.cap, "guard_tolerance": own.guard_tolerance,
         "column_scale": np.minimum(own.absolute + own.relative * np.abs(own.initial), own.cap),
-        "guard_inertia": inertia,
+        "guard_inertia": inertia, "rebound": back,
     }  # fmt: skip
     for name, values in of_run.items():
         memory.point(name, values, np.float64)
     memory.point("zones", own.zones, np.int64)
+    memory.number["rebounds"] = int(back.any())
     memory.number["weighs_guards"] = int(inertia.any())
 
 

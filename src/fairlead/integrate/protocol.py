@@ -34,6 +34,7 @@ resists its force; 0 for others. Settling then knows which of two wrong zones is
 limit or an acceleration against the friction (settling.py). And `kink_guard` [ng]: guards at which f is continuous and
 nothing but its slope jumps, as between two pieces of a table; `rodas` steps a hair past those instead of on them.
 Where rows take impulses it tells by `takes_impulse` [n] (0: it never holds, 1: none but rounding, 2: any), and by
+`rebound` [n] with what coefficient of restitution (0: none, when missing; rebound.py), and by
 `ledger` the unknowns in which what is dissipated and supplied adds up, -1 for none (impulse.py).
 For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
 decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
@@ -265,6 +266,7 @@ class Status(IntEnum):
     MAX_EVENTS = 8
     MAX_WALL = 9
     INTERRUPTED = 10
+    REBOUND_RUBS = 11
 
     @property
     def is_budget(self) -> bool:

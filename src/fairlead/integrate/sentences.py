@@ -17,6 +17,9 @@ def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, 
         return (problem.unknown_names[int(number["culprit"])],)
     if status == Status.CHATTER:
         return (problem.machine_names[int(number["culprit"])],)
+    if status == Status.REBOUND_RUBS:
+        back, holder = memory.array["rebound"] > 0.0, np.asarray(problem.holder)
+        return tuple(problem.machine_names[z] for z in np.unique(holder[back & (holder >= 0)]))
     if status == Status.NOT_SETTLED:
         return tuple(problem.machine_names[z] for z in still_switching(memory))
     return ()
@@ -70,6 +73,10 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.CHATTER: (
             f"{when}: {names} switches to and fro faster than its dwell of {dwell:.2g} s. Its zones "
             "have no consistent choice at this point; add hysteresis, or hold it (on_chatter: hold)."
+        ),
+        Status.REBOUND_RUBS: (
+            f"{when}: {names} rebounds while friction takes part in the impact, and how much that gives back along "
+            "the surface no law says. Give it no restitution, or take a stop that gives (EndStop)."
         ),
         Status.MAX_STEPS: f"{when}: the budget of {run.max_steps} steps is used up; {kept}",
         Status.MAX_EVENTS: f"{when}: the budget of {run.max_events} events is used up; {kept}",

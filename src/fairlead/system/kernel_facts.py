@@ -12,6 +12,7 @@ import sympy
 
 from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TIME, key
 from fairlead.component.trace import (
+    HoldRow,
     Traced,
     TracedGuard,
     TracedZone,
@@ -73,6 +74,9 @@ class KernelFacts:
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             rigid=sorted({u for z in self.zones for u, h in z.holds.items() if h.impulse == h.slip}),
+            rebounds={
+                u: self._restitution(h) for z in self.zones for u, h in z.holds.items() if h.restitution != 0
+            },
             pairs={u: pair for u, (pair, _) in paired.items()}, senses={u: sense for u, (_, sense) in paired.items()},
             guards={name: [_describe(g, self, zone) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots, fixed_signals=self.fixed[0], fixed_flows=self.fixed[1], fixed_ledger=self.fixed[2],
@@ -157,7 +161,8 @@ class KernelFacts:
         for z in self.zones:
             found += [*z.flows.values(), *z.own.values(), *z.outputs.values(), *z.ledger.values()]
             found += [value for g in z.guards for value in g.values]
-            found += [value for h in z.holds.values() for value in (h.slip, h.impulse, *h.rates.values())]
+            for h in z.holds.values():
+                found += [h.slip, h.impulse, h.restitution, *h.rates.values()]
         return found
 
     def _pairs(self, values: Any) -> list[tuple[int, int]]:
@@ -169,6 +174,12 @@ class KernelFacts:
                     used = {s.name for s in value.free_symbols}
                     found |= {(k, j) for j, text in enumerate(self.inputs) if text in used}
         return sorted(found)
+
+    def _restitution(self, row: HoldRow) -> tuple[int, float]:
+        """Place in the parameters, or -1 where it is a number, which follows."""
+        if row.restitution.is_Symbol:
+            return self.parameters.index(key(row.restitution.name).number), 0.0
+        return -1, float(row.restitution)
 
     def _reads(self, zone: TracedZone) -> dict[str, dict[str, Any]]:
         """What this zone depends on, see dependence.py."""

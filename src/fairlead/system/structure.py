@@ -55,6 +55,7 @@ class Structure:
     inverse_masses: dict[str, str]  # parameter -> the port whose body it is one over the mass of
     sines: list[tuple[int, int]]  # places in parameters of (amplitude, angular frequency) of what swings in time
     shares_left: list[tuple[str, str]]  # of friction when a contact lets go, see `break_away`
+    rebounds: dict[str, tuple[int, float]]  # unknown that rebounds -> place of its share in parameters or -1, number
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 
     @property

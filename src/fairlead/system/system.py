@@ -147,6 +147,17 @@ class System:
         """What is met at a place and then takes any impulse, by name."""
         return [i.path for block in self.blocks if _meets_rigidly(block.kernel.structure) for i in block.instances]
 
+    @functools.cached_property
+    def rebound(self) -> Floats:
+        """Coefficient of restitution of every row that takes any impulse, 0 for others."""
+        found = np.zeros(self.n)
+        for block in self.blocks:
+            s = block.kernel.structure
+            for unknown, (place, number) in s.rebounds.items():
+                rows = block.flow_index[:, s.targets.index(f"own:{unknown}")]
+                found[rows] = number if place < 0 else block.parameters[:, place]
+        return found
+
     @property
     def longest_step(self) -> float:
         """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it."""
