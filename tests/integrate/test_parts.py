@@ -6,7 +6,7 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
-    "most_perturbed", "has_limits", "weighs_guards", "takes_impulses",
+    "most_perturbed", "has_limits", "weighs_guards", "rebounds", "takes_impulses",
     "dissipated_at", "supplied_at", "samples", "max_passes", "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
