@@ -49,8 +49,8 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
     that does not say which machine holds which row (`holder`), or which guards are limits, has none.
     """
     nz = len(problem.zones)
-    holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
-    limits = np.asarray(getattr(problem, "limit_guard", np.zeros(len(problem.guard_machine))), dtype=np.int64)
+    holder = np.asarray(problem.holder)
+    limits = np.asarray(problem.limit_guard, dtype=np.int64)
     found = _found(problem, holder) if limits.any() else [[] for _ in range(nz)]
     first = np.full(nz, -1, dtype=np.int64)
     for i in range(len(problem.guard_machine) - 1, -1, -1):
@@ -74,12 +74,12 @@ def known_rows(problem: Problem) -> dict[str, Floats | Integers]:
     a contact in a circle changes how the others share (`beyond_row`).
     """
     nz = len(problem.zones)
-    holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
+    holder = np.asarray(problem.holder)
     rows: list[list[int]] = [[] for _ in range(nz)]
     for k in np.flatnonzero(holder >= 0).tolist():
         rows[holder[k]].append(k)
     row = np.array([own[0] if len(own) == 1 else -1 for own in rows], dtype=np.int64)
-    row[np.asarray(getattr(problem, "beyond_row", ()), dtype=np.int64)] = -1
+    row[np.asarray(problem.beyond_row, dtype=np.int64)] = -1
     found: dict[str, Floats | Integers] = {"own_row": row}
     for name, pattern in (("own_slope", problem.pattern), ("own_mass", problem.mass_pattern)):
         machine = np.full(len(problem.initial), -1, dtype=np.int64)
@@ -101,7 +101,7 @@ def own_kinds(problem: Problem, slopes: Integers, masses: Integers) -> Integers:
     The problem says which machines follow the same laws (`machine_kind`). Of one that does not, every machine is
     a kind of its own: what is learnt of one then says nothing about others, which is safe.
     """
-    laws = np.asarray(getattr(problem, "machine_kind", np.arange(len(problem.zones))), dtype=np.int64)
+    laws = np.asarray(problem.machine_kind, dtype=np.int64)
     numbers: dict[tuple[int, ...], int] = {}
     shapes = zip(laws.tolist(), slopes.tolist(), masses.tolist(), strict=True)
     return np.array([numbers.setdefault(shape, len(numbers)) for shape in shapes], dtype=np.int64)
@@ -109,9 +109,8 @@ def own_kinds(problem: Problem, slopes: Integers, masses: Integers) -> Integers:
 
 def only_kinks(problem: Problem) -> Integers:
     """1 for machines that hold nothing and lead only from one piece of a continuous table to the next."""
-    ng, nz = len(problem.guard_machine), len(problem.zones)
-    machine = np.asarray(problem.guard_machine)
-    kink = np.asarray(getattr(problem, "kink_guard", np.zeros(ng)), dtype=bool)
+    nz, machine = len(problem.zones), np.asarray(problem.guard_machine)
+    kink = np.asarray(problem.kink_guard, dtype=bool)
     guards = np.bincount(machine[machine >= 0], minlength=nz)
     kinks = np.bincount(machine[(machine >= 0) & kink], minlength=nz)
     return ((guards > 0) & (guards == kinks)).astype(np.int64)
@@ -122,12 +121,12 @@ def what_is_held(problem: Instance) -> dict[str, Floats | Integers]:
 
     Of several bodies the one whose position is known best, by its weight at the start; -1 where there is none.
     """
-    nz, ng = len(problem.zones), len(problem.guard_machine)
+    nz = len(problem.zones)
     inertia, speed, position = np.zeros(nz), np.full(nz, -1, dtype=np.int64), np.full(nz, -1, dtype=np.int64)
-    machines, given = np.asarray(problem.guard_machine), np.asarray(getattr(problem, "guard_inertia", np.zeros(ng)))
+    machines, given = np.asarray(problem.guard_machine), np.asarray(problem.guard_inertia)
     np.maximum.at(inertia, machines[machines >= 0], given[machines >= 0])
     position_of = {v: x for x, v in lay_out(problem).positions.items() if v >= 0}
-    holder = np.asarray(getattr(problem, "holder", np.full(len(problem.initial), -1)))
+    holder = np.asarray(problem.holder)
     rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
     for e in np.flatnonzero(holder[rows] >= 0).tolist():
         machine, v = holder[rows[e]], int(columns[e])

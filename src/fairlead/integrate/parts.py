@@ -87,7 +87,7 @@ class Scope:
         )
         self.whole, self.whole_problem = self.memory, self.problem
         self.part: Any = None
-        self.narrowing: Any = getattr(self.problem, "narrowing", None)
+        self.narrowing: Any = self.problem.narrowing
         n = len(problem.initial)
         self._cost = LOOK_COST // max(n, 1) + LOOK_BASE
         self._pause, self._margin, self._since = self._cost, MARGIN, 0

@@ -63,7 +63,7 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, **plan.lengths,
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
-        **dict(zip(("dissipated_at", "supplied_at"), getattr(problem, "ledger", (-1, -1)), strict=True)),
+        **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
         "n_algebraic": int(n - np.count_nonzero(problem.differential)),
     }  # fmt: skip
     lengths = plan.lengths | {
@@ -77,9 +77,9 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
     }  # fmt: skip
     given: dict[str, np.ndarray] = {
         "guard_machine": problem.guard_machine,
-        "kink_guard": np.asarray(getattr(problem, "kink_guard", np.zeros(ng)), np.int64),
+        "kink_guard": np.asarray(problem.kink_guard, np.int64),
         "may_hold": _of_contacts(problem),
-        "takes_impulse": np.asarray(getattr(problem, "takes_impulse", np.zeros(n)), np.int64),
+        "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
@@ -101,8 +101,8 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
 
 def _of_contacts(problem: Problem) -> Integers:
     """By guard: 1 for those of a machine that decides whether a row holds, 2 if that row takes any impulse."""
-    holder = np.asarray(getattr(problem, "holder", ()), dtype=np.int64)
-    takes = np.asarray(getattr(problem, "takes_impulse", np.zeros(len(holder))), dtype=np.int64)
+    holder = np.asarray(problem.holder, dtype=np.int64)
+    takes = np.asarray(problem.takes_impulse, dtype=np.int64)
     held, rigid = np.isin(problem.guard_machine, holder[holder >= 0]), holder[(holder >= 0) & (takes == RIGID)]
     return held.astype(np.int64) + np.isin(problem.guard_machine, rigid)
 
@@ -168,8 +168,7 @@ def check_lengths(problem: Problem, lengths: dict[str, int]) -> None:
 
 def point_at_instance(memory: Memory, own: Instance) -> None:
     """Tell the loop of the zones and weights of the run."""
-    inertia = getattr(own, "guard_inertia", np.zeros(len(own.guard_machine)))
-    back = np.asarray(getattr(own, "rebound", np.zeros(len(own.initial))), np.float64)
+    inertia, back = np.asarray(own.guard_inertia), np.asarray(own.rebound, np.float64)
     of_run = {
         "absolute": own.absolute, "relative": own.relative, "cap": own.cap, "guard_tolerance": own.guard_tolerance,
         "column_scale": np.minimum(own.absolute + own.relative * np.abs(own.initial), own.cap),
@@ -239,22 +238,22 @@ def stepping_settings(run: Run, problem: Instance) -> dict[str, float]:
     """What the stepping engine sets differently, or alone."""
     return {
         "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
-        "error_exponent": 1.0 / 3.0, "linear": int(getattr(problem, "linear", False)),
-        "samples": int(getattr(problem, "samples", False)),
-        "has_limits": int(np.any(getattr(problem, "limit_guard", 0))),
+        "error_exponent": 1.0 / 3.0, "linear": int(problem.linear),
+        "samples": int(problem.samples),
+        "has_limits": int(np.any(problem.limit_guard)),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
     }  # fmt: skip
 
 
 def watched(problem: Instance) -> Integers:
     """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
-    stiff = np.asarray(getattr(problem, "stiff", np.zeros(len(problem.initial))), dtype=bool) | np.isfinite(problem.cap)
+    stiff = np.asarray(problem.stiff, dtype=bool) | np.isfinite(problem.cap)
     return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
 
 
 def _longest_step(run: Run, problem: Instance) -> float:
     """What was set, and what the problem says; a fixed step is as it is."""
-    return run.max_step if run.fixed_step is not None else min(run.max_step, getattr(problem, "longest_step", np.inf))
+    return run.max_step if run.fixed_step is not None else min(run.max_step, problem.longest_step)
 
 
 def controlled(problem: Problem) -> Integers:

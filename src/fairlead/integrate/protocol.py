@@ -27,33 +27,7 @@ accuracy that the run asks for, and the choice of what is recorded.
     drift     void   (ctx, t, y, r)               as slip, where slip answers only for a slip that an
                                                   impulse takes away
 
-An instance may also have `stiff` [n]: differential unknowns that may follow what drives them within a step, so that
-`rodas` looks at them inside its steps too, as it does at algebraic ones and those with a cap. And `guard_inertia`
-[ng], live memory if the callbacks write to it: for a guard on the slip of a contact that may hold, the inertia that
-resists its force; 0 for others. Settling then knows which of two wrong zones is the more so, a force beyond its
-limit or an acceleration against the friction (settling.py). And `kink_guard` [ng]: guards at which f is continuous and
-nothing but its slope jumps, as between two pieces of a table; `rodas` steps a hair past those instead of on them.
-Where rows take impulses it tells by `takes_impulse` [n] (0: it never holds, 1: none but rounding, 2: any), and by
-`rebound` [n] with what coefficient of restitution (0: none, when missing; rebound.py), and by
-`ledger` the unknowns in which what is dissipated and supplied adds up, -1 for none (impulse.py).
-For `stepping` it may say whether it is `linear` as long as the zones are frozen (one solve a step), which machine
-decides whether a row holds, `holder` [n] (-1: none), and which guards bound the force of their own contact while
-that holds, `limit_guard` [ng]: then fronts of slipping are expected, not found one contact at a time. `machine_kind`
-[nz] is equal for machines that follow the same laws: what is learnt of one is then a guess for the others; without it
-every machine is of a kind of its own, whatever its name. `beyond_row` names the machines whose switch changes more rows
-of J and M than the one they hold: these are evaluated then. And whether `at_time` takes `samples` of the unknowns: they
-are then made consistent before. Any engine heeds its `longest_step`, s: what swings in time alone shows in no unknown
-while all rests.
-And `narrowing`, which tells what moves and cuts it out as a problem of its own that records for all (parts.py):
-
-    possible                     whether that may be asked
-    moving(t, y, margin, most, part)  .kept [n], .machines, .sure (it needs no proof by the run so far); None if that is
-                                 not worth while beside the part in force (or None)
-    looked                       what the last look found: all that it remembers
-    part(t, y, that)             .problem, .unknowns, .machines, .guards (places in the whole), .rim (1 for machines
-                                 of the part whose change sets more in motion), .sure; or None. give_back(t, y) puts
-                                 into the y of the whole what follows from the part, carry(v) into such a vector the
-                                 slopes of what is carried; placed(piece, whole) is the part at work in other memory
+What a problem knows beside its equations is in `facts.py`; one made of plain functions knows nothing of that.
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
 no guards, no held contacts, no time events; outputs missing records y itself; rhs, jacobian and slip
@@ -71,6 +45,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.integrate.counters import Counters
+from fairlead.integrate.facts import Facts, Narrowed
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -111,7 +86,7 @@ class AnyPattern(Protocol):
         """As in Pattern."""
 
 
-class Problem(Protocol):
+class Problem(Facts, Protocol):
     """The shape of a problem; see the module docstring for the callbacks."""
 
     @property
@@ -172,7 +147,7 @@ class Problem(Protocol):
         """
 
 
-class Instance(Problem, Protocol):
+class Instance(Problem, Narrowed, Protocol):
     """A problem in one run: what the callbacks work on, and what the run chooses."""
 
     @property

@@ -26,13 +26,14 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.integrate.facts import Plain
 from fairlead.integrate.protocol import Booleans, Bytes, Floats, Integers, Pattern, Run
 
 Law = Callable[..., Any]
 
 
 @dataclass(frozen=True, eq=False)
-class TextbookProblem:
+class TextbookProblem(Plain):
     """A `Problem` whose callbacks came from plain functions; see the module docstring."""
 
     callbacks: Mapping[str, int]

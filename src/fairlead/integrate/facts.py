@@ -1,0 +1,159 @@
+"""What a problem knows of itself beside its equations, and what holds of one that knows nothing (`Plain`).
+
+The engines are right without; with these facts they are quicker, and find what happens at one instant.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
+
+
+class Facts(Protocol):
+    """Of n unknowns, ng guards and nz machines."""
+
+    @property
+    def stiff(self) -> Booleans:
+        """[n]: differential unknowns that may follow what drives them within a step.
+
+        `rodas` looks at them inside its steps too, as it does at algebraic ones and those with a cap.
+        """
+
+    @property
+    def guard_inertia(self) -> Floats:
+        """[ng]: for a guard on the slip of a contact that may hold, the inertia that resists its force; 0 for others.
+
+        Live memory if the callbacks write to it. Settling then knows which of two wrong zones is the more so, a force
+        beyond its limit or an acceleration against the friction (settling.py).
+        """
+
+    @property
+    def kink_guard(self) -> Integers:
+        """[ng]: 1 for guards at which f is continuous and only its slope jumps, as between two pieces of a table.
+
+        `rodas` steps a hair past those instead of on them.
+        """
+
+    @property
+    def takes_impulse(self) -> Integers:
+        """[n]: 0 for a row that never holds, 1 for one that takes no impulse but rounding, 2 for one that takes any."""
+
+    @property
+    def rebound(self) -> Floats:
+        """[n]: the coefficient of restitution with which a row takes impulses, 0 for none (rebound.py)."""
+
+    @property
+    def ledger(self) -> tuple[int, int]:
+        """Unknowns in which what is dissipated and what is supplied adds up, -1 for none (impulse.py)."""
+
+    @property
+    def linear(self) -> bool:
+        """True if f is linear as long as the zones are frozen: one solve a step for `stepping`."""
+
+    @property
+    def holder(self) -> Integers:
+        """[n]: the machine that decides whether a row holds, -1 for none."""
+
+    @property
+    def limit_guard(self) -> Integers:
+        """[ng]: 1 for guards that bound the force of their own contact while that holds.
+
+        For `stepping`, fronts of slipping are then expected, not found one contact at a time.
+        """
+
+    @property
+    def machine_kind(self) -> Integers:
+        """[nz]: equal for machines that follow the same laws; what is learnt of one is a guess for the others."""
+
+    @property
+    def beyond_row(self) -> Integers:
+        """Machines whose switch changes more rows of J and M than the one they hold: these are evaluated then."""
+
+    @property
+    def samples(self) -> bool:
+        """True if `at_time` takes samples of the unknowns: they are then made consistent before."""
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step [s]: what swings in time alone shows in no unknown while all rests."""
+
+
+class Narrowed(Protocol):
+    """What a problem at work knows besides."""
+
+    @property
+    def narrowing(self) -> Any:
+        """What tells what moves and cuts it out as a problem of its own that records for all (parts.py); None: nothing.
+
+        possible            whether that may be asked
+        moving(t, y, margin, most, part)   .kept [n], .machines, .sure (it needs no proof by the run so far); None if
+                            that is not worth while beside the part in force (or None)
+        looked              what the last look found: all that it remembers
+        part(t, y, that)    .problem, .unknowns, .machines, .guards (places in the whole), .rim (1 for machines of the
+                            part whose change sets more in motion), .sure; or None. give_back(t, y) puts into the y of
+                            the whole what follows from the part, carry(v) into such a vector the slopes of what is
+                            carried; placed(piece, whole) is the part at work in other memory
+        """
+
+
+class Plain:
+    """A problem that knows nothing of the kind; every machine is of a kind of its own, whatever its name."""
+
+    initial: Floats
+    guard_machine: Integers
+    zones: Integers
+    linear = samples = False
+    longest_step = np.inf
+    ledger = (-1, -1)
+    narrowing = None
+
+    @property
+    def stiff(self) -> Booleans:
+        """None is."""
+        return np.zeros(len(self.initial), dtype=bool)
+
+    @property
+    def guard_inertia(self) -> Floats:
+        """None is known."""
+        return np.zeros(len(self.guard_machine))
+
+    @property
+    def kink_guard(self) -> Integers:
+        """None is."""
+        return np.zeros(len(self.guard_machine), dtype=np.int64)
+
+    @property
+    def takes_impulse(self) -> Integers:
+        """No row does."""
+        return np.zeros(len(self.initial), dtype=np.int64)
+
+    @property
+    def rebound(self) -> Floats:
+        """No row does."""
+        return np.zeros(len(self.initial))
+
+    @property
+    def holder(self) -> Integers:
+        """No machine is known to."""
+        return np.full(len(self.initial), -1, dtype=np.int64)
+
+    @property
+    def limit_guard(self) -> Integers:
+        """None is known."""
+        return np.zeros(len(self.guard_machine), dtype=np.int64)
+
+    @property
+    def machine_kind(self) -> Integers:
+        """What is learnt of one says nothing about others, which is safe."""
+        return np.arange(len(self.zones), dtype=np.int64)
+
+    @property
+    def beyond_row(self) -> Integers:
+        """None."""
+        return np.zeros(0, dtype=np.int64)
