@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.counts import unreasonable
 from fairlead.analysis.creep import WorstCreep
-from fairlead.analysis.energy import Ledger
+from fairlead.analysis.energy import Ledger, judged
 from fairlead.analysis.event_rows import EventRows, Rows
 from fairlead.analysis.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.limits import Limits, read_limits
@@ -285,7 +285,8 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "chattering": list(outcome.chattering),
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
-        "worst_creep": watch.creep.summary(), "energy": watch.ledger.summary(), "limits_broken": watch.limits.broken(),
+        "worst_creep": watch.creep.summary(), "energy": judged(watch.ledger.summary(), watch.system.undeclared),
+        "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),

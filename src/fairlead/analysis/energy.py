@@ -7,11 +7,14 @@ Throughput is what the model has dealt with: the largest of supplied, dissipated
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+MOST_NAMED = 3
 NOTHING = 1e-20
 """Throughput [J] below which nothing has passed: the thermal motion of one particle is as much (Boltzmann's k T)."""
 
@@ -44,3 +47,20 @@ class Ledger:
             "closure": missing / self.most if self.most > NOTHING else None,
             "supplied": supplied, "dissipated": dissipated, "stored_change": stored,
         }  # fmt: skip
+
+
+def judged(summary: dict[str, float | None], undeclared: list[str]) -> dict[str, Any]:
+    """The summary; without a closure, and with their names, where components declare no energy of what they do."""
+    return {**summary, "closure": None, "undeclared": undeclared} if undeclared else dict(summary)
+
+
+def unjudged(energy: Mapping[str, Any] | None) -> str:
+    """What to say of components that declare no energy; nothing where there are none."""
+    names = (energy or {}).get("undeclared") or []
+    if not names:
+        return ""
+    few = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
+    return (
+        f"{few}: the class declares no energy of the forces it gives, so whether the energy adds up is not judged. "
+        "Let its law say what becomes of it: Law(..., stored=... J) or Law(..., dissipated=... W, supplied=... W)."
+    )

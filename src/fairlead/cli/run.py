@@ -139,6 +139,7 @@ def _fewer(result: "Result") -> str:
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
     """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
+    from fairlead.analysis.energy import unjudged
     from fairlead.analysis.strains import remark
 
     for said in outcome.get("remarks") or ():
@@ -153,6 +154,8 @@ def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
             f"warning: the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this "
             "run. Ask for a finer accuracy, or look for a number far from all others.", err=True,
         )  # fmt: skip
+    if silent := unjudged(outcome.get("energy")):
+        echo(f"note: {silent}", err=True)
     if strained := remark(outcome.get("strains")):
         echo(f"warning: {strained}", err=True)
     for broken in outcome.get("limits_broken") or ():

@@ -28,6 +28,9 @@ from fairlead.system.dependence import carried_ratio, reads
 from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
 
+WATTS = {("m/s", "N"), ("rad/s", "N*m"), ("Pa", "m^3/s"), ("V", "A")}
+"""Units of what is equal at a node and of what sums to zero there, where their product is a power."""
+
 
 class KernelFacts:
     """The numbers of one class variant."""
@@ -74,7 +77,7 @@ class KernelFacts:
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             rigid=sorted({u for z in self.zones for u, h in z.holds.items() if h.impulse == h.slip}),
-            rebounds={
+            silent=self._silent(), rebounds={
                 u: self._restitution(h) for z in self.zones for u, h in z.holds.items() if h.restitution != 0
             },
             pairs={u: pair for u, (pair, _) in paired.items()}, senses={u: sense for u, (_, sense) in paired.items()},
@@ -174,6 +177,25 @@ class KernelFacts:
                     used = {s.name for s in value.free_symbols}
                     found |= {(k, j) for j, text in enumerate(self.inputs) if text in used}
         return sorted(found)
+
+    def _silent(self) -> bool:
+        """True if it passes power at its ports and says nothing of energy: a class of a user who left that out."""
+        if self.ledger or any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones):
+            return False
+        return any(self._power(zone) != 0 for zone in self.zones)
+
+    def _power(self, zone: TracedZone) -> sympy.Expr:
+        """What a zone takes in at its ports [W], where what it holds does not slip."""
+        ports = self.traced.variant.type.declaration.ports
+        power = sympy.S.Zero
+        for name, flow in zone.flows.items():
+            domain = ports[name].domain
+            if (domain.across[-1][1], domain.through[1]) in WATTS:
+                power += flow * symbol(f"port:{name}:{'v' if len(domain.across) > 1 else 'x'}")
+        for row in zone.holds.values():
+            speed = symbol(next(iter(row.rates)))
+            power = power.subs(speed, speed - row.slip / row.rates[speed.name])
+        return sympy.expand(power)
 
     def _restitution(self, row: HoldRow) -> tuple[int, float]:
         """Place in the parameters, or -1 where it is a number, which follows."""

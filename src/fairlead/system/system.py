@@ -143,6 +143,11 @@ class System:
         return sorted({self.machine_names[m] for m in self.holder[(self.holder >= 0) & ~in_mass]})
 
     @property
+    def undeclared(self) -> list[str]:
+        """What passes power and says nothing of its energy, by name."""
+        return [i.path for block in self.blocks if block.kernel.structure.silent for i in block.instances]
+
+    @property
     def rigid_stops(self) -> list[str]:
         """What is met at a place and then takes any impulse, by name."""
         return [i.path for block in self.blocks if _meets_rigidly(block.kernel.structure) for i in block.instances]
