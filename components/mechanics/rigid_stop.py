@@ -2,6 +2,8 @@
 
 from fairlead.component import Component, Law, Output, Parameter, Translational, Unknown, Zones, guard, hold, zone
 
+APART = 1e-6  # m; beyond what a run leaves between bodies that touch
+
 
 class RigidStop(Component):
     """Keeps b from coming nearer to a than `length`:  b.x - a.x >= length.
@@ -43,6 +45,11 @@ class RigidStop(Component):
     def meets(p, a, b):
         """The gap is closed."""
         return a.x + p.length - b.x
+
+    @guard("touching", to="free", unit="m")
+    def apart_again(p, a, b):
+        """They are apart by more than rounding of their places: a start, or a step that was too rough."""
+        return b.x - a.x - p.length - APART
 
     @guard("touching", to="free", unit="N")
     def parts(p, push):

@@ -22,6 +22,7 @@ LOOSE = "at loose accuracy the slip of what binds is known to a tenth of its cre
 CAUSE = "ida: stops at the first break-away, and the cause it names is not the cause"
 STUCK = "ida: creeps on with steps of nanoseconds"
 SOUGHT = "ida: one of many random scenes fails, and the time does not suffice to find a small one"
+BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 FOUND = "stepping: one of many random scenes fails; the cause is not known"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
@@ -78,6 +79,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("random networks, 200", "stepping", "hold", FOUND),
     ("random routes, 10", "stepping", "hold", FOUND),
     ("random routes, 10", "ida", "[hb]*", SOUGHT),
+    ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
 )
 """(case, engine, treatment, why); the first three as patterns."""
 
