@@ -18,7 +18,7 @@ def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, 
     if status == Status.CHATTER:
         return (problem.machine_names[int(number["culprit"])],)
     if status == Status.REBOUND_RUBS:
-        back, holder = memory.array["rebound"] > 0.0, np.asarray(getattr(problem, "holder", ()), dtype=np.int64)
+        back, holder = memory.array["rebound"] > 0.0, np.asarray(problem.holder)
         return tuple(problem.machine_names[z] for z in np.unique(holder[back & (holder >= 0)]))
     if status == Status.NOT_SETTLED:
         return tuple(problem.machine_names[z] for z in still_switching(memory))
