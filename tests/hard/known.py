@@ -23,6 +23,7 @@ CAUSE = "ida: stops at the first break-away, and the cause it names is not the c
 STUCK = "ida: creeps on with steps of nanoseconds"
 SOUGHT = "ida: one of many random scenes fails, and the time does not suffice to find a small one"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
+PASSES = "comes through since step sizes are rounded; it leaves the list above when docs/stability.md is written anew"
 FOUND = "stepping: one of many random scenes fails; the cause is not known"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
@@ -86,6 +87,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
 LEFT: tuple[tuple[str, str, str, str], ...] = (
     ("*", "stepping", "[bl]*", CREEPS),
     ("node without mass that nothing determines", "ida", "lugre", STUCK),
+    ("steep falling curve, stribeck over 1e-05 m/s", "stepping", "hold", PASSES),
 )
 """Rows that the tests leave to `make hard`, as in KNOWN; `left_out` adds those that take long."""
 

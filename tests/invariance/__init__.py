@@ -5,6 +5,7 @@
     settings.py    the settings: hash seed, build, BLAS, instructions of numpy
     renaming.py    the same scene under other names
     reordering.py  the same scene in another order: lines of the netlist, or instances and unknowns of the flat model
+    lockstep.py    the first trial step at which a scene and its twin part, and what was decided there
     outcome.py     what came out of a run, and how two of them differ
     known.py       what still depends on something that should not matter, with the reason
     ties.py        scenes of which two outcomes are equally right

@@ -7,6 +7,9 @@ Without arguments the bundled models and a hundred random scenes with fixed seed
     --only WORD ...  changes whose name contains one of the words, such as BLAS
     --scene NAME     scenes whose name contains it
     --python PATH    the interpreter of another checkout, to see how that one does
+
+    --first-difference SCENE   tell the first trial step at which a scene and its twins in another order differ by more
+                               than rounding, and the values that may have decided there (lockstep.py)
 """
 
 from __future__ import annotations
@@ -20,7 +23,8 @@ import sys
 import tempfile
 
 from tests.invariance.known import KNOWN
-from tests.invariance.plays import bundled, crowd, hundred, random_plays
+from tests.invariance.lockstep import CHANGES, first_difference, tries, twins
+from tests.invariance.plays import Play, bundled, crowd, hundred, random_plays
 from tests.invariance.ties import TIES
 from tests.invariance.trials import PLAIN, Trial, differences, play, trials
 
@@ -35,7 +39,10 @@ def main() -> int:
     parser.add_argument("--only", nargs="+", default=[""])
     parser.add_argument("--scene", default="")
     parser.add_argument("--python", default=sys.executable)
+    parser.add_argument("--first-difference", metavar="SCENE")
     asked = parser.parse_args()
+    if asked.first_difference:
+        return _first_difference(next(one for one in _plays(None, None) if one.name == asked.first_difference))
     chosen = [one for one in _plays(asked.fresh, asked.seed) if asked.scene in one.name]
     changes = [trial for trial in trials() if any(word in trial.name for word in asked.only)]
     for trial in (trial for trial in changes if trial.lacking):
@@ -54,6 +61,17 @@ def main() -> int:
             other, in_force = run.result()
             wrong += _told(trial, differences(trial, chosen, plain, other), in_force)
     return 1 if wrong else 0
+
+
+def _first_difference(one: Play) -> int:
+    apart = 0
+    for change in CHANGES:
+        with tempfile.TemporaryDirectory() as folder:
+            here, other = twins(one, change, pathlib.Path(folder))
+            found = first_difference(tries(here), tries(other))
+        print(f"{one.name}, {change} in another order:\n{found or 'every step is the same'}")
+        apart += bool(found)
+    return 1 if apart else 0
 
 
 def _plays(fresh: int | None, seed: int | None):

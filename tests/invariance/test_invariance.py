@@ -6,18 +6,23 @@ What two runs are compared by is tested as well: a comparison that overlooks a d
 from __future__ import annotations
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
 
+import fairlead
+from fairlead.integrate.even_steps import COARSE, rounded
 from tests.invariance import outcome
 from tests.invariance.known import KNOWN
+from tests.invariance.lockstep import first_difference, tries
 from tests.invariance.outcome import Outcome
 from tests.invariance.plays import bundled, crowd, random_plays
 from tests.invariance.settings import in_force, settings
 from tests.invariance.trials import PLAIN, Trial, differences, play, trials
+from tests.scenes.networks import network
 
-FEW = [one for one in bundled() if one.name == "belt"] + random_plays((1, 2, 3, 5, 6), (3,))
+FEW = [one for one in bundled() if one.name == "belt"] + random_plays((1, 2, 3, 5, 6, 11, 60), (3, 8))
 AT_ONCE = ("PYTHONHASHSEED", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES")
 """Settings that are tried together here: code for another processor would have to be compiled first."""
 
@@ -65,6 +70,28 @@ def test_no_single_change_matters(plain, trial, tmp_path):
     other, said = play(trial, plays, tmp_path)
     print(said)
     assert differences(trial, plays, plain, other) == {}
+
+
+def test_steps_whose_errors_differ_in_the_last_digits_are_the_same():
+    """Of a tenth of a thousand steps the last digits may still decide: those halfway between two roundings."""
+    steps = np.random.default_rng(1).lognormal(-6.0, 3.0, 1000)
+    of = np.frompyfunc(lambda h: rounded.py_func(h, COARSE), 1, 1)
+    one, other = of(steps).astype(float), of(steps * (1.0 + 1e-9)).astype(float)
+    assert np.count_nonzero(one != other) <= 1
+    np.testing.assert_allclose(one, steps, rtol=2.0**-10)
+    assert set(np.frexp(one)[0] * 2**10 % 1) == {0.0}
+    assert rounded.py_func(np.inf, COARSE) == np.inf
+
+
+def test_the_first_difference_of_two_runs_is_told(tmp_path):
+    """Bodies that are a thousandth heavier are soon elsewhere; the same ones never."""
+    text = network(1)
+    scene, other = tmp_path / "one.yaml", tmp_path / "other.yaml"
+    scene.write_text(text)
+    other.write_text(re.sub(r"mass: (\S+) kg", lambda mass: f"mass: {float(mass[1]) * (1 + 1e-3)!r} kg", text))
+    one, again, heavier = (fairlead.load(file) for file in (scene, scene, other))
+    assert first_difference(tries(one), tries(again)) == ""
+    assert "weights apart" in first_difference(tries(one), tries(heavier)).splitlines()[0]
 
 
 RUN = Outcome(

@@ -1,31 +1,54 @@
 """Plays scenes in a process of its own: `python -m tests.invariance.worker JOBS.json`.
 
-JOBS is a list of {scene, out, times, order}: a netlist, the file for what comes out of it, how many times the model is
-run (the last run counts), and a seed for another order of the flat model. The first line printed says what is in force.
+JOBS is a list of {scene, out, times, order, nudge}: a netlist, the file for what comes out of it, how many times the
+model is run (the last run counts), a seed for another order of the flat model, and by how much the start is moved
+(see `moved`). The first line printed says what is in force.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import pathlib
 import sys
 import tempfile
+from collections.abc import Iterator
+from typing import Any
+from unittest import mock
+
+import numpy as np
 
 import fairlead
+from fairlead.integrate.parts import Scope
 from tests.invariance.outcome import of_result, write
 from tests.invariance.reordering import permuted
 from tests.invariance.settings import in_force
 
 
-def play(scene: str, out: str, times: int = 1, order: int | None = None) -> None:
+def play(scene: str, out: str, times: int = 1, order: int | None = None, nudge: float = 0.0) -> None:
     """Run a scene and keep what comes out."""
     model = fairlead.load(scene)
     if order is not None:
         model.flat = permuted(model.flat, order)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, moved(nudge):
         for k in range(times):
             result = model.run(out=pathlib.Path(folder) / str(k))
         write(pathlib.Path(out), of_result(result))
+
+
+@contextlib.contextmanager
+def moved(nudge: float) -> Iterator[None]:
+    """Runs begin with each unknown moved this way or that by `nudge` of itself and of the size that counts as 1."""
+    begin = Scope.__init__
+
+    def begin_moved(self: Scope, *given: Any) -> None:
+        begin(self, *given)
+        accuracy = given[1].accuracy or 1.0
+        y, nominal = self.whole.array["y"], self.whole.array["absolute"] / accuracy
+        y += nudge * np.random.default_rng(1).choice((-1.0, 1.0), len(y)) * (np.abs(y) + nominal)
+
+    with mock.patch.object(Scope, "__init__", begin_moved) if nudge else contextlib.nullcontext():
+        yield
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 # ruff: noqa: E501 - netlists and their parts read best on one line
 
 import ctypes
+import itertools
 
 import numpy as np
 import pytest
@@ -53,25 +54,44 @@ def recorded(system, y):
     return dict(zip((signal.name for signal in system.recorded), out, strict=False))
 
 
-def test_geared_bodies_are_one_degree_of_freedom_told_by_the_first_of_them(tmp_path):
-    """Inertias add with the ratio squared: 2 + 8 * 0.5^2 + 0.25 * 4^2 = 8 kg m^2 at the motor."""
+def test_geared_bodies_are_one_degree_of_freedom_told_by_the_one_that_goes_along(tmp_path):
+    """Inertias add with the ratio squared: (2 + 8 * 0.5^2 + 0.25 * 4^2) / 0.5^2 = 32 kg at the load."""
     flat = load(tmp_path, PINION).flat
     free = [group for group in flat.groups if group.free]
     assert len(free) == 1
-    assert free[0].name == "motor"
-    assert free[0].domain.name == "rotational"
-    assert free[0].mass == pytest.approx(8.0)
-    assert free[0].start == (0.0, 3.0)
+    assert free[0].name == "load"
+    assert free[0].domain.name == "translational"
+    assert free[0].mass == pytest.approx(32.0)
+    assert free[0].start == pytest.approx((0.0, 1.5))
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(("light", "heavy", "other"))))
+def test_which_body_tells_the_motion_of_shafts_in_gear_does_not_depend_on_their_order(tmp_path, order):
+    bodies = {"light": "{type: Inertia, moment: 0.1 kg*m^2, speed: 3 rad/s}",
+              "heavy": "{type: Inertia, moment: 2 kg*m^2}", "other": "{type: Inertia, moment: 0.2 kg*m^2}"}  # fmt: skip
+    listed = "\n".join(f"  {name}: {bodies[name]}" for name in order)
+    text = f"""schema: 1
+components:
+{listed}
+  first: {{type: Gear, ratio: 2}}
+  second: {{type: Gear, ratio: -1.5}}
+connections:
+  - [light.shaft, first.a]
+  - [heavy.shaft, first.b, second.a]
+  - [other.shaft, second.b]
+run: {{stop: 1 s}}
+"""
+    assert load(tmp_path, text).system.unknown_names[:2] == ["heavy.angle", "heavy.speed"]
 
 
 def test_a_force_at_the_rack_turns_the_pinion_with_its_radius(tmp_path):
     """At angle 0.2 rad the rack is at 0.1 + 0.5 * 0.2 = 0.2 m: spring 20 N, torque -10 N m, acceleration -10/8."""
     system = load(tmp_path, PINION).system
-    assert system.unknown_names[:2] == ["motor.angle", "motor.speed"]
-    assert [unknown.unit for unknown in system.numbering.unknowns[:2]] == ["rad", "rad/s"]
+    assert system.unknown_names[:2] == ["load.x", "load.v"]
+    assert [unknown.unit for unknown in system.numbering.unknowns[:2]] == ["m", "m/s"]
     y = np.zeros(system.n)
-    y[:2] = 0.2, 3.0
-    assert rhs(system, y)[:2] == pytest.approx([3.0, -10.0])
+    y[:2] = 0.2, 1.5
+    assert rhs(system, y)[:2] == pytest.approx([1.5, -20.0])
     said = recorded(system, y)
     assert said["spring.tension"] == pytest.approx(20.0)
     assert said["eye.x"] == pytest.approx(0.2)
@@ -86,14 +106,15 @@ def test_a_force_at_the_rack_turns_the_pinion_with_its_radius(tmp_path):
         ("{motor.angle: 30 deg}", np.pi / 6, 3.0),
         ("{load.x: 0.35 m}", 0.5, 3.0),
         ("{load.flange.x: 0.35 m, load.v: 1 m/s}", 0.5, 2.0),
-        ("{pinion.rack.v: -1 m/s}", 0.0, -2.0),
-        ("{wheel.speed: 60 rpm}", 0.0, -2 * np.pi / 4),
-        ('{"*.speed": 0 rad/s, load.v: 0 m/s}', 0.0, 0.0),
+        ("{pinion.rack.v: -1 m/s}", -0.2, -2.0),
+        ("{wheel.speed: 60 rpm}", -0.2, -2 * np.pi / 4),
+        ('{"*.speed": 0 rad/s, load.v: 0 m/s}', -0.2, 0.0),
     ],
 )
 def test_initial_values_are_given_by_any_name_that_moves_with_the_unknown(tmp_path, given, angle, speed):
+    """Where no position is given, that of the load is zero: -0.2 rad at the motor."""
     system = load(tmp_path, f"{PINION}initial: {given}\n").system
-    assert system.initial[:2] == pytest.approx([angle, speed])
+    assert system.initial[:2] == pytest.approx([0.1 + 0.5 * angle, 0.5 * speed])  # at the load
 
 
 def test_an_initial_value_of_a_state_or_a_multiplier_is_taken(tmp_path):

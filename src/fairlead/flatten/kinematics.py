@@ -13,10 +13,12 @@ from typing import Any
 
 import networkx as nx
 
+from fairlead.component.declare import TRANSLATIONAL
 from fairlead.component.instantiate import Assembly, Instance, PortRef
 from fairlead.errors import Fault, listing
 from fairlead.flatten.flat_model import Group, Node, Prescribed
 
+ALONG = TRANSLATIONAL.name
 AGREES = 1e-9  # relative; ratios and offsets of a loop are products of a few rounded numbers
 
 
@@ -64,7 +66,7 @@ def group(
     groups: list[Group] = []
     group_of: dict[int, tuple[int, float, float]] = {}
     for number, tied in enumerate(members.values()):
-        inside = _told_by_a_body(tied, facts)
+        inside = _told_by_a_body(tied, nodes, facts)
         made, wrong = _group(nodes, inside, facts)
         groups.append(made)
         faults += wrong
@@ -72,10 +74,19 @@ def group(
     return groups, group_of, faults
 
 
-def _told_by_a_body(tied: list[tuple[int, float, float]], facts: Any) -> list[tuple[int, float, float]]:
-    """The same group told by the motion of its first body with mass (else of its first node), and that first."""
-    heavy = [k for k, (node, _, _) in enumerate(tied) if any(kind == "inertia" for kind, *_ in facts.get(node, ()))]
-    first = heavy[0] if heavy else 0
+def _told_by_a_body(tied: list[tuple[int, float, float]], nodes: list[Node], facts: Any
+                    ) -> list[tuple[int, float, float]]:  # fmt: skip
+    """The same group told by the motion of one body, and that first: its speed is an unknown, and errors have its unit.
+
+    That is one that goes along rather than one that turns, and the heaviest of these where told by one motion: a matter
+    of the scene, not of who is written first. A group without mass is told by its first node.
+    """
+    share = [ratio**2 * sum(value for kind, *_, value in facts.get(node, ()) if kind == "inertia")
+             for node, ratio, _ in tied]  # fmt: skip
+    alike = [share[k] > 0.0 and nodes[node].domain.name == ALONG for k, (node, *_) in enumerate(tied)]
+    chosen = alike if any(alike) else [own > 0.0 for own in share]
+    most = max((own for own, is_one in zip(share, chosen, strict=True) if is_one), default=0.0)
+    first = next((k for k, own in enumerate(share) if chosen[k] and own >= (1.0 - AGREES) * most), 0)
     _, unit, zero = tied[first]
     again = [(node, ratio / unit, offset - ratio / unit * zero) for node, ratio, offset in tied]
     return [again[first], *again[:first], *again[first + 1 :]]

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from math import inf, isfinite, sqrt
 
+from fairlead.integrate.even_steps import COARSE, COARSER, root_of_power, rounded
 from fairlead.integrate.foreign import compiled, indices, reals
 
 SAFETY, SHRINK_LIMIT, GROW_LIMIT = 0.9, 0.2, 8.0
@@ -25,8 +26,12 @@ a step more per slip at tight tolerances."""
 STRAIGHT = 1e3
 """A suggestion this much longer than the last step means that nothing bends any more: a contact caught
 what moved, and what is left of y'' is rounding."""
-NO_BEND = 1e-100
-"""A second derivative below this share of the first is none; by what is left of it no number can be divided."""
+UNMOVED = 1e-3
+"""What would not move by this share of a weight in the whole run is at rest, and its y' and y'' rounding."""
+NO_AMPLITUDE = 1e-6
+"""A motion from rest: in its time scale it moves by less than this share of a weight."""
+UNLIMITED = (GROW_LIMIT / SAFETY) ** -5.0
+"""Of an error below this little more is known than that it is small: the step grows by all it may."""
 IDLE_ERROR = 1e-3
 """Below this a step was not limited by its error, and says nothing about the time scale."""
 
@@ -42,8 +47,8 @@ def weigh(m, at_other):
 
 @compiled
 def weighted_norm(m, at_v):
-    """Largest |v_i| / weight_i without quadratures; nan if any v_i is. Its place goes to `worst`."""
-    v, weight, quadrature = reals(at_v, m.n), reals(m.at_weight, m.n), indices(m.at_quadrature, m.n)
+    """Largest |v_i| / weight_i without quadratures and gauges; nan if any v_i is. Its place goes to `worst`."""
+    v, weight, unweighed = reals(at_v, m.n), reals(m.at_weight, m.n), indices(m.at_unweighed, m.n)
     largest = 0.0
     for k in range(m.n):
         if v[k] == 0.0:
@@ -52,7 +57,7 @@ def weighted_norm(m, at_v):
         if not isfinite(v[k]):
             m.worst = k
             return v[k] - v[k]
-        if quadrature[k] == 0 and size > largest:
+        if unweighed[k] == 0 and size > largest:
             largest = size
             m.worst = k
     return largest
@@ -75,7 +80,7 @@ def step_after_rejection(m, h):
     """A smaller step: by the error if it is a number, else a quarter."""
     if isfinite(m.error):
         factor = SAFETY * m.error**-m.error_exponent
-        return h * min(max(factor, SHRINK_LIMIT), 0.8)
+        return rounded(h * min(max(factor, SHRINK_LIMIT), 0.8), COARSE)
     return 0.25 * h
 
 
@@ -83,12 +88,21 @@ def step_after_rejection(m, h):
 def step_after_acceptance(m, h):
     """The next step by PI control; never longer right after a rejection."""
     error = max(m.error, 1e-10)
+    if error < UNLIMITED and m.retried == 0:
+        return GROW_LIMIT * h
     if m.last_error > 0.0 and m.retried == 0:
         factor = SAFETY * error ** (-0.7 * m.error_exponent) * m.last_error ** (0.4 * m.error_exponent)
     else:
         factor = SAFETY * error**-m.error_exponent
     upper = 1.0 if m.retried > 0 else GROW_LIMIT
-    return h * min(max(factor, SHRINK_LIMIT), upper)
+    return rounded(h * min(max(factor, SHRINK_LIMIT), upper), COARSER)
+
+
+@compiled
+def is_straight(m, curvature_size):
+    """True if a second derivative of this weighted norm bends nothing in the whole run."""
+    span = m.stop - m.start
+    return curvature_size * span * span <= UNMOVED
 
 
 @compiled
@@ -102,9 +116,9 @@ def restart(m, slope_size, curvature_size, force_size):
     the time scale is known better than two derivatives tell: the step is at most what it would have been, and at
     least a third of that. Letting it be twice as long cost a chain of 100 blocks 0.4 rejections a switch.
     """
-    if curvature_size <= NO_BEND * max(slope_size, 1.0):
+    if is_straight(m, curvature_size):
         return inf
-    if slope_size == 0.0:
+    if slope_size * slope_size <= NO_AMPLITUDE * curvature_size:
         suggested = sqrt(1.0 / curvature_size)
     else:
         scale = slope_size / curvature_size
@@ -113,4 +127,4 @@ def restart(m, slope_size, curvature_size, force_size):
     suggested = max(suggested, 0.5 / max(sqrt(curvature_size), max(slope_size, 0.03 * force_size)))
     if m.error > IDLE_ERROR and suggested < STRAIGHT * m.h_next:
         suggested = min(max(suggested, m.h_next / 3.0), m.h_next)
-    return suggested
+    return root_of_power(suggested)

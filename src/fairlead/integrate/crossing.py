@@ -5,6 +5,8 @@ exactly zero at t0 does not fire. A guard that starts at zero and dips below it 
 there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
 extremum is tested. Companion rule: a guard above its tolerance that never was below zero means that
 the zones at t0 were wrong (the caller settles from there).
+Zero at t0 is what a settlement counts as at a limit (settling.ROUNDING): the slip of a contact that has just broken
+away is 1e-20 m/s of either sign, and the sign must not tell whether the contact stops again or never slipped.
 
 All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of guards at once.
 """
@@ -14,6 +16,7 @@ from __future__ import annotations
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
+from fairlead.integrate.limits import ROUNDING
 
 NONE, CROSSING, COMPANION = 0, 1, 2
 HAIR = 1e-3
@@ -43,22 +46,23 @@ def first_crossing(m, h):
     if ng == 0:
         return NONE
     g, end = reals(m.at_g, ng), reals(m.at_g_end, ng)
-    early, left = reals(m.at_g_early, ng), reals(m.at_g_left, ng)
+    early, left, right = reals(m.at_g_early, ng), reals(m.at_g_left, ng), reals(m.at_g_right, ng)
+    tolerance = reals(m.at_guard_tolerance, ng)
     guards_at(m, 1.0, h, m.at_g_end)
     guards_at(m, NEAR, h, m.at_g_early)
     right_end = 1.0
     crossed = False
     for i in range(ng):
         left[i] = g[i]
-        if g[i] >= 0.0 and early[i] < 0.0:
-            left[i] = early[i]
-        crossed = crossed or (left[i] < 0.0 and end[i] >= 0.0)
-    copy(end, reals(m.at_g_right, ng))
+        if g[i] >= -ROUNDING * tolerance[i]:
+            left[i] = early[i] if early[i] < -ROUNDING * tolerance[i] else max(g[i], 0.0)
+    copy(end, right)
     bump = earliest_bump(m, h)
     if bump < 1.0:
         right_end = bump
-        crossed = True
         guards_at(m, bump, h, m.at_g_right)
+    for i in range(ng):
+        crossed = crossed or (left[i] < 0.0 and right[i] >= 0.0)
     if overlooked(m):
         found = look_closer(m, h)
         if found < right_end:
@@ -86,7 +90,7 @@ def look_closer(m, h):
     """Look for a dip shorter than NEAR in guards that start at zero; theta by which it is over, 2 if none."""
     ng = m.n_guards
     left, right = reals(m.at_g_left, ng), reals(m.at_g_right, ng)
-    early, probe = reals(m.at_g_early, ng), reals(m.at_g_probe, ng)
+    early, probe, tolerance = reals(m.at_g_early, ng), reals(m.at_g_probe, ng), reals(m.at_guard_tolerance, ng)
     copy(early, reals(m.at_g_late, ng))
     outer = NEAR
     while outer > 1e-13:
@@ -94,7 +98,7 @@ def look_closer(m, h):
         guards_at(m, inner, h, m.at_g_probe)
         found = False
         for i in range(ng):
-            if left[i] >= 0.0 and probe[i] < 0.0:
+            if left[i] >= 0.0 and probe[i] < -ROUNDING * tolerance[i]:
                 left[i] = probe[i]
                 found = True
         if found:
@@ -110,9 +114,9 @@ def collect_fired(m, crossed):
     """Fill `fired` from the bracket: crossings, unless a guard is positive that never was negative."""
     ng = m.n_guards
     left, right, tolerance = reals(m.at_g_left, ng), reals(m.at_g_right, ng), reals(m.at_guard_tolerance, ng)
-    fired, g = indices(m.at_fired, ng), reals(m.at_g, ng)
+    fired = indices(m.at_fired, ng)
     for i in range(ng):
-        if g[i] >= 0.0 and left[i] >= 0.0 and right[i] > tolerance[i]:
+        if left[i] >= 0.0 and right[i] > tolerance[i]:
             fired[m.n_fired] = i
             m.n_fired += 1
     if m.n_fired > 0:
@@ -130,18 +134,18 @@ def collect_fired(m, crossed):
 def earliest_bump(m, h):
     """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none."""
     ng = m.n_guards
-    left, end = reals(m.at_g_left, ng), reals(m.at_g_end, ng)
+    end = reals(m.at_g_end, ng)
     g, early, late = reals(m.at_g, ng), reals(m.at_g_early, ng), reals(m.at_g_late, ng)
     tolerance = reals(m.at_guard_tolerance, ng)
     rising = False
     for i in range(ng):
-        rising = rising or (left[i] < 0.0 and end[i] < 0.0 and early[i] > g[i] and g[i] < 0.0)
+        rising = rising or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i])
     if not rising:
         return 1.0
     guards_at(m, 1.0 - NEAR, h, m.at_g_late)
     found = 1.0
     for i in range(ng):
-        if g[i] < 0.0 and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
+        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
             rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
             if max(g[i], end[i]) + 1.25 * HIGHEST * (rise - fall) < 0.0:
                 continue

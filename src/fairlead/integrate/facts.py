@@ -26,6 +26,10 @@ class Facts(Protocol):
         """
 
     @property
+    def gauge(self) -> Booleans:
+        """[n]: unknowns of which one may be chosen at will: their values do not count as errors."""
+
+    @property
     def guard_inertia(self) -> Floats:
         """[ng]: for a guard on the slip of a contact that may hold, the inertia that resists its force; 0 for others.
 
@@ -115,6 +119,11 @@ class Plain:
 
     @property
     def stiff(self) -> Booleans:
+        """None is."""
+        return np.zeros(len(self.initial), dtype=bool)
+
+    @property
+    def gauge(self) -> Booleans:
         """None is."""
         return np.zeros(len(self.initial), dtype=bool)
 

@@ -14,6 +14,7 @@ short against 1/w until the error norm sees what grows.
 from __future__ import annotations
 
 from fairlead.integrate.controller import weighted_norm
+from fairlead.integrate.even_steps import COARSE, rounded
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.linear import solve
@@ -84,6 +85,6 @@ def short_of_growth(m, h):
     """The step `h`, or a shorter one that sees what grows from rest."""
     if m.growth > 0.0:
         if m.t < m.t_growth and m.last_error < SEEN:
-            return min(h, STRIDE / m.growth)
+            return min(h, rounded(STRIDE / m.growth, COARSE))
         m.growth = 0.0
     return h

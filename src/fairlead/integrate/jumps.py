@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals, switch_at
 from fairlead.integrate.guards import evaluate_guards
+from fairlead.integrate.limits import ROUNDING
 
 SMOOTH, JUMPS_SOMEWHERE = 1, 2
 """What `kind_is_smooth` says of a kind of contact, but for 0: nothing was seen of it yet."""
@@ -34,9 +35,21 @@ def all_continuous(m):
 
 @compiled
 def share(m, i):
-    """Share of the step after which guard i comes to zero."""
+    """Share of the step after which guard i comes to zero; zero where it is at its limit from the start."""
     before, now = reals(m.at_g, m.n_guards)[i], reals(m.at_g_end, m.n_guards)[i]
-    return before / (before - now) if before < 0.0 and now > before else 0.0
+    return before / (before - now) if is_inside(m, i) and now > before else 0.0
+
+
+@compiled
+def is_inside(m, i):
+    """True if guard i is below zero at the start of the step by more than rounding."""
+    return reals(m.at_g, m.n_guards)[i] < -ROUNDING * reals(m.at_guard_tolerance, m.n_guards)[i]
+
+
+@compiled
+def may_cross(m, i):
+    """True if guard i is inside at the start of the step, or at its limit within rounding of either sign."""
+    return reals(m.at_g, m.n_guards)[i] <= ROUNDING * reals(m.at_guard_tolerance, m.n_guards)[i]
 
 
 @compiled
@@ -74,7 +87,7 @@ def note_kind(m, z, jumps):
 def jumps_at_guard(m, h, i):
     """True if an algebraic row that is zero in the zone of guard i is not in the next, where the guard is zero."""
     n = m.n
-    if not (reals(m.at_g, m.n_guards)[i] < 0.0 < reals(m.at_g_end, m.n_guards)[i]):
+    if not (may_cross(m, i) and reals(m.at_g_end, m.n_guards)[i] > 0.0):
         return False
     s = locate_guard(m, h, i)
     t = m.t + s * h
@@ -103,6 +116,9 @@ def jumps_at_guard(m, h, i):
 def locate_guard(m, h, i):
     """Share of the step after which guard i is zero; leaves the point there, on the chord, in `y_probe`."""
     y, y_end, probe = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_y_probe, m.n)
+    if not is_inside(m, i):
+        copy(y, probe)
+        return 0.0
     left, right = 0.0, 1.0
     before, after = reals(m.at_g, m.n_guards)[i], reals(m.at_g_end, m.n_guards)[i]
     s = 0.0
@@ -142,7 +158,7 @@ def jump_is_due(m, h):
     ahead = 0.5 * h / (m.gap + 0.5 * h)
     m.n_fired = 0
     for i in range(m.n_guards):
-        if may_jump[i] == 1 and g[i] < 0.0 and g_end[i] > g[i] and g_end[i] + ahead * (g_end[i] - g[i]) > 0.0:
+        if may_jump[i] == 1 and may_cross(m, i) and g_end[i] > g[i] and g_end[i] + ahead * (g_end[i] - g[i]) > 0.0:
             fired[m.n_fired] = i
             m.n_fired += 1
     if m.n_fired == 0 or all_continuous(m):

@@ -2,8 +2,8 @@
 
 A machine that holds a row changes, when it switches, that row of J and M alone. Where f is linear between switches,
 the constant c of a row that slides, 0 = J_i u + c, is kept as well, and a row not yet known is that of a machine of the
-same kind. A settlement forgets all: a time event may have
-changed the laws.
+same kind: laws then tell whether it is. Elsewhere it would change the iteration, and what it leaves of the residual,
+by which machine was asked. A settlement forgets all: a time event may have changed the laws.
 """
 
 from __future__ import annotations
@@ -69,16 +69,9 @@ def row_of(m, z):
         return -1
     if indices(m.at_known, m.n_known)[zone * m.n_zones + z] > 0:
         return z
+    if m.linear == 0 or (m.distrusted & OF_KIND) != 0:
+        return -1
     kind = indices(m.at_own_kind, m.n_zones)
-    if m.linear == 0:
-        starts, neighbours = indices(m.at_neighbour_starts, m.n_zones + 1), indices(m.at_neighbours, m.n_neighbours)
-        for e in range(starts[z], starts[z + 1]):
-            w = neighbours[e]
-            if kind[w] == kind[z] and indices(m.at_known, m.n_known)[zone * m.n_zones + w] > 0:
-                return w
-        return -1
-    if (m.distrusted & OF_KIND) != 0:
-        return -1
     return indices(m.at_known_of_kind, m.n_known)[zone * m.n_zones + kind[z]] - 1
 
 
@@ -88,8 +81,7 @@ def take_row(m, z):
     like = row_of(m, z)
     move_row(m, z, like, False)
     if like != z:
-        if m.linear == 1:
-            m.guessed |= OF_KIND
+        m.guessed |= OF_KIND
         move_row(m, z, z, True)
         indices(m.at_known, m.n_known)[indices(m.at_zones, m.n_zones)[z] * m.n_zones + z] = ROW
 

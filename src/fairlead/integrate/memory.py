@@ -54,7 +54,7 @@ INTEGERS = (
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that
     "searched", "midway", "replanned",
-    "n_hold_mass", "n_hold_slope", "n_hold_share", "n_neighbours",
+    "n_hold_mass", "n_hold_slope", "n_hold_share", "n_body_speed", "n_neighbours",
     # stepping only (known_rows.py): whether zones may not be those of J and M, in how many machines they differ, if
     # only known rows were exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
     "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row", "limits_vary",
@@ -124,12 +124,12 @@ VECTORS = {
 INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_columns": "n_mass", "mass_place": "n_mass",
-    "differential": "n", "quadrature": "n", "watched": "n", "takes_impulse": "n",
+    "differential": "n", "quadrature": "n", "unweighed": "n", "watched": "n", "takes_impulse": "n",
     # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
     # zones at the start of the step; machines that switched in the trial (missed_impulse.py)
     "controlled": "n", "position_of": "n", "holds": "n", "of_massless": "n", "caught": "n", "rested": "n",
     "zones_at_start": "n_zones",
-    "held_position": "n_zones", "held_speed": "n_zones",
+    "body_starts": "n_zones_plus_1", "body_speed": "n_body_speed", "body_position": "n_body_speed",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",
     "may_hold": "n_guards",
     "may_jump": "n_guards", "suspects": "n_guards", "kind_is_smooth": "n_zones",

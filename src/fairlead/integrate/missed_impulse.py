@@ -22,7 +22,7 @@ from fairlead.integrate.overload import error_of_speed, response_of
 
 AT_ONCE = 1e-2
 """A switch within this share of a step happens at its start."""
-SHORT_OF = 1e-3
+SHORT_OF = 1e-2
 """Share of a step by which it ends short of a stop or a rope: right there no zone is the right one, and they cycle."""
 
 

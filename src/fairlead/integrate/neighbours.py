@@ -116,24 +116,32 @@ def only_kinks(problem: Problem) -> Integers:
     return ((guards > 0) & (guards == kinks)).astype(np.int64)
 
 
-def what_is_held(problem: Instance) -> dict[str, Floats | Integers]:
-    """Per machine that may hold: the inertia that resists its force (0: not known), the speed and position it holds.
+def held_inertia(problem: Instance) -> Floats:
+    """[nz]: the inertia that resists the force of a machine that may hold; 0 where it is not known."""
+    inertia, machines = np.zeros(len(problem.zones)), np.asarray(problem.guard_machine)
+    given = np.asarray(problem.guard_inertia)
+    np.maximum.at(inertia, machines[machines >= 0], given[machines >= 0])
+    return inertia
 
-    Of several bodies the one whose position is known best, by its weight at the start; -1 where there is none.
+
+def held_bodies(problem: Problem) -> dict[str, Integers]:
+    """The speeds that each machine holds, and the positions that go with them (-1: none).
+
+    Those without a position are left out where another has one. Which of the others counts is for the loop to say.
     """
     nz = len(problem.zones)
-    inertia, speed, position = np.zeros(nz), np.full(nz, -1, dtype=np.int64), np.full(nz, -1, dtype=np.int64)
-    machines, given = np.asarray(problem.guard_machine), np.asarray(problem.guard_inertia)
-    np.maximum.at(inertia, machines[machines >= 0], given[machines >= 0])
     position_of = {v: x for x, v in lay_out(problem).positions.items() if v >= 0}
     holder = np.asarray(problem.holder)
     rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
+    speeds: list[list[int]] = [[] for _ in range(nz)]
     for e in np.flatnonzero(holder[rows] >= 0).tolist():
-        machine, v = holder[rows[e]], int(columns[e])
-        x, known = position_of.get(v, -1), position[machine]
-        if speed[machine] < 0 or (x >= 0 and (known < 0 or problem.absolute[x] < problem.absolute[known])):
-            speed[machine], position[machine] = v, x
-    return {"held_inertia": inertia, "held_speed": speed, "held_position": position}
+        speeds[holder[rows[e]]].append(int(columns[e]))
+    kept = [[v for v in own if v in position_of] or own for own in speeds]
+    every = [v for own in kept for v in own]
+    return {
+        "body_starts": np.cumsum([0, *map(len, kept)]).astype(np.int64), "body_speed": np.array(every, dtype=np.int64),
+        "body_position": np.array([position_of.get(v, -1) for v in every], dtype=np.int64),
+    }  # fmt: skip
 
 
 def _found(problem: Problem, holder: Integers) -> list[list[int]]:

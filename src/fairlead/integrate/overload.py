@@ -89,11 +89,14 @@ def unseen_force(m, h):
     m.rhs += 1
     f, g_end, first = reals(m.at_x, m.n), reals(m.at_g_end, m.n_guards), indices(m.at_first_guard, m.n_zones)
     machine, is_limit = indices(m.at_guard_machine, m.n_guards), indices(m.at_limit_guard, m.n_guards)
-    speed, largest = indices(m.at_held_speed, m.n_zones), 0.0
+    bodies, speed = indices(m.at_body_starts, m.n_zones + 1), indices(m.at_body_speed, m.n_body_speed)
+    largest = 0.0
     for z in range(m.n_zones):
-        if rows[z] < 0 or holds[rows[z]] == 0 or speed[z] < 0:
+        if rows[z] < 0 or holds[rows[z]] == 0 or bodies[z] == bodies[z + 1]:
             continue
-        over, i = abs(f[speed[z]]), first[z]
+        over, i = 0.0, first[z]
+        for e in range(bodies[z], bodies[z + 1]):
+            over = max(over, abs(f[speed[e]]))
         furthest = 0.0
         while i < m.n_guards and machine[i] == z:
             if is_limit[i] == 1:
@@ -127,14 +130,6 @@ def course_of_force(m, h, i, k, per_near, per_before, per_between):
 
 
 @compiled
-def response_time(m, z):
-    """1/omega of what holds machine z back once it slips, by the stiffness its position meets; FREE without one."""
-    x, v = indices(m.at_held_position, m.n_zones)[z], indices(m.at_held_speed, m.n_zones)[z]
-    inertia = reals(m.at_held_inertia, m.n_zones)[z]
-    return response_of(m, x, v, inertia) if x >= 0 and inertia > 0.0 else FREE
-
-
-@compiled
 def response_of(m, x, v, inertia):
     """1/omega of what holds back the position x with the speed v and this inertia; FREE without one."""
     starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
@@ -147,30 +142,39 @@ def response_of(m, x, v, inertia):
 
 @compiled
 def error_of_peak(m, h, z, over):
-    """What an excess force inside the step may move, in weights; of an unknown inertia: the force itself."""
+    """What an excess force inside the step may move, in weights; of an unknown inertia: the force itself.
+
+    Of several bodies that machine z holds the one that is moved most counts: which is named first is chance.
+    """
     weight, inertia = reals(m.at_weight, m.n), reals(m.at_held_inertia, m.n_zones)[z]
-    x = indices(m.at_held_position, m.n_zones)[z]
-    if x < 0 or inertia <= 0.0:
+    bodies, position = indices(m.at_body_starts, m.n_zones + 1), indices(m.at_body_position, m.n_body_speed)
+    speed, largest = indices(m.at_body_speed, m.n_body_speed), 0.0
+    if bodies[z] == bodies[z + 1] or position[bodies[z]] < 0 or inertia <= 0.0:
         return over / weight[indices(m.at_hold_row, m.n_zones)[z]]
-    time = min(h, response_time(m, z))
-    return over * time * time / (inertia * weight[x])
+    for e in range(bodies[z], bodies[z + 1]):
+        time = min(h, response_of(m, position[e], speed[e], inertia))
+        largest = max(largest, over * time * time / (inertia * weight[position[e]]))
+    return largest
 
 
 @compiled
 def error_of_speed(m, h, z, most, lasting):
     """What a missed force that rises to `most` in the time `lasting` means, in weights, for the speed or the position.
 
-    Where a stiffness holds back, it takes the force up within the response time.
+    Where a stiffness holds back, it takes the force up within the response time. Of several bodies as above.
     """
     weight, inertia = reals(m.at_weight, m.n), reals(m.at_held_inertia, m.n_zones)[z]
-    x, v = indices(m.at_held_position, m.n_zones)[z], indices(m.at_held_speed, m.n_zones)[z]
-    if v < 0 or inertia <= 0.0:
+    bodies, position = indices(m.at_body_starts, m.n_zones + 1), indices(m.at_body_position, m.n_body_speed)
+    speed, largest = indices(m.at_body_speed, m.n_body_speed), 0.0
+    if bodies[z] == bodies[z + 1] or inertia <= 0.0:
         return 0.5 * most * lasting / (h * weight[indices(m.at_hold_row, m.n_zones)[z]])
-    error = 0.5 * most * lasting / (inertia * weight[v])
-    if x >= 0:
-        time = response_time(m, z)
-        error = min(error, 0.5 * most * min(lasting, time) * time / (inertia * weight[x]))
-    return error
+    for e in range(bodies[z], bodies[z + 1]):
+        x, error = position[e], 0.5 * most * lasting / (inertia * weight[speed[e]])
+        if x >= 0:
+            time = response_of(m, x, speed[e], inertia)
+            error = min(error, 0.5 * most * min(lasting, time) * time / (inertia * weight[x]))
+        largest = max(largest, error)
+    return largest
 
 
 @compiled

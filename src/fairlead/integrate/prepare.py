@@ -13,7 +13,7 @@ import fairlead.integrate.ordering as ordering
 from fairlead.integrate.codes import KNOWN_ZONES, MOST_PERTURBED
 from fairlead.integrate.condensing import columns_of, lay_out
 from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
-from fairlead.integrate.neighbours import held_entries, known_rows, neighbours, what_is_held
+from fairlead.integrate.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
 from fairlead.integrate.protocol import CALLBACKS, Bytes, Instance, Integers, Problem, Run
 from fairlead.integrate.tableau import TABLEAUS, Tableau
 
@@ -82,6 +82,7 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
+        "unweighed": (problem.quadrature | problem.gauge).astype(np.int64),
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
         "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
         "mass_columns": columns_of(problem.mass_pattern),
@@ -89,7 +90,7 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
     }  # fmt: skip
     numbers["takes_impulses"] = int((given["takes_impulse"] == RIGID).any())
     if stepping:
-        given |= held_entries(problem) | neighbours(problem) | known_rows(problem)
+        given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
         given |= {"controlled": controlled(problem), "position_of": position_of(problem)}
         holds = given["hold_row"][problem.guard_machine[problem.guard_machine >= 0]] >= 0
         numbers |= {f"n_{name}": len(given[name]) for name in OF_STEPPING}
@@ -109,7 +110,7 @@ def _of_contacts(problem: Problem) -> Integers:
 
 RIGID = 2
 """What a row takes that takes any impulse."""
-OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "neighbours", "own_slopes", "own_masses")
+OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "body_speed", "neighbours", "own_slopes", "own_masses")
 """Arrays of `stepping` whose lengths the loop is told."""
 
 
@@ -129,8 +130,7 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     point_at_instance(memory, own)
     if run.engine == "stepping":
         write_numbers(memory, stepping_settings(run, own))
-        for name, of_machine in what_is_held(own).items():
-            memory.array[name][:] = of_machine
+        memory.array["held_inertia"][:] = held_inertia(own)
     write_numbers(memory, calls(own) | {"context": own.context})
     if not memory.number["call_guards"]:
         memory.number["n_guards"] = 0
@@ -248,7 +248,8 @@ def stepping_settings(run: Run, problem: Instance) -> dict[str, float]:
 def watched(problem: Instance) -> Integers:
     """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
     stiff = np.asarray(problem.stiff, dtype=bool) | np.isfinite(problem.cap)
-    return ((~np.asarray(problem.differential, dtype=bool) | stiff) & ~problem.quadrature).astype(np.int64)
+    counts = ~(problem.quadrature | problem.gauge)
+    return ((~np.asarray(problem.differential, dtype=bool) | stiff) & counts).astype(np.int64)
 
 
 def _longest_step(run: Run, problem: Instance) -> float:

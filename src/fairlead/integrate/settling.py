@@ -23,6 +23,7 @@ from fairlead.integrate.controller import weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.impulse import RELEASED
+from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import DONE
 from fairlead.integrate.record import there_is_room, write_event
 from fairlead.integrate.start import consistent
@@ -33,9 +34,6 @@ CHATTER_STREAK = 8
 STALL_LIMIT = 5
 """Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
 WARN, HOLD, STOP = 0, 1, 2
-ROUNDING = 1e-3
-"""How far below zero, in guard tolerances, a guard still counts as at its limit: further down it is inside
-its zone and will cross by itself. A contact at rest just inside a border would else be sent to and fro."""
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 from math import inf
 
 from fairlead.integrate.controller import SAFETY, SHRINK_LIMIT
+from fairlead.integrate.even_steps import COARSE, rounded
 from fairlead.integrate.foreign import compiled
 
 BLOCK = 5
@@ -34,7 +35,7 @@ def keep_step(m, h, repeated):
     if m.block_steps == BLOCK:
         m.allowed_before, m.allowed, m.block_steps = m.allowed, inf, 0
     m.block_steps += 1
-    now = SAFETY * h * max(m.error, NO_ERROR) ** -m.error_exponent
+    now = rounded(SAFETY * h * max(m.error, NO_ERROR) ** -m.error_exponent, COARSE)
     if m.error > SEEN:
         m.allowed = min(m.allowed, now)
     allowed = min(now, min(m.allowed, m.allowed_before))

@@ -25,7 +25,8 @@ from fairlead.integrate.codes import (
     UNSETTLED,
     WIDEN,
 )
-from fairlead.integrate.controller import NO_BEND, step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.controller import NO_AMPLITUDE, is_straight, step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.even_steps import FINE, root_of_power, rounded
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.known_rows import forget_rows
@@ -172,7 +173,7 @@ def end_at_switch(m):
     if m.worst >= 0:
         indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
     m.retried += 1
-    m.h_next = m.t_switch - m.t
+    m.h_next = rounded(m.t_switch - m.t, FINE)
     return GO_ON
 
 
@@ -316,9 +317,9 @@ def begin_history(m):
         for k in range(n):
             u[k] = curvature[k] if differential[k] == 1 else 0.0
         bend = weighted_norm(m, m.at_u)
-        if speed > 0.0 and bend > NO_BEND * max(speed, 1.0):
+        if speed * speed > NO_AMPLITUDE * bend and not is_straight(m, bend):
             scale = speed / bend
-            m.h_next = min(m.h_next, scale * (12.0 / (speed * scale)) ** (1.0 / 3.0))
+            m.h_next = min(m.h_next, root_of_power(scale * (12.0 / (speed * scale)) ** (1.0 / 3.0)))
         m.h_next = max(m.h_next, 4.0 * smallest_step(m))
     m.gap = 0.0
     m.gap_before = min(m.h_next, m.max_step)

@@ -68,7 +68,7 @@ class Underway:
             self._timed(self.scope.look)
         elif self.status == Status.WIDEN:
             self._timed(self.scope.wake)
-        elif self.status == Status.PAUSED:
+        elif self.status == Status.PAUSED and attempts is None:
             self._attempts = next_attempts(self._attempts, spent)
 
     def _timed(self, work: Callable[[], Any]) -> Any:

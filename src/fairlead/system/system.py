@@ -136,6 +136,11 @@ class System:
         return named[slot]["name"] if slot < len(named) else ""
 
     @property
+    def gauge(self) -> NDArray[np.bool_]:
+        """[n]: unknowns that only differ by what is said of one of them, which is chance: how circles share a load."""
+        return np.array([unknown.kind == "share" for unknown in self.numbering.unknowns], dtype=bool)
+
+    @property
     def uneven(self) -> list[str]:
         """Contacts that hold between a node with inertia and one without, by name."""
         in_mass = np.zeros(self.n, dtype=bool)
