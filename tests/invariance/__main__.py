@@ -8,6 +8,8 @@ Without arguments the bundled models and a hundred random scenes with fixed seed
     --scene NAME     scenes whose name contains it
     --python PATH    the interpreter of another checkout, to see how that one does
 
+    --nudge SHARE    one change instead: the start moved by this share of each unknown, to see how sensitive a scene is
+
     --first-difference SCENE   tell the first trial step at which a scene and its twins in another order differ by more
                                than rounding, and the values that may have decided there (lockstep.py)
 """
@@ -39,12 +41,15 @@ def main() -> int:
     parser.add_argument("--only", nargs="+", default=[""])
     parser.add_argument("--scene", default="")
     parser.add_argument("--python", default=sys.executable)
+    parser.add_argument("--nudge", type=float)
     parser.add_argument("--first-difference", metavar="SCENE")
     asked = parser.parse_args()
     if asked.first_difference:
         return _first_difference(next(one for one in _plays(None, None) if one.name == asked.first_difference))
     chosen = [one for one in _plays(asked.fresh, asked.seed) if asked.scene in one.name]
     changes = [trial for trial in trials() if any(word in trial.name for word in asked.only)]
+    if asked.nudge:
+        changes = [Trial(f"start moved by {asked.nudge:g}", equal=False, job={"nudge": asked.nudge})]
     for trial in (trial for trial in changes if trial.lacking):
         print(f"{trial.name}: {trial.lacking}")
     wrong = 0
