@@ -39,10 +39,20 @@ def asked(check):
     return curve is None or getattr(check.kind, "word", "") in EVERY_CURVE or curve in ENOUGH
 
 
-ALL = [check for kind in known_types().values() for check in checks(kind) if asked(check)]
+def quick(check):
+    """One curve for every method of friction, in its plainest form; the others repeat most of what it asks."""
+    return not hasattr(check.kind, "word") or check.chosen == {"curve": "stribeck"}
 
 
-@pytest.mark.parametrize("check", ALL, ids=str)
+ALL = [
+    pytest.param(check, marks=[] if quick(check) else pytest.mark.slow, id=str(check))
+    for kind in known_types().values()
+    for check in checks(kind)
+    if asked(check)
+]
+
+
+@pytest.mark.parametrize("check", ALL)
 def test_registered_component_keeps(check):
     check()
 

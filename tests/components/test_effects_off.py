@@ -75,7 +75,18 @@ def terms(system):
 ASKED_ALONE = [pair for pair in declared() if (pair[0].__name__, pair[1]) not in {**ON_A_ROUTE, **SAME_LAW}]
 
 
-@pytest.mark.parametrize(("kind", "effect"), ASKED_ALONE, ids=[f"{k.__name__}-{e}" for k, e in ASKED_ALONE])
+def quick(kind):
+    """Members of a family inherit its effects: one of each stands for the others."""
+    return getattr(kind, "word", "hold") == "hold"
+
+
+@pytest.mark.parametrize(
+    ("kind", "effect"),
+    [
+        pytest.param(kind, effect, marks=[] if quick(kind) else pytest.mark.slow, id=f"{kind.__name__}-{effect}")
+        for kind, effect in ASKED_ALONE
+    ],
+)
 def test_an_effect_that_is_off_leaves_no_unknown_zone_guard_or_term(kind, effect):
     gone = []
     for optional in (True, False):

@@ -42,6 +42,7 @@ def test_an_index_outside_traps_where_the_loop_is_compiled_to(tmp_path, place):
     assert ended.returncode != 0
 
 
+@pytest.mark.slow  # compiles both loops with the question at every index
 def test_no_index_lies_outside_in_runs_of_both_engines(tmp_path):
     ended = checked(RUNS, tmp_path)
     assert ended.returncode == 0, ended.stderr

@@ -32,6 +32,8 @@ SPAN = {"belt": 5.0, "block_and_spring": 4.0, "sandwich": 2.0, "hundred_blocks":
         "power_unit": 0.7}  # fmt: skip
 """Seconds of each model that are compared: some whole cycles, or the first hundreds of switches."""
 SHORT = 0.5
+QUICK = {"belt", "block_and_spring", "crustacean", "friction_anchor", "power_unit", "sandwich", "torsion",
+         "valve_motor", "winch_drive"}  # fmt: skip
 
 
 class Unknowns:
@@ -66,8 +68,14 @@ def states(name, engine, accuracy):
     return rows if position.any() else rows * POSITION * accuracy / system.absolute[chosen]
 
 
-@pytest.mark.parametrize(("one", "other"), list(itertools.combinations(ENGINES, 2)))
-@pytest.mark.parametrize("name", MODELS)
+def pairs():
+    """Every model and two engines; those whose runs take seconds are slow."""
+    for name, (one, other) in itertools.product(MODELS, itertools.combinations(ENGINES, 2)):
+        quick = name in QUICK or (name == "single_bend" and "ida" not in (one, other))
+        yield pytest.param(name, one, other, marks=[] if quick else pytest.mark.slow)
+
+
+@pytest.mark.parametrize(("name", "one", "other"), list(pairs()))
 def test_two_engines_agree_within_their_error_estimates(name, one, other):
     if "ida" in (one, other):
         pytest.importorskip("sksundae.ida", reason="needs scikit-sundae: pip install 'fairlead[ida]'")

@@ -201,11 +201,10 @@ def process(tmp_path, cache):
 @pytest.mark.parametrize(
     ("before", "after", "flow"),
     [
-        ('"mine": 1.0', '"mine": 2.0', -20.0),
-        ("[1.0, 2.0]", "[2.0, 1.0]", -20.0),
-        ("return 1.0 if", "return 3.0 if", -30.0),
+        pytest.param('"mine": 1.0', '"mine": 2.0', -20.0, id="value in a dict", marks=pytest.mark.slow),
+        pytest.param("[1.0, 2.0]", "[2.0, 1.0]", -20.0, id="list in another order", marks=pytest.mark.slow),
+        pytest.param("return 1.0 if", "return 3.0 if", -30.0, id="helper of a helper"),
     ],
-    ids=["value in a dict", "list in another order", "helper of a helper"],
 )
 def test_a_change_in_another_file_compiles_again(tmp_path, process, before, after, flow):
     assert process()()["flow"] == pytest.approx(-10.0)
@@ -226,6 +225,7 @@ def test_two_processes_at_once_both_say_what_is_right(process, cache):
     assert not [file.name for file in cache.iterdir() if not file.name.endswith(".native")]
 
 
+@pytest.mark.slow  # four processes
 def test_the_key_of_a_class_is_the_same_in_every_process(process):
     """Sets of text have another order in every process; the key must not see it."""
     assert not process()()["cached"]

@@ -17,6 +17,7 @@ here: see `answers.py`. Imported where a class is traced; SymPy is there already
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Iterator, Sequence
@@ -108,10 +109,10 @@ def member(expression: sympy.Expr, inputs: Sequence[str]) -> dict[str, Any]:
     """A member of a guard: its sums; the slopes instead, where it is one sum with numbers for coefficients."""
     names = {s.name for s in expression.free_symbols}
     used = [j for j, key in enumerate(inputs) if key in names]
-    slopes = [sympy.diff(expression, symbol(inputs[j])) for j in used]
-    straight = bool(used) and all(slope.is_number for slope in slopes)
-    if straight:
-        return {"sums": [[(j, float(slope)) for j, slope in zip(used, slopes, strict=True)]], "straight": True}
+    if used and expression.is_polynomial(*(symbol(inputs[j]) for j in used)):
+        slopes = [sympy.diff(expression, symbol(inputs[j])) for j in used]
+        if all(slope.is_number for slope in slopes):
+            return {"sums": [[(j, float(slope)) for j, slope in zip(used, slopes, strict=True)]], "straight": True}
     return {"sums": sums(expression, inputs), "straight": False}
 
 
@@ -119,10 +120,12 @@ def reads(
     values: Sequence[Any], guards: Sequence[TracedGuard], inputs: Sequence[str], tables: Sequence[str]
 ) -> dict[str, dict[str, Any]]:
     """What one zone depends on, case by case; a value that is not said in the zone depends on nothing."""
+    value_reads = functools.cache(lambda expression: sums(expression, inputs))  # most are the same in every case
+    member_reads = functools.cache(lambda expression: member(expression, inputs))
     return {
         case: {
-            "values": [sums(in_case(sympy.sympify(v or 0), tables, case), inputs) for v in values],
-            "guards": [[member(in_case(v, tables, case), inputs) for v in guard.values] for guard in guards],
+            "values": [value_reads(in_case(sympy.sympify(v or 0), tables, case)) for v in values],
+            "guards": [[member_reads(in_case(v, tables, case)) for v in guard.values] for guard in guards],
         }
         for case in cases(tables)
     }

@@ -245,5 +245,5 @@ def _is_coefficient(symbol_: sympy.Symbol) -> bool:
 
 def _group(guard: TracedGuard) -> sympy.Expr:
     """All of a group must have risen: the least of them decides."""
-    return guard.values[0] if len(guard.values) == 1 else sympy.Min(*guard.values)
+    return guard.values[0] if len(guard.values) == 1 else sympy.Min(*guard.values, evaluate=False)
 

@@ -50,6 +50,7 @@ def _build(variant: Variant) -> Build:
     return Build(asdict(structure), {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
 
 
+@functools.lru_cache(maxsize=8)  # the machine code and the Python function of a class are asked for together
 def write_source(variant: Variant) -> tuple[str, Structure]:
     """Python text of the kernel, in the subset that `lowering.py` understands, and its structure."""
     from fairlead.component.trace import trace
