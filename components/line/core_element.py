@@ -18,7 +18,7 @@ class Core(Component):
     """
 
     exempt = {"zones_reached": "An element closes stretched only faster than stretch times stiffness over damping."}
-    spans, compressible = "length", 1.0  # loose at any length, and its ends do not pass each other
+    compressible = 1.0  # loose at any length, and its ends do not pass each other
     a = Translational("inboard end")
     b = Translational("outboard end")
     axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)
@@ -26,6 +26,7 @@ class Core(Component):
     damping = Parameter("N*s/m", "Tension per speed of separation.", default=0.0, least=0)
     line_damping = Effect("Damping of the element; off: none.")
     tension = Output("N", "Tension, never negative.")
+    strain = Output("1", "Stretch over length; at -1 its ends are at one place.", role="strain")
     slack = Output("1", "1 while slack.")
     zones = Zones("taut", "closing", "loose")
 
@@ -36,21 +37,23 @@ class Core(Component):
         elastic = p.axial_stiffness / p.length * stretch
         lossy = damped(p, rate)
         tension = elastic + lossy
-        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=lossy * rate)
+        return Law(a=-tension, b=+tension, tension=tension, strain=stretch / p.length, stored=elastic * stretch / 2,
+                   dissipated=lossy * rate)  # fmt: skip
 
     @zone("closing")
     def closing(p, a, b):
         """Carries nothing, and loses what it had stored."""
-        if p.line_damping == "off":
-            return Law(a=0, b=0, tension=0, slack=1)
         stretch = b.x - a.x - p.length
+        if p.line_damping == "off":
+            return Law(a=0, b=0, tension=0, slack=1, strain=stretch / p.length)
         elastic = p.axial_stiffness / p.length * stretch
-        return Law(a=0, b=0, tension=0, slack=1, stored=elastic * stretch / 2, dissipated=-elastic * (b.v - a.v))
+        return Law(a=0, b=0, tension=0, slack=1, strain=stretch / p.length, stored=elastic * stretch / 2,
+                   dissipated=-elastic * (b.v - a.v))  # fmt: skip
 
     @zone("loose")
     def loose(p, a, b):
         """Carries nothing."""
-        return Law(a=0, b=0, tension=0, slack=1)
+        return Law(a=0, b=0, tension=0, slack=1, strain=(b.x - a.x) / p.length - 1)
 
     @guard("taut", "closing", to="loose", unit="N")
     def shortens(p, a, b):

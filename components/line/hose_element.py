@@ -9,7 +9,6 @@ class Hose(Component):
     tension = (stretch) EA/length + damping * rate,   stretch = b.x - a.x - length
     """
 
-    spans = "length"
     a = Translational("inboard end")
     b = Translational("outboard end")
     axial_stiffness = Parameter("N", "EA, tension per strain.", above=0)
@@ -17,6 +16,7 @@ class Hose(Component):
     damping = Parameter("N*s/m", "Tension per speed of separation.", default=0.0, least=0)
     line_damping = Effect("Damping of the element; off: none.")
     tension = Output("N", "Tension; negative when compressed.")
+    strain = Output("1", "Stretch over length; at -1 its ends are at one place.", role="strain")
 
     def law(p, a, b):
         """Stiffness and damping side by side."""
@@ -24,7 +24,8 @@ class Hose(Component):
         elastic = p.axial_stiffness / p.length * stretch
         lossy = damped(p, rate)
         tension = elastic + lossy
-        return Law(a=-tension, b=+tension, tension=tension, stored=elastic * stretch / 2, dissipated=lossy * rate)
+        return Law(a=-tension, b=+tension, tension=tension, strain=stretch / p.length, stored=elastic * stretch / 2,
+                   dissipated=lossy * rate)  # fmt: skip
 
 
 def damped(p, rate):

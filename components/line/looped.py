@@ -23,7 +23,6 @@ def step(place: float, edge: float) -> PiecewisePolynomial:
 class LoopedHose(Hose):
     """Elastic element with a loop of 2 y in it when it spans the place of the tensioner."""
 
-    spans = ""  # its way counts the loop
     carriage = Translational("the carriage of the tensioner, at y")
     behind = Table("m", "1", "The step, as the inboard node sees it.")
     ahead = Table("m", "1", "The step, as the outboard node sees it.")
@@ -36,6 +35,7 @@ class LoopedHose(Hose):
 class LoopedCore(LoopedHose):
     """The same, which cannot push."""
 
+    compressible = 1.0  # loose at any length
     slack = Output("1", "1 while slack.")
     zones = Zones("taut", "loose")
 
@@ -47,7 +47,8 @@ class LoopedCore(LoopedHose):
     @zone("loose")
     def loose(p, a, b, carriage):
         """Carries nothing."""
-        return Law(a=0, b=0, carriage=0, tension=0, slack=1)
+        way, _ = stretch(p, a, b, carriage)
+        return Law(a=0, b=0, carriage=0, tension=0, slack=1, strain=way / p.length)
 
     @guard("taut", to="loose", unit="N")
     def shortens(p, a, b, carriage):
@@ -85,5 +86,5 @@ def along(p, a, b, carriage):
     tension = elastic + lossy
     grows_a, grows_b = (1 + 2 * carriage.x * table.rate(x) for table, x in ((p.behind, a.x), (p.ahead, b.x)))
     drawn = 2 * tension * (p.ahead(b.x) - p.behind(a.x))
-    return Law(a=-tension * grows_a, b=tension * grows_b, carriage=drawn, tension=tension, stored=elastic * way / 2,
-               dissipated=lossy * rate)  # fmt: skip
+    return Law(a=-tension * grows_a, b=tension * grows_b, carriage=drawn, tension=tension, strain=way / p.length,
+               stored=elastic * way / 2, dissipated=lossy * rate)  # fmt: skip

@@ -24,5 +24,5 @@ class RelaxingHose(Hose):
         elastic, lossy, k = p.axial_stiffness / p.length * stretch, damped(p, rate), p.branch_stiffness / p.length
         tension = elastic + lossy + branch
         return Law(a=-tension, b=+tension, tension=tension, branch=k * rate - branch / p.relaxation,
-                   stored=elastic * stretch / 2 + branch**2 / (2 * k),
+                   strain=stretch / p.length, stored=elastic * stretch / 2 + branch**2 / (2 * k),
                    dissipated=lossy * rate + branch**2 / (k * p.relaxation))  # fmt: skip

@@ -25,7 +25,7 @@ class WatchedHose(Hose):
         elastic, lossy = p.axial_stiffness / p.length * stretch, damped(p, rate)
         tension = elastic + lossy
         return Law(a=-tension, b=+tension, tension=tension, compressed=1 if zone == "beyond" else 0,
-                   stored=elastic * stretch / 2, dissipated=lossy * rate)  # fmt: skip
+                   strain=stretch / p.length, stored=elastic * stretch / 2, dissipated=lossy * rate)  # fmt: skip
 
     @guard("sound", to="beyond", unit="N")
     def gives_in(p, a, b):
@@ -68,7 +68,7 @@ class RuckingHose(Hose):
         lossy = damped(p, rate)
         tension = elastic + lossy
         return Law(a=-tension, b=+tension, folded=folding, tension=tension, compressed=0 if zone == "sound" else 1,
-                   stored=elastic**2 * p.length / p.axial_stiffness / 2,
+                   strain=(b.x - a.x) / p.length - 1, stored=elastic**2 * p.length / p.axial_stiffness / 2,
                    dissipated=lossy * rate + elastic * folding)  # fmt: skip
 
     @guard("sound", to="drawn", unit="N")

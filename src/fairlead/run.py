@@ -22,7 +22,7 @@ from fairlead.analysis.released_together import ReleasedTogether
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
-from fairlead.analysis.strains import strains
+from fairlead.analysis.strains import Strains
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
 from fairlead.errors import Fault, ModelError, UsageError
@@ -56,6 +56,7 @@ class Watch:
     ledger: Ledger
     creep: WorstCreep
     limits: Limits
+    strains: Strains
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
@@ -89,6 +90,7 @@ class Watch:
             self.together.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.limits.watch(block.t, block.values)
+        self.strains.watch(block.t, block.values)
         if self.metered is not None:
             self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:
@@ -149,8 +151,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         event_rows = EventRows(least_jumps(system, recording.chosen, settings.accuracy)) if on_grid else None
         asked = _engine_settings(netlist, settings, system, patterns)
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
-        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits, together, progress,
-                      interruption, event_rows)  # fmt: skip
+        watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
+                      Strains.of(system, recording.recorded), together, progress, interruption, event_rows)  # fmt: skip
         outcome = integrate(system, asked, watch)
         watch.finish()
         interruption.between_blocks = False
@@ -290,7 +292,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
-        "strains": strains(outcome.problem, outcome.t, outcome.y),
+        "strains": watch.strains.summary(),
         "jumps": watch.jumps(),
     }  # fmt: skip
 

@@ -27,7 +27,7 @@ run: {{stop: 1 s}}
 )
 def test_an_element_beyond_what_it_bears_is_told(kind, end, says, scene):
     run = scene(SCENE.format(kind=kind, end=end)).run(out=None).run
-    assert run["strains"]["least"] == pytest.approx(end / 2 - 1, abs=1e-9)
+    assert run["strains"]["least"] == pytest.approx(min(0.0, end / 2 - 1), abs=1e-9)  # it begins without load
     assert says in remark(run["strains"])
     assert bool(says) == bool(remark(run["strains"]))
 
@@ -39,3 +39,51 @@ def test_a_scene_without_elements_has_none(scene):
     run: {stop: 1 s}
     """
     assert scene(text).run(out=None).run["strains"] is None
+
+
+def test_an_element_that_turned_over_and_came_back_is_told_with_the_instants(scene):
+    text = SCENE.format(kind="Hose", end=2).replace("[1, 2]", "[0.5, -0.2], [1, 2]")
+    run = scene(text.replace("stop: 1 s", "stop: 1 s, max_step: 1 ms")).run(out=None).run
+    found = run["strains"]
+    assert found["least"] == pytest.approx(-1.1, abs=5e-3)  # a step of 1 ms before the turn
+    assert found["t"] == pytest.approx(0.5, abs=2e-3)
+    assert found["inside_out_from"] == pytest.approx(2.0 / 4.4, abs=2e-3)  # it goes at 4.4 m/s
+    assert found["too_short_from"] == pytest.approx(1.0 / 4.4, abs=2e-3)
+    assert "from t = 0.45" in remark(found)
+    assert "line: inside out" in remark(found)
+
+
+LOOPED = """
+components:
+  wall: {{type: Ground}}
+  line: {{type: {kind}, axial_stiffness: 100 N, length: 2 m, behind: {step}, ahead: {step}}}
+  hand: {{type: MotionSource, position: {{table: [[0, 1.5], [1, 1.2]]}}}}
+  place: {{type: MotionSource, position: {{table: [[0, {y}], [1, {y}]]}}}}
+connections: [[wall.flange, line.a], [hand.flange, line.b], [place.flange, line.carriage]]
+run: {{stop: 1 s}}
+"""
+STEP = "{x: [0 m, 0.8 m, 1 m, 3 m], y: [0, 0, 1, 1]}"
+
+
+@pytest.mark.parametrize(
+    ("kind", "y", "says"),
+    [
+        ("LoopedHose", 0.3, ""),
+        ("LoopedHose", -0.4, "pressed together"),
+        ("LoopedHose", -0.7, "inside out"),
+        ("LoopedCore", -0.4, ""),  # loose
+        ("LoopedCore", -0.7, "inside out"),
+    ],
+)
+def test_an_element_with_a_loop_counts_its_way(kind, y, says, scene):
+    """Its ends are 1.2 m apart in the end, and the loop of 2 y comes on top."""
+    run = scene(LOOPED.format(kind=kind, y=y, step=STEP)).run(out=None).run
+    assert run["strains"]["least"] == pytest.approx((1.2 + 2 * y) / 2 - 1, abs=1e-9)
+    assert says in remark(run["strains"])
+    assert bool(says) == bool(remark(run["strains"]))
+
+
+@pytest.mark.parametrize("record", ["{signals: []}", "{signals: [hand.force], every: 0.1 s}"])
+def test_strains_are_watched_whatever_is_recorded(record, scene):
+    run = scene(SCENE.format(kind="Hose", end=-0.2) + f"record: {record}\n").run(out=None).run
+    assert run["strains"]["least"] == pytest.approx(-1.1, abs=1e-9)

@@ -1,66 +1,104 @@
-"""Strains of the elements of lines where a run ended: compressed beyond what their part allows, or turned inside out.
+"""Strains of elements during a run: compressed beyond what their part allows, or turned inside out.
 
-A class that says `spans = "length"` is an element between its ports a and b of that length without load, and
-`compressible` is the share of it by which it may get shorter. At a strain of -1 its ends are at one place; below, it
-is inside out, and no law of a line means that.
+An output of role `strain` is the stretch of an element over its length without load, and `compressible` is the share
+of that length by which it may get shorter. At a strain of -1 its ends are at one place; below, it is inside out, and
+no law of a line means that. Every row that a run records is looked at, whichever signals are asked for; with
+`record.every` an element may turn over and back between two rows of the grid.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fairlead.system.asking import guards_at
-from fairlead.system.system import Instance
-from fairlead.system.tolerances import Floats
+from fairlead.component.declare import STRAIN
+from fairlead.system.recording import OutputSignal
+from fairlead.system.system import System
 
 MOST_NAMED = 10
+INSIDE_OUT = -1.0
+Floats = NDArray[np.float64]
 
 
-def strains(problem: Instance, t: float, y: Floats) -> dict[str, Any] | None:
-    """For run.json, at (t, y): `least` strain and its component, `too_short` and `inside_out` by name; None without.
+@dataclass
+class Strains:
+    """Watches the strains of m elements, in columns `columns` of the rows of a run."""
 
-    `y` are all unknowns, shape (n,).
-    """
-    found = _strains(problem, t, y)
-    if not found:
-        return None
-    worst = min(found, key=lambda one: one[1])
-    too_short = [path for path, strain, allowed in found if strain < -allowed]
-    inside_out = [path for path, strain, _ in found if strain <= -1.0]
-    return {
-        "least": worst[1], "component": worst[0], "t": t,
-        "too_short": too_short[:MOST_NAMED], "n_too_short": len(too_short),
-        "inside_out": inside_out[:MOST_NAMED], "n_inside_out": len(inside_out),
-    }  # fmt: skip
+    names: Sequence[str]
+    columns: NDArray[np.int64]
+    allowed: Floats
+    """[m]: how far below zero is no remark."""
+    least: Floats = field(init=False)
+    at: Floats = field(init=False)
+    """[m]: when it was least, s."""
+    too_short_from: Floats = field(init=False)
+    """[m]: when it was first beyond what is allowed, s; infinite if never."""
+    inside_out_from: Floats = field(init=False)
+    """[m]: likewise first at -1 or below."""
+
+    def __post_init__(self) -> None:
+        """Nothing seen yet."""
+        m = len(self.names)
+        self.least, self.at = np.full(m, np.inf), np.zeros(m)
+        self.too_short_from, self.inside_out_from = np.full(m, np.inf), np.full(m, np.inf)
+
+    @classmethod
+    def of(cls, system: System, recorded: Sequence[OutputSignal]) -> Strains:
+        """Those among the recorded signals; an element that has two names counts once."""
+        allowed = {one.path: one.type.answers.compressible for one in system.flat.instances}
+        found: dict[str, int] = {}
+        for column, signal in enumerate(recorded):
+            path = signal.name.rpartition(".")[0]
+            if signal.role == STRAIN and path in allowed:
+                found[path] = column
+        return cls(list(found), np.array([*found.values()], dtype=np.int64), np.array([allowed[p] for p in found]))
+
+    def watch(self, t: Floats, rows: Floats) -> None:
+        """Take recorded rows, shape (k, recorded)."""
+        if not len(t) or not len(self.names):
+            return
+        strain = rows[:, self.columns]
+        strain = np.where(np.isnan(strain), np.inf, strain)  # says nothing, and must not hide the others
+        k = strain.argmin(axis=0)
+        now = strain[k, np.arange(len(k))]
+        lower = now < self.least
+        self.least[lower], self.at[lower] = now[lower], t[k[lower]]
+        for since, beyond in (
+            (self.too_short_from, strain < -self.allowed),
+            (self.inside_out_from, strain <= INSIDE_OUT),
+        ):
+            first = beyond.any(axis=0) & np.isinf(since)
+            since[first] = t[beyond.argmax(axis=0)[first]]
+
+    def summary(self) -> dict[str, Any] | None:
+        """For run.json: `least` strain, its component and time; `too_short`, `inside_out`: names in order of time."""
+        if not len(self.names) or not np.isfinite(self.least).any():
+            return None
+        k = int(self.least.argmin())
+        return {
+            "least": float(self.least[k]), "component": self.names[k], "t": float(self.at[k]),
+            **self._those("too_short", self.too_short_from), **self._those("inside_out", self.inside_out_from),
+        }  # fmt: skip
+
+    def _those(self, word: str, since: Floats) -> dict[str, Any]:
+        """Names in the order in which it came to it, how many, and when the first did."""
+        which = [k for k in np.argsort(since, kind="stable").tolist() if np.isfinite(since[k])]
+        named = [self.names[k] for k in which[:MOST_NAMED]]
+        return {word: named, f"n_{word}": len(which), f"{word}_from": float(since[which[0]]) if which else None}
 
 
-def remark(found: dict[str, Any] | None) -> str:
+def remark(found: Mapping[str, Any] | None) -> str:
     """A sentence on them, and what to do; nothing where all is as it should be."""
     if not found or not (found["n_inside_out"] or found["n_too_short"]):
         return ""
-    names, count = (found["inside_out"], found["n_inside_out"]) if found["n_inside_out"] else (
-        found["too_short"], found["n_too_short"])  # fmt: skip
+    word = "inside_out" if found["n_inside_out"] else "too_short"
     what = "inside out, the ends have passed each other" if found["n_inside_out"] else "pressed together"
+    names, count = found[word], found[f"n_{word}"]
     named = ", ".join(names[:3]) + (f" and {count - 3} more" if count > 3 else "")
-    worst = f"the least strain is {100 * found['least']:.3g} % in {found['component']}"
+    worst = f"the least strain is {100 * found['least']:.3g} % in {found['component']} at t = {found['t']:.6g} s"
     cure = "Do not use what follows from them; give the line less friction or push, more stiffness, or a shorter run."
-    return f"t = {found['t']:.6g} s: {named}: {what}; {worst}. {cure}"
-
-
-def _strains(problem: Instance, t: float, y: Floats) -> list[tuple[str, float, float]]:
-    """Path, strain and compression allowed of every element that says what it spans."""
-    spanning = [block for block in problem.blocks if block.kernel.variant.type.answers.spans]
-    if not spanning or not np.isfinite(y).all():
-        return []
-    guards_at(problem, t, y)  # puts y, and what is given in time, in z
-    z, found = problem.memory["z"], list[tuple[str, float, float]]()
-    for block in spanning:
-        s, answers = block.kernel.structure, block.kernel.variant.type.answers
-        a, b = (s.inputs.index(f"port:{port}:x") for port in ("a", "b"))
-        x = block.in_coef * z[block.in_index] + block.in_offset
-        strain = (x[:, b] - x[:, a]) / block.parameters[:, s.parameters.index(answers.spans)] - 1.0
-        paths = [instance.path for instance in block.instances]
-        found += zip(paths, strain.tolist(), [answers.compressible] * len(paths), strict=True)
-    return found
+    return f"from t = {found[f'{word}_from']:.6g} s: {named}: {what}; {worst}. {cure}"

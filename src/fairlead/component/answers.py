@@ -199,11 +199,9 @@ class Answers:
         method("p", "normal"), "of a contact: (name, value, unit) of more that `fairlead friction` tells"
     )
     can_hold: bool = _asked(YES_OR_NO, "of a contact: it can keep a load at rest", default=True)
-    spans: str = _asked(
-        PARAMETER, "the length without load of an element between its ports a and b; a run tells its strain", default=""
-    )
     compressible: float = _asked(
-        SHARE, "with `spans`: by how much of its length it may get shorter before a run remarks on it", default=0.5
+        SHARE, "with an output of role strain: the share of its length by which it may get shorter without a remark",
+        default=0.5,
     )
     budget: Mapping[str, int] = _asked(
         BUDGET, "`max_steps` and `max_events` of its runs, where the netlist gives none", default=dict

@@ -95,8 +95,8 @@ class Input:
     signed: bool = False  # what it means may be negative, such as a command; the contract suite asks with both signs
 
 
-CREEP, SHARE = "creep", "share"
-ROLES = (CREEP, SHARE)
+CREEP, SHARE, STRAIN = "creep", "share", "strain"
+ROLES = (CREEP, SHARE, STRAIN)
 
 
 @dataclass(frozen=True)
@@ -106,6 +106,7 @@ class Output:
     `role` is what it means to the framework: CREEP is the slip speed of a contact while it should stick. Of it every
     run tells the worst. SHARE is what an element or a node of a line takes in, which belongs to its length: with finer
     elements there are more and smaller ones, so two meshes are not compared by it. Creep is not compared either.
+    STRAIN is that of an element, over its length without load; a run watches it, see `compressible` of a component.
     """
 
     unit: str

@@ -7,12 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fairlead.component.declare import CREEP
+from fairlead.component.declare import CREEP, STRAIN
 from fairlead.patterns import picked
 from fairlead.system import layout
 from fairlead.system.blocks import Block, Integers
 from fairlead.system.shares import shares
 from fairlead.system.shown import what_to_ask
+
+WATCHED = (CREEP, STRAIN)
+"""Roles of outputs that every run looks at, whatever is recorded."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,7 @@ class OutputSignal:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """What was chosen by name; and all that is recorded: that, then the ledger and the creep of every contact."""
+    """What was chosen by name; and all that is recorded: that, then the ledger, creeps and strains."""
 
     chosen: list[OutputSignal]
     recorded: list[OutputSignal]
@@ -54,7 +57,7 @@ def choose(
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]
-    hidden = [s for s in signals if (s.role == CREEP or s.at < 0) and s.name not in names]
+    hidden = [s for s in signals if (s.role in WATCHED or s.at < 0) and s.name not in names]
     return recording(chosen, chosen + hidden, blocks, counts)
 
 
