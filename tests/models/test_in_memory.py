@@ -13,7 +13,7 @@ from fairlead.report import page
 from fairlead.results import MemoryRun, Signal
 
 SHORT = {"run.stop": "0.5 s"}
-FOLDER_ALONE = ("id", "locked", "started", "ended", "wall_time", "compile_time", "solve_time")
+FOLDER_ALONE = ("files", "id", "locked", "started", "ended", "wall_time", "compile_time", "solve_time")
 
 
 @pytest.fixture(scope="module")
