@@ -7,7 +7,7 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
     "most_perturbed", "has_limits", "weighs_guards", "rebounds", "takes_impulses",
-    "dissipated_at", "supplied_at", "samples", "max_passes", "gamma", "error_exponent",
+    "falling", "dissipated_at", "supplied_at", "samples", "max_passes", "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "on_chatter", "start", "stop",
@@ -17,7 +17,7 @@ OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
 OF_A_SETTLEMENT = {
     "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "nearness", "culprit",
-    "worst",
+    "worst", "ordered", "levels", "level_due", "nothing_before", "fastest",
 }  # fmt: skip
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",

@@ -20,6 +20,7 @@ from fairlead.integrate.growth import watch_growth
 from fairlead.integrate.impulse import RUBBED
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
+from fairlead.integrate.release import remember
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
 from fairlead.integrate.start import NOT_CONSISTENT
 from fairlead.integrate.trial import not_finite_here, smallest_step
@@ -36,6 +37,7 @@ def start(m):
     find_next_time(m)
     m.n_fired = 0
     begin_settling(m)
+    m.nothing_before = 1
     m.phase = SETTLE
     return GO_ON
 
@@ -54,6 +56,7 @@ def arrive(m):
     if m.crossed == 1:
         m.located += 1
         write_row(m, m.t, m.at_y, BEFORE)
+        remember(m)
         begin_settling(m)
         m.phase = SETTLE
     elif event_due:
@@ -77,6 +80,7 @@ def arrive(m):
 def time_event(m):
     """Tell the problem of its time event, release machines whose dwell is over; True if that matters."""
     changed = False
+    remember(m)
     if m.t >= m.t_next:
         m.time_events += 1
         changed = at_time_at(m.call_at_time, (m.context, m.t, m.at_y)) != 0
@@ -144,6 +148,7 @@ def finish_settling(m, starting):
         watch_growth(m)
     m.last_error = 0.0
     m.retried = 0
+    m.nothing_before = 0
     m.jacobian_fresh = 0
     m.factored_h = 0.0
     m.companion = 0

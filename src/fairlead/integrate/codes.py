@@ -19,5 +19,8 @@ KNOWN_ZONES = 8
 MOST_PERTURBED = 16
 """Pivots that `stepping` may perturb at once (perturbed_pivots.py). With more, other pivots are the better way."""
 
+LEVELS = 16
+"""Levels of load at most (release.py); one more comes in together with the one it would lie on."""
+
 CHECK = "FAIRLEAD_CHECK_INDICES"
 """Set in the environment, the loop is compiled to trap where an index lies outside its array (foreign.py)."""

@@ -80,6 +80,14 @@ class Facts(Protocol):
         """Machines whose switch changes more rows of J and M than the one they hold: these are evaluated then."""
 
     @property
+    def share_rows(self) -> Integers:
+        """Rows, none of them a contact's, that say how contacts in circles share what they hold."""
+
+    @property
+    def falls(self) -> Integers:
+        """[nz]: 1 for a contact whose friction falls with a jump as it lets go: the order may matter (release.py)."""
+
+    @property
     def samples(self) -> bool:
         """True if `at_time` takes samples of the unknowns: they are then made consistent before."""
 
@@ -166,3 +174,13 @@ class Plain:
     def beyond_row(self) -> Integers:
         """None."""
         return np.zeros(0, dtype=np.int64)
+
+    @property
+    def share_rows(self) -> Integers:
+        """None."""
+        return np.zeros(0, dtype=np.int64)
+
+    @property
+    def falls(self) -> Integers:
+        """None is known to."""
+        return np.zeros(len(self.zones), dtype=np.int64)

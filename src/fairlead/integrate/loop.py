@@ -36,6 +36,7 @@ from fairlead.integrate.codes import (
 )
 from fairlead.integrate.foreign import compiled, memory_at
 from fairlead.integrate.record import record_piece, there_is_room
+from fairlead.integrate.release import remember
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.trial import attempt
 
@@ -82,6 +83,7 @@ def ready(m):
 def settle_anew(m):
     """Settle all that there is at a point where only a part of it was."""
     m.n_fired = 0
+    remember(m)
     begin_settling(m)
     m.phase = SETTLE
     return GO_ON

@@ -41,6 +41,10 @@ INTEGERS = (
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # impacts: whether any row takes impulses, and the unknowns of the energy ledger (-1: there is none)
     "takes_impulses", "rebounds", "dissipated_at", "supplied_at",
+    # the order of release (release.py): whether friction of a contact falls as it lets go, whether the order was
+    # asked for in this settlement, levels of load that are still out, whether zones have changed since the last of
+    # them, whether there was nothing before
+    "falling", "ordered", "levels", "level_due", "nothing_before",
     # the core of W: which matrix is factored there, whether its factors are good, columns of the last factorisation
     "core_kind", "core_valid", "skip_meters", "n_redone", "n_perturbed", "most_perturbed",
     # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
@@ -79,6 +83,7 @@ NUMBERS = (
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
     "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
+    "fastest",
     # stepping only: theta asked for, its rise when zones cycle, theta in force, the step asked for, distances of the
     # slopes remembered, what was allowed in the last steps (steady_steps.py)
     "least_theta", "theta_raise", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
@@ -112,6 +117,10 @@ VECTORS = {
     "guard_inertia": "n_guards", "wrong": "n_guards",
     # machines
     "switched_after": "n_zones", "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
+    # the order of release: the point just before, loads that are out and the shares of them that are left, rates of
+    # guards by slips at both ends of a way, slips in the time of a level
+    "y_before": "n", "f_before": "n", "out": "levels_n", "left": "levels",
+    "rate": "n_guards", "rate_end": "n_guards", "fast_slip": "n_guards",
     # energy lost in impacts, by the row that held
     "lost": "n", "rebound": "n",
     # the point as it was settled at the start
@@ -144,6 +153,10 @@ INDICES = {
     "own_mass_starts": "n_zones_plus_1", "own_masses": "n_own_masses", "known": "machines_by_zone",
     "zones_linearised": "n_zones", "own_kind": "n_zones", "only_kinks": "n_zones",
     "known_of_kind": "machines_by_zone", "exchanged_machines": "n_zones",
+    # the order of release: by row who decides whether it holds, by machine whether its friction falls, unknowns that
+    # move in the fast time, the level in which a slip began, guards that it has brought back to zero
+    "holder": "n", "in_circle": "n", "falls": "n_zones", "is_speed": "n", "born": "n_guards", "came_back": "n_guards",
+    "zones_just_before": "n_zones",
     "rim": "n_zones", "zones": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones",
     "fired": "n_guards", "guard_machine": "n_guards", "streak": "n_zones", "chatters": "n_zones",
     "switches_by_machine": "n_zones", "rejections_by_unknown": "n",

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
-from fairlead.integrate.codes import KNOWN_ZONES, MOST_PERTURBED
+from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_PERTURBED
 from fairlead.integrate.condensing import columns_of, lay_out
 from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
 from fairlead.integrate.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
@@ -80,6 +80,8 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "kink_guard": np.asarray(problem.kink_guard, np.int64),
         "may_hold": _of_contacts(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
+        "holder": np.asarray(problem.holder, np.int64), "in_circle": _in_circles(problem),
+        "is_speed": moved_at_once(problem),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
         "unweighed": (problem.quadrature | problem.gauge).astype(np.int64),
@@ -110,6 +112,15 @@ def _of_contacts(problem: Problem) -> Integers:
 
 RIGID = 2
 """What a row takes that takes any impulse."""
+
+
+def _in_circles(problem: Problem) -> Integers:
+    """1 for rows whose meaning may change with a contact that may close a circle with others."""
+    made = np.isin(problem.holder, problem.beyond_row).astype(np.int64)
+    made[problem.share_rows] = 1
+    return made
+
+
 OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "body_speed", "neighbours", "own_slopes", "own_masses")
 """Arrays of `stepping` whose lengths the loop is told."""
 
@@ -117,10 +128,11 @@ OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "body_speed", "neighbour
 def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: Place) -> tuple[Memory, Instance]:
     """The memory of a run at its start, and the problem at work in it."""
     nz, s = len(problem.zones), tableau.stages
-    passes = passes_allowed(run, nz)
+    passes, falls = passes_allowed(run, nz), np.asarray(problem.falls, np.int64)
     lengths = dict.fromkeys((VECTORS | INDICES).values(), 0) | plan.lengths | {
         "stages": s, "stages_n": s * len(problem.initial), "stages_stages": s * s, "three_stages": 3 * s,
         "passes_zones": (passes + 1) * nz, "passes": passes + 1,
+        "levels": LEVELS, "levels_n": LEVELS * len(problem.initial) if falls.any() else 0,
     }  # fmt: skip
     memory = Memory(lengths, plan.given | method(run.method), problem.room)
     own = place(memory.piece)
@@ -138,6 +150,8 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     memory.array["y"][:] = own.initial
     memory.array["watched"][:] = watched(own)
     memory.number["n_watched"] = int(memory.array["watched"].sum())
+    memory.array["falls"][:] = falls
+    memory.number["falling"] = int(falls.any() and len(np.unique(plan.given["holder"])) > 2)  # -1 is one
     memory.array["last_toggle"][:] = -NEVER
     memory.array["blocked_until"][:] = -NEVER
     return memory, own
@@ -271,6 +285,13 @@ def position_of(problem: Problem) -> Integers:
         if v >= 0:
             found[v] = x
     return found
+
+
+def moved_at_once(problem: Problem) -> Integers:
+    """1 for unknowns that a jump of load moves in a time in which positions stand still."""
+    chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
+    chosen[[x for x, v in lay_out(problem).positions.items() if v >= 0]] = 0
+    return chosen
 
 
 def write_numbers(memory: Memory, values: dict[str, float]) -> None:

@@ -26,6 +26,7 @@ from fairlead.integrate.impulse import RELEASED
 from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import DONE
 from fairlead.integrate.record import there_is_room, write_event
+from fairlead.integrate.release import begin_release, order_matters, release
 from fairlead.integrate.start import consistent
 
 NOT_SETTLED, NO_ROOM = 4, 5
@@ -60,12 +61,21 @@ def settle(m, iterations):
             if not there_is_room(m):
                 return NO_ROOM
             change_zones(m)
-        status = consistent(m, iterations)
+        status = release(m) if m.levels + m.level_due > 0 else DONE
+        if status == DONE and m.n_fired > 0:
+            continue
+        if status == DONE:
+            status = consistent(m, iterations)
         if status == RELEASED:
             continue
         if status != DONE:
             return status
         judge(m)
+        if m.n_fired > 0 and order_matters(m):
+            status = begin_release(m)
+            if status != DONE:
+                return status
+            continue
         if m.n_fired == 0 or (m.stage > LEAST_INDEX and all_at_limits(m)):
             m.n_fired = 0
             return DONE
@@ -79,6 +89,7 @@ def begin_settling(m):
     What counts once a settlement is done here: `settle` is left and entered again for other pivots or empty buffers.
     """
     m.passes = 0
+    m.levels, m.level_due, m.ordered = 0, 0, 0
     m.one_by_one = 0
     m.stage, m.stage_from, m.fewest, m.waited = ALL, 0, m.n_guards + 1, 0
     m.look = 0.0
@@ -117,7 +128,9 @@ def change_zones(m):
     m.settling_passes += 1
     if m.passes < m.max_passes:
         copy(zones, indices(m.at_zones_history + 8 * m.passes * nz, nz))
-    if recurs(m):
+    if m.levels > 0:
+        m.stage_from = m.passes
+    elif recurs(m):
         next_stage(m)
 
 

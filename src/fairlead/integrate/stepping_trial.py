@@ -34,6 +34,7 @@ from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.missed_impulse import impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.release import remember
 from fairlead.integrate.rows_between import end_massless, prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.steady_steps import forget_steps, keep_step, note_rejection
@@ -189,6 +190,7 @@ def landed(m, h):
         m.seeking = 0
         m.crossed = 1
         write_row(m, m.t, m.at_y, BEFORE)
+        remember(m)
         begin_settling(m)
         m.phase = SETTLE
         return False

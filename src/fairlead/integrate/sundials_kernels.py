@@ -16,6 +16,7 @@ from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
 from fairlead.integrate.linear import add_mass_times, factorise_step, solve
 from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.release import remember
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.trial import not_finite_here
 
@@ -82,6 +83,7 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted):
         m.rejected_companion += 1
         m.companion = 1
         write_row(m, m.t, m.at_y, BEFORE)
+        remember(m)
         begin_settling(m)
         m.phase = SETTLE
         return

@@ -29,6 +29,7 @@ from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.meters import judge_meters, meter_piece
 from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.release import remember
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
 from fairlead.integrate.settling import all_fall, begin_settling
 
@@ -79,6 +80,7 @@ def attempt(m):
             return GO_ON
         m.companion = 1
         write_row(m, m.t, m.at_y, BEFORE)
+        remember(m)
         begin_settling(m)
         m.phase = SETTLE
         return GO_ON
@@ -163,6 +165,7 @@ def mend_point(m):
     m.companion = 1
     m.n_fired = 0
     write_row(m, m.t, m.at_y, BEFORE)
+    remember(m)
     begin_settling(m)
     m.phase = SETTLE
 

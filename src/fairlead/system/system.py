@@ -119,6 +119,11 @@ class System:
         machines = np.unique(self.memory["circle_pairs"][:, 5])
         return machines[machines >= 0]
 
+    @property
+    def share_rows(self) -> Integers:
+        """Rows that say how contacts in circles share what they hold."""
+        return np.array(list(self.numbering.share.values()), dtype=np.int64)
+
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine."""
         return self.machine_zones[machine]
@@ -193,6 +198,20 @@ class System:
             for values in {id(instance.values): instance.values for instance in block.instances}.values()
         )  # fmt: skip
         return min(found, default=1.0)
+
+    @functools.cached_property
+    def falls(self) -> Integers:
+        """By machine: 1 where friction falls with a jump as the contact lets go."""
+        fell: dict[tuple[int, int], int] = {}
+        found = np.zeros(len(self.zones), dtype=np.int64)
+        for block in self.blocks:
+            shares = block.kernel.structure.shares_left
+            for instance, machines in zip(block.instances, block.machines, strict=True) if shares else ():
+                key = id(shares), id(instance.values)
+                if key not in fell:
+                    fell[key] = int(least_left(shares, instance.values) < 1)
+                found[machines[0]] = fell[key]
+        return found
 
     @property
     def samples(self) -> bool:
