@@ -39,7 +39,8 @@ def test_what_settles_is_friction(scene: Scene, bodies: int, contacts: int, stre
         network = random_network(seed, bodies, contacts, strength, stiction)
         system, outcome = settled(scene, network)
         assert outcome.status == Status.MAX_STEPS, outcome.sentence  # settled, and no step allowed
-        assert outcome.counters.settling_passes <= contacts / 3 + 20
+        # One contact after another where the order matters.
+        assert outcome.counters.settling_passes <= contacts * (1 if stiction > 1 else 1 / 3) + 20
         forces, sign = forces_and_directions(system, outcome, contacts)
         held, slips, limits = sign == 0, network.slips, network.limits
         assert np.all(np.abs(forces[held]) <= stiction * limits[held] * (1 + ROUNDING))

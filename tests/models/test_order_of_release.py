@@ -35,12 +35,24 @@ record: {{every: 10 ms}}
 """
 SHAFTS = """
 components:
-  r1: {{type: Inertia, inertia: {inertia} kg*m^2}}
-  r2: {{type: Inertia, inertia: {inertia} kg*m^2}}
-  r3: {{type: Inertia, inertia: {inertia} kg*m^2}}
-  left: {{type: RotaryContact, normal_force: {load} N, curve: {{curve: coulomb, coulomb: 0.4, stiction: 0.5}}, radius: 1 m}}
-  right: {{type: RotaryContact, normal_force: {load} N, curve: {{curve: coulomb, coulomb: 0.4, stiction: 0.5}}, radius: 1 m}}
+  r1: {{type: Inertia, moment: 0.7 kg*m^2}}
+  r2: {{type: Inertia, moment: 0.7 kg*m^2}}
+  r3: {{type: Inertia, moment: 0.7 kg*m^2}}
+  left: {{type: Clutch, radius: 0.13 m, normal_force: 97 N, curve: {{curve: coulomb, coulomb: 0.4, stiction: 0.5}}}}
+  right: {{type: Clutch, radius: 0.13 m, normal_force: 97 N, curve: {{curve: coulomb, coulomb: 0.4, stiction: 0.5}}}}
+  drive: {{type: TorqueSource, torque: {torque}}}
+  load: {{type: TorqueSource, torque: {against}}}
+connections:
+  - [r1.shaft, left.a, drive.shaft]
+  - [left.b, r2.shaft, right.a]
+  - [right.b, r3.shaft, load.shaft]
+run: {{stop: 1 s, accuracy: {accuracy}, engine: {engine}}}
 """
+TORQUES = {
+    "jump": ("{{step: {{to: {}10 N*m, at: 0.3 s}}}}"),
+    "ramp": ("{{ramp: {{to: {}10 N*m, over: 0.7 s, start: 0.1 s}}}}"),
+    "from the start": "{}10 N*m",
+}
 
 
 def needs(engine):
@@ -59,6 +71,20 @@ def test_the_contact_that_a_build_up_meets_first_lets_go_and_relieves_the_others
     result = scene(PILE.format(force=force, engine=engine)).run(out=None)
     ends = [result[f"{body}.x"][-1] for body in ("low", "middle", "top")]
     assert ends == pytest.approx([0.5 * (6.45 - 6.0) / 3 * time**2] * 3, rel=1e-4)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("torque", TORQUES)
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-5"])
+def test_what_is_symmetric_stays_symmetric(scene, engine, torque, accuracy):
+    """Equal shafts, equal clutches, equal torques against each other: the shaft in the middle has no way to turn."""
+    needs(engine)
+    goes = TORQUES[torque]
+    text = SHAFTS.format(torque=goes.format(""), against=goes.format("-"), accuracy=accuracy, engine=engine)
+    result = scene(text).run(out=None)
+    assert abs(result["r2.rate"][-1]) < 1e-6
+    assert result["r1.rate"][-1] == pytest.approx(-result["r3.rate"][-1], rel=1e-6)
+    assert result["r1.rate"][-1] > 0.5
 
 
 def changes(text, tmp_path, bodies=8):

@@ -1,7 +1,8 @@
-"""Held contacts that passed their limits at one instant, where one that lets go changes what the others carry.
+"""Held contacts that came to their limits together, where one that lets go changes what the others carry.
 
-Which of them go then depends on the order in which their loads grew, and an instant has none. Told are contacts that
-let go in one pass of a settlement and hang together: by bodies with mass, and by contacts that hold or may hold there.
+They let go together, because nothing tells which of them is the first; had one been, its friction would have fallen and
+others might hold. Told are contacts whose friction falls, that let go in one pass of a settlement and hang together: by
+bodies with mass, and by contacts that hold or may hold there.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ class ReleasedTogether:
     def watch(self, events: NDArray[Any]) -> None:
         """Take zone changes, dtype EVENT; those of one pass come together."""
         some = events[(events["guard"] >= 0) & (events["before"] != events["after"])]
-        some = some[self.system.limit_guard[some["guard"]] == 1]
+        some = some[(self.system.limit_guard[some["guard"]] == 1) & (self.system.falls[some["machine"]] == 1)]
         if not ((some["t"][1:] == some["t"][:-1]) & (some["position"][1:] == some["position"][:-1])).any():
             return
         keys = np.column_stack([some["t"], some["position"], self._together[some["machine"]]])

@@ -65,9 +65,9 @@ def _together(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
         return []
     one = found["first"][0]
     more = f" and {one['of'] - MOST_NAMED} more" if one["of"] > MOST_NAMED else ""
-    named = f"t = {one['t']:.6g} s: {', '.join(one['contacts'][:MOST_NAMED])}{more} passed their limits at one instant"
+    named = f"t = {one['t']:.6g} s: {', '.join(one['contacts'][:MOST_NAMED])}{more} came to their limits together"
     again = f", and so at {found['count'] - 1} later instants" if found["count"] > 1 else ""
-    why = "Which of them go depends on how the load built up; a load that rises in a short ramp shows it."
+    why = "They let go together; had one been first, others might hold. A small difference between them decides it."
     return [("let go at once", f"{named}{again}. {why}")]
 
 

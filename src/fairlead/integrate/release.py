@@ -77,6 +77,30 @@ def remember(m):
 
 
 @compiled
+def add_ties(m):
+    """Contacts whose friction falls and that come to their limits with one in `fired`, within a tolerance, go too."""
+    ng = m.n_guards
+    fired, machine, may_hold = indices(m.at_fired, ng), indices(m.at_guard_machine, ng), indices(m.at_may_hold, ng)
+    falls, here, tolerance = indices(m.at_falls, m.n_zones), reals(m.at_wrong, ng), reals(m.at_guard_tolerance, ng)
+    g, g_end, asked = reals(m.at_g, ng), reals(m.at_g_end, ng), False
+    for k in range(m.n_fired):
+        asked = asked or (may_hold[fired[k]] > 0 and falls[machine[fired[k]]] == 1)
+    if not asked:
+        return
+    evaluate_guards(m, m.t, m.at_y, m.at_wrong)
+    first = m.n_fired
+    for i in range(ng):
+        ties = may_hold[i] > 0 and falls[machine[i]] == 1 and here[i] >= -tolerance[i]
+        if ties and g_end[i] - g[i] > RISE * tolerance[i]:
+            new = True
+            for k in range(first):
+                new = new and fired[k] != i
+            if new:
+                fired[m.n_fired] = i
+                m.n_fired += 1
+
+
+@compiled
 def begin_release(m):
     """Back to the forces just before, with the zones in force: the load between is out."""
     status = from_nothing(m) if m.nothing_before == 1 else accelerations_before(m)

@@ -1,5 +1,6 @@
 """Settling: fire, switch, make the point consistent, judge the guards, repeat until none fires.
 
+    contacts whose friction falls, as soon as there is more than one of them in it: in the order of release (release.py)
     all violators change at once
     if a pattern of zones recurs, or their number has not fallen for a while: those at least half as wrong
         as the worst; if a pattern recurs again: the worst alone; and again: the one of least index
@@ -26,7 +27,7 @@ from fairlead.integrate.impulse import RELEASED
 from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import DONE
 from fairlead.integrate.record import there_is_room, write_event
-from fairlead.integrate.release import begin_release, order_matters, release
+from fairlead.integrate.release import add_ties, begin_release, order_matters, release
 from fairlead.integrate.start import consistent
 
 NOT_SETTLED, NO_ROOM = 4, 5
@@ -60,6 +61,8 @@ def settle(m, iterations):
                 return NOT_SETTLED
             if not there_is_room(m):
                 return NO_ROOM
+            if m.falling == 1 and m.passes == 0:
+                add_ties(m)
             change_zones(m)
         status = release(m) if m.levels + m.level_due > 0 else DONE
         if status == DONE and m.n_fired > 0:
