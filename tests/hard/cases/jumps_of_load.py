@@ -46,7 +46,7 @@ record: {every: 10 ms}
         "step": {"goes": "step: {to: 6.45 N, at: 0.1 s}"},
         "ramp": {"goes": "ramp: {to: 6.45 N, over: 1 us, start: 0.1 s}"},
     },
-    treatments=("hold", "karnopp"),
+    treatments=("hold",),
 )
 def stack_of_three_under_a_load_that_jumps(play: Play, goes: str) -> None:
     """The load passes the limits of two of three contacts at once; a build-up meets the lowest first.
@@ -59,7 +59,7 @@ def stack_of_three_under_a_load_that_jumps(play: Play, goes: str) -> None:
 
 @case(
     {"step": {"goes": "step", "when": "at: 0.3 s"}, "ramp": {"goes": "ramp", "when": "over: 0.7 s, start: 0.1 s"}},
-    treatments=("hold", "karnopp"),
+    treatments=("hold",),
 )
 def equal_shafts_turned_against_each_other(play: Play, goes: str, when: str) -> None:
     """Three equal shafts in a row, two equal clutches, equal torques at the ends: both clutches let go in one instant.
