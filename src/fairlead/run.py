@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.analysis.below_weight import BelowWeight
 from fairlead.analysis.counts import unreasonable
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger, judged
@@ -57,6 +58,7 @@ class Watch:
     creep: WorstCreep
     limits: Limits
     strains: Strains
+    below: BelowWeight
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
@@ -91,6 +93,7 @@ class Watch:
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.limits.watch(block.t, block.values)
         self.strains.watch(block.t, block.values)
+        self.below.watch(block.values)
         if self.metered is not None:
             self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:
@@ -152,7 +155,9 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         asked = _engine_settings(netlist, settings, system, patterns)
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
-                      Strains.of(system, recording.recorded), together, progress, interruption, event_rows)  # fmt: skip
+                      Strains.of(system, recording.recorded),
+                      BelowWeight.of(system, recording.chosen, settings.accuracy), together, progress,
+                      interruption, event_rows)  # fmt: skip
         outcome = integrate(system, asked, watch)
         watch.finish()
         interruption.between_blocks = False
@@ -161,6 +166,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
+        summary["remarks"] = [*header["remarks"], *watch.below.remarks()]
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         sink.finish(_status(outcome), summary)
@@ -293,7 +299,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
         "strains": watch.strains.summary(),
-        "jumps": watch.jumps(),
+        "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip
 
 

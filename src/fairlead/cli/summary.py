@@ -25,6 +25,8 @@ def summary_table(run: Mapping[str, Any], directory: object) -> "Table":
 
 def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, str]]:
     """(what, value with unit) of each row."""
+    from fairlead.analysis.below_weight import rows_of_table
+
     return [
         ("end time", f"{_number(run.get('end_time'), 's')} ({run.get('status', UNKNOWN)})"),
         ("wall time", _wall_time(run)),
@@ -37,6 +39,7 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         *_lost(run.get("lost")),
         *_changed_starts(run.get("changed_starts")),
         *_together(run.get("released_together")),
+        *rows_of_table(run.get("below_weight")),
         *_against_statics(run.get("against_statics")),
         ("results", str(directory)),
     ]
