@@ -137,6 +137,32 @@ def test_a_scene_that_is_sensitive_to_everything_is_said_to_be(scene, monkeypatc
     assert found.size(row.numerical) < 0.1  # and yet its mean and its spread are those of the reference
 
 
+TIED = """
+    components:
+      b1: {type: Mass, mass: 1 kg}
+      b2: {type: Mass, mass: 1 kg}
+      b3: {type: Mass, mass: 1 kg}
+      p1: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 0.5, coulomb: @SLIDING@}}
+      p2: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 0.5, coulomb: @SLIDING@}}
+      push: {type: ForceSource, force: {step: {at: 0.1 s, to: 10 N}}}
+      pull: {type: ForceSource, force: {step: {at: 0.1 s, to: -10 N}}}
+    connections:
+      - [b1.flange, p1.a, push.flange]
+      - [p1.b, b2.flange, p2.a]
+      - [p2.b, b3.flange, pull.flange]
+    run: {stop: 0.2 s}
+"""
+
+
+@pytest.mark.parametrize(("sliding", "several"), [("0.4", True), ("0.5", False)])
+def test_a_reference_that_is_one_of_several_solutions_is_not_called_the_only_one(scene, sliding, several):
+    """Where friction falls as it lets go, the first of two that tie would relieve the other; else one solution is."""
+    path = scene(TIED.replace("@SLIDING@", sliding)).netlist.path
+    found = cost(lambda more: fairlead.load(path, set=more), Ladder((1e-3,), ("rodas",), (), (), ()), full=True)
+    told = [remark for remark in found.remarks if "p1, p2 at t = 0.1 s came to their limits together" in remark]
+    assert len(told) == several
+
+
 def test_the_command_writes_table_figure_and_settings_that_run_accepts(tmp_path):
     words = ["cost", "belt", "--set", "run.stop=2 s", "--accuracy", "1e-3", "--engine", "rodas", "--friction", "hold",
              "--output", "block.x", "--budget", "60s", "--fresh", "--out", str(tmp_path), "--target", "5%"]  # fmt: skip

@@ -42,6 +42,7 @@ class References:
         engine, first = next(runs)
         if first is None:
             return None
+        self.tell_ties(first)
         found = {engine: first}
         for engine, timed in runs:
             assert timed is not None
@@ -123,8 +124,16 @@ class References:
         if tight is None or not tight.finished:
             self.complain(equations.label, tight)
             return None
+        self.tell_ties(tight)
         spread, sensitive = (None, False) if scene is None else (scene.spread, scene.sensitive)
         return Reference(f"rodas at accuracy {self.runs.tight:g}", tight, spread, sensitive=sensitive)
+
+    def tell_ties(self, timed: Timed) -> None:
+        """Say that a reference is one of several solutions, where contacts came to their limits together."""
+        said = f"The reference is one of several: {timed.ties} came to their limits together, and had one been first, "
+        said += "others might hold."
+        if timed.ties and said not in self.remarks:
+            self.remarks.append(said)
 
     def errors(self, one: Timed, other: Timed) -> list[OutputError]:
         """Every output of a run against another."""
