@@ -27,7 +27,9 @@ def test_switches_are_counted_by_component_and_by_class(run: dict) -> None:
     assert any("100 %" in line and "Hold[Coulomb]" in line for line in lines)
 
 
-def test_rejected_steps_are_due_to_named_unknowns_and_add_up(run: dict) -> None:
+def test_rejected_steps_are_due_to_named_unknowns_and_add_up(tmp_path: Path) -> None:
+    run = fairlead.load("block_and_spring").run(out=tmp_path / "run", profile=True).run
+    assert run["rejected"] > 0
     lines = run["profile"].splitlines()
     first = lines.index("rejected steps by the unknown with the largest error:") + 1
     counts = [int(line.split()[0]) for line in lines[first:-1]]

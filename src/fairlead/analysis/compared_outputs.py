@@ -36,7 +36,9 @@ def recorded(model: Any) -> list[str]:
 
 def recorded_of_meshes(model: Any) -> list[str]:
     """Of that what means the same on another mesh: of a family of elements nothing that belongs to their length."""
-    return [one.name for one in _chosen(model) if not one.role or (one.role == SHARE and family(one.name)[1] is None)]
+    return [
+        one.name for one in _chosen(model) if one.role != CREEP and (one.role != SHARE or family(one.name)[1] is None)
+    ]
 
 
 def _chosen(model: Any) -> Any:

@@ -24,6 +24,7 @@ from fairlead.analysis.timed_run import Timed
 
 BDF = 0.01  # share of the budget that the scene may take for ida to be tried as a reference: it is slow at switches
 CONVERGING = 0.5  # the spread of tight runs over that of less tight ones; with more they do not converge
+LOST = 0.1  # rms over the range: so far apart two motions are as good as unrelated, however far looser runs are
 ENOUGH = 3  # engines asked when two do not agree
 LOOSER, TIMES = 10.0, 2  # what is tried when a tight run does not finish, and how often
 
@@ -116,7 +117,7 @@ class References:
         if any(one is None or not one.finished for one in runs):
             return True
         far, near = (self.apart(one, first)[0] for one in runs if one is not None)
-        return near <= AGREE or near < CONVERGING * far
+        return near <= AGREE or near < min(CONVERGING * far, LOST)
 
     def of_variant(self, equations: Equations, scene: Reference | None) -> Reference | None:
         """One tight run of other equations, known as well as the reference of the scene."""
