@@ -8,7 +8,7 @@ AT = 0.1
 """When the forces jump, s."""
 
 
-def jump(seed: int, how: str, engine: str, method: str = "hold", stop: str = "0.1001 s") -> str:
+def jump(seed: int, how: str, engine: str, stop: str = "0.1001 s") -> str:
     """The netlist of a scene; its bodies are b1, b2, ...
 
     `how` the forces go over: "step", or a time such as "10 us" that they take for it. Four contacts in five have a
@@ -27,7 +27,7 @@ def jump(seed: int, how: str, engine: str, method: str = "hold", stop: str = "0.
     for k, (a, b) in enumerate(pairs):
         sliding, ratio = float(s.number(0.1, 0.6)), float(s.number(1.0, 1.6)) if s.maybe(0.8) else 1.0
         curve = f"{{curve: coulomb, coulomb: {sliding}, stiction: {sliding * ratio:.8g}}}"
-        s.add(f"c{k}", "Contact", method=method, normal_force=f"{s.number(5, 50)} N", curve=curve)
+        s.add(f"c{k}", "Contact", normal_force=f"{s.number(5, 50)} N", curve=curve)
         s.join(f"{a}.flange", f"c{k}.a")
         s.join(f"{b}.flange", f"c{k}.b")
     for k, body in enumerate(s.random.sample(bodies, min(s.pick(1, 2, 3), count))):

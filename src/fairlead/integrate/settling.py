@@ -64,6 +64,8 @@ def settle(m, iterations):
             if m.falling == 1 and m.passes == 0:
                 add_ties(m)
             change_zones(m)
+        if m.passes >= m.max_passes // 2:
+            m.levels, m.level_due = 0, 0  # an order that goes in a circle
         status = release(m) if m.levels + m.level_due > 0 else DONE
         if status == DONE and m.n_fired > 0:
             continue
