@@ -102,7 +102,11 @@ def add_ties(m):
 
 @compiled
 def begin_release(m):
-    """Back to the forces just before, with the zones in force: the load between is out."""
+    """Back to the forces just before, with the zones in force: the load between is out.
+
+    Who is in doubt is asked again on the way, also when other pivots are needed first.
+    """
+    m.n_fired = 0
     status = from_nothing(m) if m.nothing_before == 1 else accelerations_before(m)
     if status != DONE:
         return status
@@ -113,7 +117,6 @@ def begin_release(m):
     m.levels = 0
     m.level_due = 1
     m.ordered = 1
-    m.n_fired = 0
     m.fastest = 0.0
     return DONE
 

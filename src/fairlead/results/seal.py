@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from fairlead.results import run_schema
+import fairlead.results.run_schema as run_schema
 from fairlead.results.damage import DamagedResultsError, reading
 
 ENTRY = "files"
