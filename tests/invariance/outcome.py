@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import pathlib
 import pickle
 from collections import defaultdict
@@ -18,6 +19,9 @@ STEPS = 0.02
 
 LITTLE = 1e-9
 """Of whatever unit: where all is less, nothing moves."""
+
+INSTANT = 2e-6
+"""Of the span: two of the dwells for which a contact that toggles is kept in its zone. Shorter stays do not count."""
 
 SHARE = 0.1
 """Of the accuracy: what the order of sums may change of a signal."""
@@ -104,28 +108,37 @@ def sequences(outcome: Outcome) -> dict[str, list[tuple[float, str]]]:
     Where several zones are tried at one instant until none changes any more, the last counts.
     """
     found: dict[str, list[tuple[float, str]]] = defaultdict(list)
+    instant = INSTANT * float(outcome.t[-1] - outcome.t[0])
     for t, who, before, after, _ in outcome.events:
         entered = found[who] or [(-np.inf, before)]
-        if entered[-1][0] == t:
+        if t - entered[-1][0] <= instant:
             entered.pop()
         found[who] = entered if entered and entered[-1][1] == after else [*entered, (t, after)]
     return {who: entered for who, entered in found.items() if len(entered) > 1}
 
 
 def worst(one: Outcome, other: Outcome) -> tuple[float, str]:
-    """The largest difference of a signal in rows beside events, over the largest value of its unit, and which it is.
+    """The largest difference of a signal over the largest value of its unit, and which signal it is."""
+    apart, _ = _differences(one, other)
+    if not apart.size:
+        return 0.0, ""
+    most = apart.max(axis=0)
+    return float(most.max()), str(np.array(one.names)[one.order][most.argmax()])
+
+
+def _differences(one: Outcome, other: Outcome) -> tuple[np.ndarray, np.ndarray]:
+    """By row and signal (k, signals), over the largest value of the unit; and the times of the rows.
 
     Rows at events stand at times of their own; a row of the grid has one time in both.
     """
     grid = np.intersect1d(one.t[one.side == 0], other.t[other.side == 0])
     if not len(grid) or not one.names:
-        return 0.0, ""
+        return np.zeros((0, 0)), grid
     units = np.array(one.units)[one.order]
     a, b = (x.values[np.searchsorted(x.t, grid)][:, x.order] for x in (one, other))
     sizes = {unit: np.abs(a[:, units == unit]).max() for unit in set(units)}
     size = np.array([max(sizes[unit], LITTLE) for unit in units])
-    apart = np.nan_to_num(np.abs(a - b) / size).max(axis=0)
-    return float(apart.max()), str(np.array(one.names)[one.order][apart.argmax()])
+    return np.nan_to_num(np.abs(a - b) / size), grid
 
 
 def apart(one: Outcome, other: Outcome, accuracy: float) -> list[str]:
@@ -150,3 +163,28 @@ def apart(one: Outcome, other: Outcome, accuracy: float) -> list[str]:
     times = ((x, y) for who in a if not said for (x, _), (y, _) in zip(a[who][1:], b[who][1:]))
     late = max((abs(x - y) for x, y in times), default=0.0)
     return said + ([f"zone changes by {late:.2g} s"] if late > accuracy * one.t[-1] else [])
+
+
+def parted(one: Outcome, other: Outcome, accuracy: float) -> float:
+    """When two runs first differ by more than the bounds: a signal, a zone, or the time of a zone change [s]."""
+    first = np.inf
+    size, t = _differences(one, other)
+    if len(t) and (size > SHARE * accuracy).any():
+        first = float(t[(size > SHARE * accuracy).any(axis=1).argmax()])
+    a, b = sequences(one), sequences(other)
+    late = accuracy * one.t[-1]
+    for who in a.keys() | b.keys():
+        mine, theirs = a.get(who, [])[1:], b.get(who, [])[1:]
+        for x, y in itertools.zip_longest(mine, theirs, fillvalue=(np.inf, "")):
+            if x[1] != y[1] or abs(x[0] - y[0]) > late:
+                first = min(first, x[0], y[0])
+                break
+    return first
+
+
+def until(outcome: Outcome, t: float) -> Outcome:
+    """What was recorded before t; counters are of the whole run and left out."""
+    rows = outcome.t < t
+    events = tuple(event for event in outcome.events if event[0] < t)
+    return Outcome(outcome.status, outcome.t[rows], outcome.side[rows], outcome.names, outcome.units,
+                   outcome.values[rows], events, {})  # fmt: skip

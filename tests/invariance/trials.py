@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -19,6 +20,9 @@ from tests.invariance.reordering import shuffled
 from tests.invariance.settings import lacking, settings
 
 ROOT = pathlib.Path(__file__).parents[2]
+
+ROUNDING, MOVES = 1e-14, range(1, 5)
+"""What rounding comes to in sums of some ten terms, as a share of an unknown; seeds of the ways to move a start."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,7 @@ def trials() -> list[Trial]:
     seeds = {name: {"PYTHONHASHSEED": str(k)} for k, name in enumerate(SCHEMES)}
     return [
         Trial("run twice, after other runs", job={"times": 2}, backwards=True),
+        Trial("seven steps a slice", job={"attempts": 7}),
         *(Trial(name, environment=seeds[name], change=_renaming(scheme)) for name, scheme in SCHEMES.items()),
         *(Trial(name, environment=values) for name, values in settings().items() if values),
         Trial("instances and unknowns in another order", equal=False, job={"order": 1}),
@@ -90,6 +95,29 @@ def differences(trial: Trial, plays: Iterable[Play], plain: dict[str, Outcome], 
     for one in plays:
         a, b = plain[one.name], other[one.name]
         said = outcome.unlike(a, b) if trial.equal else outcome.apart(a, b, one.accuracy)
+        if said:
+            found[one.name] = said
+    return found
+
+
+def horizons(plays: Sequence[Play], plain: dict[str, Outcome], folder: pathlib.Path, python: str = sys.executable
+             ) -> dict[str, float]:  # fmt: skip
+    """When each scene parts from itself, moved at the start by ROUNDING of each unknown; inf if it does not."""
+    found = dict.fromkeys((one.name for one in plays), math.inf)
+    for seed in MOVES:
+        moved, _ = play(Trial("moved", job={"nudge": ROUNDING, "seed": seed}), plays, folder / str(seed), python)
+        for one in plays:
+            found[one.name] = min(found[one.name], outcome.parted(plain[one.name], moved[one.name], one.accuracy))
+    return found
+
+
+def differences_until(plays: Iterable[Play], until: dict[str, float], plain: dict[str, Outcome],
+                      other: dict[str, Outcome]) -> dict[str, list[str]]:  # fmt: skip
+    """What the order of sums has made of each scene before these times that rounding does not explain."""
+    found = {}
+    for one in plays:
+        a, b = (outcome.until(which[one.name], until[one.name]) for which in (plain, other))
+        said = outcome.apart(a, b, one.accuracy)
         if said:
             found[one.name] = said
     return found

@@ -2,7 +2,7 @@
 
     all whose guards are violated switch at once, and with them those that will be handed too much
     if a pattern of zones recurs, those at least half as wrong as the worst, by the force each is wrong by
-    if one recurs again, the one of least index, one per pass (settling.py says why); all again, once fewer are
+    if one recurs again, the one of least index, one per pass (least_index.py); all again, once fewer are
     violated than ever before in the step
 
 A contact that lets go hands its excess on: where fronts of slipping run through a chain of contacts, the
@@ -15,11 +15,14 @@ through most of as many in this one. Both are guesses; the guards judge what com
 from __future__ import annotations
 
 from fairlead.integrate.foreign import compiled, copy, indices, reals, switch_at
+from fairlead.integrate.least_index import HALF, keep_first, number_machines
 
 HANDED_ON, RUNS_ON = 0.8, 0.7
 """Share of an excess that reaches a neighbour; share of a front's last advance that is taken for granted. Above
 one, contacts are let go that must be caught again, and catching takes with it some that had to go."""
 LONGEST_FRONT = 64
+MET = 1
+"""What `met` says of a machine that lets go; 0 of others."""
 
 
 @compiled
@@ -134,7 +137,7 @@ def follow_guards(m, h, cascade):
         m.fewest = m.n_fired
         m.one_by_one = 0
     if m.one_by_one == 2:
-        m.n_fired = 1
+        keep_first(m)
     elif m.one_by_one == 1:
         keep_worst(m, h)
     elif cascade:
@@ -148,6 +151,7 @@ def follow_guards(m, h, cascade):
     m.settling_passes += 1
     if m.one_by_one < 2 and recurs(m):
         m.one_by_one += 1
+        number_machines(m, m.at_g_end)
         m.stage_from = m.passes
     changed = False
     for k in range(m.n):
@@ -167,7 +171,7 @@ def keep_worst(m, h):
         worst = max(worst, wrong[k])
     count = 0
     for k in range(m.n_fired):
-        if wrong[k] >= 0.5 * worst:
+        if wrong[k] >= HALF * worst:
             fired[count] = fired[k]
             count += 1
     m.n_fired = count
@@ -175,39 +179,62 @@ def keep_worst(m, h):
 
 @compiled
 def hand_on(m):
-    """Add to `fired` the limits of neighbours that still hold and will be handed too much."""
+    """Add to `fired` the limits of neighbours that still hold and will be handed too much.
+
+    From neighbour to neighbour, all of one distance at once; who is handed something from two sides takes the larger,
+    so that it does not matter from which side one begins.
+    """
+    ng, nz = m.n_guards, m.n_zones
+    fired, machine, excess = indices(m.at_fired, ng), indices(m.at_guard_machine, ng), reals(m.at_g_probe, ng)
+    g, met = reals(m.at_g_end, ng), indices(m.at_met, nz)
+    for k in range(m.n_fired):
+        excess[k] = g[fired[k]]
+        if machine[fired[k]] >= 0:
+            met[machine[fired[k]]] = MET
+    begin = 0
+    while begin < m.n_fired:
+        end = m.n_fired
+        for k in range(begin, end):
+            hand_on_from(m, k)
+        for k in range(end, m.n_fired):
+            met[machine[fired[k]]] = MET
+        begin = end
+    for k in range(m.n_fired):
+        if machine[fired[k]] >= 0:
+            met[machine[fired[k]]] = 0
+
+
+@compiled
+def hand_on_from(m, k):
+    """Hand what is too much for the contact of fired guard k to its neighbours; `met` of a new one is its place + 2."""
     ng, nz = m.n_guards, m.n_zones
     fired, machine, is_limit = indices(m.at_fired, ng), indices(m.at_guard_machine, ng), indices(m.at_limit_guard, ng)
     g, tolerance, excess = reals(m.at_g_end, ng), reals(m.at_guard_tolerance, ng), reals(m.at_g_probe, ng)
     first, starts = indices(m.at_first_guard, nz), indices(m.at_neighbour_starts, nz + 1)
-    neighbours, zones = indices(m.at_neighbours, m.n_neighbours), indices(m.at_zones, nz)
-    met = indices(m.at_met, nz)
-    for k in range(m.n_fired):
-        excess[k] = g[fired[k]]
-        if machine[fired[k]] >= 0:
-            met[machine[fired[k]]] = 1
-    k = 0
-    while k < m.n_fired:
-        i, z = fired[k], machine[fired[k]]
-        if z >= 0 and is_limit[i] == 1:
-            slot, holding = i - first[z], 0
-            for e in range(starts[z], starts[z + 1]):
-                if met[neighbours[e]] == 0 and zones[neighbours[e]] == zones[z]:
-                    holding += 1
-            for e in range(starts[z], starts[z + 1]):
-                w = neighbours[e]
-                if met[w] == 0 and zones[w] == zones[z]:
-                    j = first[w] + slot
-                    over = HANDED_ON * excess[k] / holding + g[j]
-                    if over > tolerance[j]:
-                        met[w] = 1
-                        fired[m.n_fired] = j
-                        excess[m.n_fired] = over
-                        m.n_fired += 1
-        k += 1
-    for k in range(m.n_fired):
-        if machine[fired[k]] >= 0:
-            met[machine[fired[k]]] = 0
+    neighbours, zones, met = indices(m.at_neighbours, m.n_neighbours), indices(m.at_zones, nz), indices(m.at_met, nz)
+    i, z = fired[k], machine[fired[k]]
+    if z < 0 or is_limit[i] == 0:
+        return
+    slot, holding = i - first[z], 0
+    for e in range(starts[z], starts[z + 1]):
+        if met[neighbours[e]] != MET and zones[neighbours[e]] == zones[z]:
+            holding += 1
+    for e in range(starts[z], starts[z + 1]):
+        w = neighbours[e]
+        if met[w] == MET or zones[w] != zones[z]:
+            continue
+        j = first[w] + slot
+        over = HANDED_ON * excess[k] / holding + g[j]
+        if over <= tolerance[j]:
+            continue
+        at = met[w] - 2
+        if met[w] == 0:
+            at = m.n_fired
+            m.n_fired += 1
+            excess[at] = -1.0
+            met[w] = at + 2
+        if over > excess[at]:
+            fired[at], excess[at] = j, over
 
 
 @compiled
@@ -232,14 +259,19 @@ def learn_from_neighbours(m):
     starts, neighbours = indices(m.at_neighbour_starts, m.n_zones + 1), indices(m.at_neighbours, m.n_neighbours)
     fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
     is_limit, zones = indices(m.at_limit_guard, m.n_guards), indices(m.at_zones, m.n_zones)
-    for k in range(m.n_fired):
-        i, z = fired[k], machine[fired[k]]
-        if z < 0 or is_limit[i] == 0 or known[i] == zones[z] + 1:
-            continue
-        for e in range(starts[z], starts[z + 1]):
-            w = neighbours[e]
-            if released[w] >= m.steps and slot[w] == i - first[z] and known[first[w] + slot[w]] == zones[z] + 1:
-                known[i] = zones[z] + 1
+    found = m.n_guards
+    while found > 0:  # as often as one learns from another that has just learned
+        found = 0
+        for k in range(m.n_fired):
+            i, z = fired[k], machine[fired[k]]
+            if z < 0 or is_limit[i] == 0 or known[i] == zones[z] + 1:
+                continue
+            for e in range(starts[z], starts[z + 1]):
+                w = neighbours[e]
+                if released[w] >= m.steps and slot[w] == i - first[z] and known[first[w] + slot[w]] == zones[z] + 1:
+                    known[i] = zones[z] + 1
+                    found += 1
+                    break
 
 
 @compiled

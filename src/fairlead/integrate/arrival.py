@@ -15,6 +15,7 @@ from fairlead.integrate.codes import (
     UNSETTLED,
 )
 from fairlead.integrate.controller import restart, weigh, weighted_norm
+from fairlead.integrate.curvature import bend_beyond_rounding
 from fairlead.integrate.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.growth import watch_growth
 from fairlead.integrate.impulse import RUBBED
@@ -138,8 +139,7 @@ def finish_settling(m, starting):
         weigh(m, m.at_y)
         keep_differential(m, m.at_slope, m.at_u)
         speed = weighted_norm(m, m.at_u)
-        keep_differential(m, m.at_curvature, m.at_u)
-        bend = weighted_norm(m, m.at_u)
+        bend = bend_beyond_rounding(m)
         keep_algebraic(m, m.at_curvature, m.at_u)
         m.h_next = restart(m, speed, bend, weighted_norm(m, m.at_u))
         if starting and m.first_step > 0.0:

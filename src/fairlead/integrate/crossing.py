@@ -17,6 +17,7 @@ from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
 from fairlead.integrate.limits import ROUNDING
+from fairlead.integrate.settling import RISE, look_ahead
 
 NONE, CROSSING, COMPANION = 0, 1, 2
 HAIR = 1e-3
@@ -61,13 +62,14 @@ def first_crossing(m, h):
     if bump < 1.0:
         right_end = bump
         guards_at(m, bump, h, m.at_g_right)
-    for i in range(ng):
-        crossed = crossed or (left[i] < 0.0 and right[i] >= 0.0)
-    if overlooked(m):
+    unseen = overlooked(m)
+    if unseen and not look_further(m, h, right_end):
         found = look_closer(m, h)
         if found < right_end:
             right_end = found
             crossed = True
+    for i in range(ng):
+        crossed = crossed or (left[i] < 0.0 and right[i] >= 0.0)
     m.theta = 1.0
     if crossed:
         locate(m, h, right_end)
@@ -82,6 +84,26 @@ def overlooked(m):
     found = False
     for i in range(ng):
         found = found or (left[i] >= 0.0 and end[i] > tolerance[i])
+    return found
+
+
+@compiled
+def look_further(m, h, right_end):
+    """Look for a dip that has not left the limit by NEAR in guards that start at zero; True if there is one.
+
+    A slip that has just begun grows with the square of time, or slower; it may be over before the step is.
+    """
+    ng = m.n_guards
+    left, end = reals(m.at_g_left, ng), reals(m.at_g_end, ng)
+    probe, tolerance = reals(m.at_g_probe, ng), reals(m.at_guard_tolerance, ng)
+    theta, found = 2.0 * NEAR, False
+    while theta < right_end and not found:
+        guards_at(m, theta, h, m.at_g_probe)
+        for i in range(ng):
+            if left[i] >= 0.0 and end[i] > tolerance[i] and probe[i] < -ROUNDING * tolerance[i]:
+                left[i] = probe[i]
+                found = True
+        theta *= 2.0
     return found
 
 
@@ -132,20 +154,31 @@ def collect_fired(m, crossed):
 
 @compiled
 def earliest_bump(m, h):
-    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none."""
+    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none.
+
+    A guard at its limit that falls by y' and y'' of the point, as settled, and is below it at the end does not rise:
+    the interpolant of a long step is rough at its start.
+    """
     ng = m.n_guards
     end = reals(m.at_g_end, ng)
     g, early, late = reals(m.at_g, ng), reals(m.at_g_early, ng), reals(m.at_g_late, ng)
-    tolerance = reals(m.at_guard_tolerance, ng)
+    tolerance, ahead = reals(m.at_guard_tolerance, ng), reals(m.at_g_ahead, ng)
     rising = False
     for i in range(ng):
         rising = rising or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i])
     if not rising:
         return 1.0
     guards_at(m, 1.0 - NEAR, h, m.at_g_late)
-    found = 1.0
+    found, looked = 1.0, False
     for i in range(ng):
         if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
+            if m.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
+                if not looked:
+                    look_ahead(m)
+                    copy(reals(m.at_g_probe, ng), ahead)
+                    looked = True
+                if g[i] - ahead[i] > RISE * tolerance[i]:
+                    continue
             rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
             if max(g[i], end[i]) + 1.25 * HIGHEST * (rise - fall) < 0.0:
                 continue

@@ -31,6 +31,7 @@ from __future__ import annotations
 from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals, slip_at
 from fairlead.integrate.guards import evaluate_guards
+from fairlead.integrate.least_index import keep_first
 from fairlead.integrate.linear import DONE, solve_watched
 from fairlead.integrate.rebound import NO_REBOUND, REBOUND, RUBS, rebound
 
@@ -137,7 +138,7 @@ def change_of_speed(m):
 def change_zones_for(m):
     """Fill `fired` with the guards of contacts and stops that the impulse sends into another zone.
 
-    All at once; once a pattern of zones has recurred in this settlement, the one of least index (settling.py).
+    All at once; once a pattern of zones has recurred in this settlement, the one of least index.
     """
     n, ng = m.n, m.n_guards
     y, b, loaded = reals(m.at_y, n), reals(m.at_b, n), reals(m.at_y_probe, n)
@@ -163,7 +164,7 @@ def change_zones_for(m):
             fired[m.n_fired] = i
             m.n_fired += 1
     if m.stage > 0 and m.n_fired > 1:
-        m.n_fired = 1
+        keep_first(m)
 
 
 @compiled

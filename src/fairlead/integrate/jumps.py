@@ -54,22 +54,25 @@ def may_cross(m, i):
 
 @compiled
 def law_jumps(m, h):
-    """True if the law of some guard in `fired`, not yet known to be continuous, jumps where it comes to zero."""
+    """True if the law of some guard in `fired`, not yet known to be continuous, jumps where it comes to zero.
+
+    All are asked, also after one that jumps: what is known afterwards must not depend on which is asked first.
+    """
     fired, known = indices(m.at_fired, m.n_guards), indices(m.at_continuous, m.n_guards)
     machine, zones = indices(m.at_guard_machine, m.n_guards), indices(m.at_zones, m.n_zones)
     may_jump = indices(m.at_may_jump, m.n_guards)
     copy(fired, indices(m.at_suspects, m.n_guards))
     suspects, count = indices(m.at_suspects, m.n_guards), m.n_fired
+    found = False
     for k in range(count):
         i = suspects[k]
         if may_jump[i] == 1 and (machine[i] < 0 or known[i] != zones[machine[i]] + 1):
             jumps = jumps_at_guard(m, h, i)
             note_kind(m, machine[i], jumps)
-            if jumps:
-                return True
-            if machine[i] >= 0:
+            found = found or jumps
+            if machine[i] >= 0 and not jumps:
                 known[i] = zones[machine[i]] + 1
-    return False
+    return found
 
 
 @compiled

@@ -112,11 +112,12 @@ VECTORS = {
     "H": "three_stages",
     # guards: at the point, at the left and right end of a bracket, and at a probe
     "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards",
-    "g_early": "n_guards",
+    "g_early": "n_guards", "g_ahead": "n_guards",
     "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
     "guard_inertia": "n_guards", "wrong": "n_guards",
     # machines
     "switched_after": "n_zones", "last_toggle": "n_zones", "blocked_until": "n_zones", "held_inertia": "n_zones",
+    "rank": "n_zones",
     # the order of release: the point just before, loads that are out and the shares of them that are left, rates of
     # guards by slips at both ends of a way, slips in the time of a level
     "y_before": "n", "f_before": "n", "out": "levels_n", "left": "levels",

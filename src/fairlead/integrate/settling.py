@@ -10,12 +10,10 @@ Judged at (t, y, y') right after a switch: a guard above its tolerance violates;
 tolerance violates if it is about to rise through zero along (y', y''), so a slide guard at v_rel = 0 is the
 sign of a_rel. How wrong a zone is, is a force: what a contact that holds carries beyond its limit, and what
 must be added to a contact that slides to keep it from going against its friction, m a_rel (the problem says
-with which inertia; where it does not, the least index follows at once). The least index is not arbitrary: for
-the complementarity problem that stick and slip pose (a matrix with positive principal minors) changing the
-violator of least index never returns to a pattern (Murty, Opsearch 11:123, 1974), while all at once may. It
-is the last because it takes many passes: 300 contacts in a random tree with 300 more, 240 on average, where
-half as wrong as the worst took 58 (and re-holding one by one while all that must break, as many as the least
-index).
+with which inertia; where it does not, the least index follows at once). The least index always comes to an end
+(least_index.py), while all at once may not. It is the last because it takes many passes: 300 contacts in a
+random tree with 300 more, 240 on average, where half as wrong as the worst took 58 (and re-holding one by one while
+all that must break, as many as the least index).
 """
 
 from __future__ import annotations
@@ -24,6 +22,7 @@ from fairlead.integrate.controller import weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.impulse import RELEASED
+from fairlead.integrate.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import DONE
 from fairlead.integrate.record import there_is_room, write_event
@@ -161,6 +160,8 @@ def next_stage(m):
     When fewer cannot be, look less far ahead: a load a little above what a contact holds that falls fast moves it now,
     and no longer a moment later.
     """
+    if m.stage == ALL:
+        number_machines(m, m.at_g)
     m.stage = m.stage + 1 if m.weighs_guards == 1 else max(m.stage + 1, LEAST_INDEX)
     m.stage_from = m.passes
     if LEAST_INDEX < m.stage <= LEAST_INDEX + LOOKS:
@@ -180,7 +181,7 @@ def choose(m):
     if m.stage == ALL:
         return
     if m.stage >= LEAST_INDEX:
-        m.n_fired = 1
+        keep_first(m)
         return
     worst = fired[0]
     for k in range(m.n_fired):
@@ -188,7 +189,7 @@ def choose(m):
             worst = fired[k]
     kept = 0
     for k in range(m.n_fired):
-        if fired[k] == worst or (m.stage == HALF_AS_WRONG and wrong[fired[k]] >= 0.5 * wrong[worst]):
+        if fired[k] == worst or (m.stage == HALF_AS_WRONG and wrong[fired[k]] >= HALF * wrong[worst]):
             fired[kept] = fired[k]
             kept += 1
     m.n_fired = kept

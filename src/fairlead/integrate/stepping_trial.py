@@ -26,6 +26,7 @@ from fairlead.integrate.codes import (
     WIDEN,
 )
 from fairlead.integrate.controller import NO_AMPLITUDE, is_straight, step_after_rejection, weigh, weighted_norm
+from fairlead.integrate.curvature import bend_beyond_rounding
 from fairlead.integrate.even_steps import FINE, root_of_power, rounded
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
@@ -316,9 +317,7 @@ def begin_history(m):
         for k in range(n):
             u[k] = slope[k] if differential[k] == 1 else 0.0
         speed = weighted_norm(m, m.at_u)
-        for k in range(n):
-            u[k] = curvature[k] if differential[k] == 1 else 0.0
-        bend = weighted_norm(m, m.at_u)
+        bend = bend_beyond_rounding(m)
         if speed * speed > NO_AMPLITUDE * bend and not is_straight(m, bend):
             scale = speed / bend
             m.h_next = min(m.h_next, root_of_power(scale * (12.0 / (speed * scale)) ** (1.0 / 3.0)))
