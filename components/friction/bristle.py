@@ -77,6 +77,7 @@ class Bristle(OneFormula):
         "dissipates": "Bonds are springs, and their energy counts as dissipated when it goes in, so it comes out of "
         "that (Haessig, Friedland 1991: the energy is lost when a bond snaps).",
     }
+    gives_by = "ratio"
     asked_with = {"bonds": "5", "presliding": 0.5, "travel": 2.0}  # random sizes would mean thousands of sites
     advice = "method bristle has no sites beyond `travel` of slip; give it more if the slip went there."
     presliding = Parameter("m", "Stretch at which a bond snaps.", default=2e-5, above=0)

@@ -19,7 +19,7 @@ class Bristles(Contact, abstract=True):
     reported as creep is slip slower than `stick_speed`, less what the bristles will give back.
     """
 
-    sticks_below = "stick_speed"
+    sticks_below, gives_by = "stick_speed", "ratio"
     presliding = Parameter("m", "Deflection at which the contact breaks away.", default=2e-5, above=0)
     stick_speed = Parameter("m/s", "Slip below it counts as sticking, in the report of creep.", default=1e-4, above=0)
     z = State("m", "Deflection of the bristles.", nominal=1e-5)

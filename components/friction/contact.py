@@ -70,6 +70,10 @@ class Contact(Family, Component, abstract=True):
         """Nothing presses any more; declared first, because it settles the matter."""
         return p.lift - normal
 
+    def changes_over(p):
+        """As the curve."""
+        return p.curve.scale()
+
     def narrowest(p):
         """Slip speed [m/s] from which on friction is that of sliding; None when sticking needs no such band."""
         return None

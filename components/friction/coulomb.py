@@ -32,6 +32,7 @@ class Level(Curve, abstract=True):
 class Coulomb(Level):
     """mu(v) = coulomb for every v > 0; from rest `stiction` must be overcome."""
 
+    level = "coulomb"
     coulomb = Parameter("1", "Coefficient while sliding.", least=0)
 
     def coefficient(p, v):
@@ -42,6 +43,7 @@ class Coulomb(Level):
 class Viscous(Level):
     """mu(v) = coulomb + rate v: friction of a lubricated contact; from rest `stiction` must be overcome."""
 
+    level = "coulomb"
     coulomb = Parameter("1", "Coefficient at vanishing speed.", default=0.0, least=0)
     rate = Parameter("s/m", "Growth of the coefficient with speed.", above=0)
 

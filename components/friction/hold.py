@@ -22,6 +22,7 @@ class Hold(Rigid):
     """
 
     word = "hold"
+    exact = True
     sticks_below = "stick_speed"
     stick_speed = Parameter("m/s", "A contact that lands with less slip than this sticks.", default=1e-6, above=0)
     zones = Zones("held", "forward", "backward", "off", forward=["forward"], backward=["backward"])

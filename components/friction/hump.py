@@ -17,6 +17,7 @@ class Hump(Curve):
     Shape after Fig. 3 of Tomlinson, Cooke and Cosserat (2003), DOI 10.1177/095965180321700207.
     """
 
+    level = "coulomb"
     stiction = Parameter("1", "Coefficient at rest.", least=0)
     peak = Parameter("1", "Largest coefficient.", above=0)
     peak_velocity = Parameter("m/s", "Slip speed of the largest coefficient.", above=0)

@@ -21,7 +21,7 @@ class Regularised(OneFormula, abstract=True):
     The slope N mu/creep at zero slip makes the equations stiff; an explicit method needs h < 2 m creep/(N mu).
     """
 
-    sticks_below, creeps = "creep", True
+    sticks_below, creeps, never_sticks = "creep", True, True
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
 
     @zone("on")

@@ -8,6 +8,7 @@ from fairlead.component import Parameter, exp
 class Falling(Curve, abstract=True):
     """What the two have in common: two levels and a speed."""
 
+    level = "coulomb"
     stiction = Parameter("1", "Coefficient at rest.", least=0)
     coulomb = Parameter("1", "Coefficient at high speed.", least=0)
     velocity = Parameter("m/s", "Stribeck velocity, the scale of the fall.", above=0)

@@ -36,7 +36,8 @@ class Accumulator(Component):
     precharge = Parameter("Pa", "p_0, pressure of the gas without oil.", above=0)
     exponent = Parameter("1", "n, polytropic exponent.", default=1.2, above=1, most=2)
     neck = Parameter("m", "Diameter of the neck.", default=0.03, above=0)
-    pressure = Parameter("Pa", "Pressure of the gas at the start; empty when not given.", default=None, above=0)
+    pressure = Parameter("Pa", "Pressure of the gas at the start; empty when not given.", default=None, above=0,
+                         physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     log_pressure = State("1", "ln(p/p_0) of the gas.", start="logarithm", nominal=0.1)
     level = Output("Pa", "Pressure of the gas.")

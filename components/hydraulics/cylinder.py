@@ -51,8 +51,10 @@ class Cylinder(Composite):
     port_diameter, internal_leakage = CYLINDER["port_diameter"], CYLINDER["internal_leakage"]
     seal_force = CYLINDER["seal_force"]
     stop_stiffness, stop_damping = CYLINDER["stop_stiffness"], CYLINDER["stop_damping"]
-    pressure_a = Parameter("Pa", "Pressure at the cap side at the start; 1 bar when not given.", default=None, least=0)
-    pressure_b = Parameter("Pa", "Pressure at the rod side at the start; 1 bar when not given.", default=None, least=0)
+    pressure_a = Parameter("Pa", "Pressure at the cap side at the start; 1 bar when not given.", default=None, least=0,
+                           physics=False)  # fmt: skip
+    pressure_b = Parameter("Pa", "Pressure at the rod side at the start; 1 bar when not given.", default=None, least=0,
+                           physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     cavitation = Effect("Pressure does not fall below zero; a void opens and closes.")
     leakage = Effect("Oil leaks across the piston.")

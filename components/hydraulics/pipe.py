@@ -74,7 +74,8 @@ class HydraulicLine(Composite):
     length = Parameter("m", "Length.", above=0)
     diameter = Parameter("m", "Inner diameter.", above=0)
     sections = Count("Number of sections.", default=1, most=500)
-    pressure = Parameter("Pa", "Pressure at the start; 1 bar when nothing on its nodes says.", default=None, above=0)
+    pressure = Parameter("Pa", "Pressure at the start; 1 bar when nothing on its nodes says.", default=None, above=0,
+                         physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     fluid_inertia = Effect("The oil in the line has inertia.")
     compressibility = Effect("The oil in the line is compressed.")

@@ -40,8 +40,10 @@ class ServoCylinderDrive(Composite):
     command = Input("1", "Opening asked for, -1 to 1.")
     valve = Block(VALVE, "The servo valve.")
     cylinder = Block(CYLINDER, "The cylinder.")
-    pressure_a = Parameter("Pa", "Pressure at the cap side at the start; 1 bar when not given.", default=None, least=0)
-    pressure_b = Parameter("Pa", "Pressure at the rod side at the start; 1 bar when not given.", default=None, least=0)
+    pressure_a = Parameter("Pa", "Pressure at the cap side at the start; 1 bar when not given.", default=None, least=0,
+                           physics=False)  # fmt: skip
+    pressure_b = Parameter("Pa", "Pressure at the rod side at the start; 1 bar when not given.", default=None, least=0,
+                           physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     valve_dynamics = Effect("The spool lags behind its command and hits stops.")
     compressibility = Effect("Oil in the cylinder is compressed.")

@@ -76,7 +76,8 @@ class ServoMotorDrive(Composite):
     valve = Block(VALVE, "The servo valve.")
     motor = Block(MOTOR, "The motor.")
     volume = Parameter("m^3", "Oil between valve and motor, each side.", default=1e-3, above=0)
-    pressure = Parameter("Pa", "Pressure of both sides at the start; 1 bar when not given.", default=None, above=0)
+    pressure = Parameter("Pa", "Pressure of both sides at the start; 1 bar when not given.", default=None, above=0,
+                         physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     valve_dynamics = Effect("The spool lags behind its command and hits stops.")
     compressibility = Effect("Oil between valve and motor is compressed.")

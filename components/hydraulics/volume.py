@@ -29,7 +29,8 @@ class Enclosed(Component, abstract=True):
 
     port = Hydraulic("the oil in it")
     volume = Parameter("m^3", "Volume.", above=0)
-    pressure = Parameter("Pa", "Pressure at the start; 1 bar when nothing on its node says.", default=None, above=0)
+    pressure = Parameter("Pa", "Pressure at the start; 1 bar when nothing on its node says.", default=None, above=0,
+                         physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     level = Output("Pa", "Pressure.")
 

@@ -62,8 +62,9 @@ class ArrayModule(Composite):
     path = Path("the route the line runs along")
     length = Parameter("m", "Length at the start, under the tension it has there.", above=0)
     modules = Count("How many modules of equal length.", default=1)
-    element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0)
-    graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None)
+    element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0, mesh=True)
+    graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None,
+                   mesh=True)  # fmt: skip
     start = Parameter("m", "Position of the inboard end along the route at the start.", default=0.0)
     tension = Parameter("N", "Uniform tension at the start.", default=0.0, least=0)
     profile = Choice(("uniform", "statics"), "Tension along the line at the start: uniform, or as it slides steadily.",
@@ -71,8 +72,9 @@ class ArrayModule(Composite):
     connector_mass = Parameter("kg", "Mass of each end connector.", default=0.0, least=0)
     diameter = Parameter("m", "Outside diameter.", default=0.085, above=0)
     weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)
-    bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0)
-    side_wall = Parameter("N/m", "Load per length, tension over radius, that it bears.", default=None, above=0)
+    bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0, physics=False)
+    side_wall = Parameter("N/m", "Load per length, tension over radius, that it bears.", default=None, above=0,
+                          physics=False)  # fmt: skip
     hose = Block(LAYER, "The outer layer.")
     core = Block(LAYER, "The rope that carries the load.")
     bulkhead_friction = Part(Curve, "Friction of the bulkheads in the hose.", default=0.5)

@@ -43,8 +43,9 @@ class Cable(Composite):
     path = Path("the route the line runs along")
     length = Parameter("m", "Length at the start, under the tension it has there.", above=0)
     modules = Count("How many pieces of equal length, joined by connectors.", default=1)
-    element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0)
-    graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None)
+    element = Parameter("m", "Length of an element; rounded so that a whole number fits.", above=0, mesh=True)
+    graded = Table("m", "m", "Length of an element over its place in the line, from the inboard end.", default=None,
+                   mesh=True)  # fmt: skip
     start = Parameter("m", "Position of the inboard end along the route at the start.", default=0.0)
     tension = Parameter("N", "Uniform tension at the start.", default=0.0, least=0)
     profile = Choice(("uniform", "statics"), "Tension along the line at the start: uniform, or as it slides steadily.",
@@ -52,8 +53,9 @@ class Cable(Composite):
     connector_mass = Parameter("kg", "Mass of each end connector.", default=0.0, least=0)
     diameter = Parameter("m", "Outside diameter.", default=0.02, above=0)
     weight = Parameter("N/m", "Weight per length, less what the water carries.", default=0.0)
-    bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0)
-    side_wall = Parameter("N/m", "Load per length, tension over radius, that it bears.", default=None, above=0)
+    bend_radius = Parameter("m", "Tightest radius the line may be bent to.", default=None, above=0, physics=False)
+    side_wall = Parameter("N/m", "Load per length, tension over radius, that it bears.", default=None, above=0,
+                          physics=False)  # fmt: skip
     mass = Parameter("kg/m", "Mass per length.", above=0)
     stiffness = Parameter("N", "EA, tension per strain.", above=0)
     damping_ratio = Parameter("1", "Damping of an element relative to critical.", default=0.05, least=0)

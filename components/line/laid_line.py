@@ -1,43 +1,23 @@
-"""A line laid on a route: every node gets its contacts with the devices, and what else acts on it there."""
+"""A line laid on a route: what the route, and the framework, must know of it."""
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 from dataclasses import dataclass
 from typing import Any
 
-from fairlead.components.line.core_element import Core
 from fairlead.components.line.fits import fits
-from fairlead.components.line.hose_element import Hose
-from fairlead.components.line.lateral_load import ClampLoad, LateralLoad, PressedLoad, RoundLoad
 from fairlead.components.line.laying import Laying
-from fairlead.components.line.line_weight import LineWeight
-from fairlead.components.line.looped import LoopedCore, LoopedHose, step
 from fairlead.components.line.mesh import Mesh
-from fairlead.components.line.twist_contact import LaidOn, PlanarContact
-from fairlead.components.mechanics.rigid_link import RigidLink
-from fairlead.components.rotation.rack import Rack
-from fairlead.components.route.bearing_load import Told
-from fairlead.components.route.drum import StoredNode, WoundNode
-from fairlead.components.route.far_line import FarNode
-from fairlead.components.route.placing import Placed
-from fairlead.components.route.route_line import RouteLine, Surface
-from fairlead.components.route.sea import HANDS_OVER, LEAST_MARGIN, Sea
-from fairlead.components.route.tensioner import Tensioner
-from fairlead.components.route.tow import SeaDrag, TailEnd
-from fairlead.components.route.untouched import Untouched
-from fairlead.components.route.winch import Winch
-from fairlead.components.route.window import Reach, Window, total
+from fairlead.components.line.on_route import OnRoute
+from fairlead.components.route.sea import LEAST_MARGIN
+from fairlead.components.route.window import Reach
 
 from fairlead.component.alike import Parts, agree
 from fairlead.component.along import OfLine
-from fairlead.component.instantiate import PortRef, with_other
+from fairlead.component.instantiate import PortRef
 from fairlead.errors import Fault
-
-FIXED_DEVICE = 1e9  # kg; what a body bound to a fixed device counts as
-SIDES = ("in", "out")
 
 
 @dataclass(frozen=True)
@@ -59,9 +39,64 @@ class LaidLine(OfLine):
     pushes: bool = True
 
     @property
-    def mass(self) -> float:
-        """Mass per length of all layers [kg/m]."""
-        return float(sum(layer.mass for layer in self._made_of(self.layers)))
+    def start(self) -> float:
+        """Where its inboard end is on the route at the start [m]."""
+        return float(self.values.start)
+
+    @property
+    def length(self) -> float:
+        """Its length at the start [m]."""
+        return float(self.values.length)
+
+    @property
+    def tension(self) -> float:
+        """Its tension at the start [N]."""
+        return float(self.values.tension)
+
+    @property
+    def begins_sliding(self) -> bool:
+        """True with `profile: statics`."""
+        return bool(self.values.profile == "statics")
+
+    @property
+    def diameter(self) -> float:
+        """Outside diameter [m]."""
+        return float(self.values.diameter)
+
+    @property
+    def weight(self) -> float:
+        """Weight per length, if the scene has any [N/m]."""
+        return float(self.values.weight) if self.values.gravity == "on" else 0.0
+
+    @property
+    def rubs(self) -> bool:
+        """True when devices rub on it."""
+        return bool(self.values.device_friction == "on")
+
+    @property
+    def lightened(self) -> bool:
+        """True when it presses less on a bend for its speed."""
+        return bool(self.values.centrifugal == "on")
+
+    @property
+    def ruck_force(self) -> float | None:
+        """Compression above which it rucks [N]."""
+        return self.values.ruck_force
+
+    @property
+    def side_wall(self) -> float | None:
+        """Load per length that it bears in a bend [N/m]."""
+        return self.values.side_wall
+
+    @property
+    def inner_curve(self) -> Any:
+        """Friction of the bulkheads in the hose."""
+        return self.values.bulkhead_friction if self.inner else None
+
+    @property
+    def masses(self) -> tuple[float, ...]:
+        """Mass per length of every layer [kg/m]."""
+        return tuple(float(layer.mass) for layer in self._made_of(self.layers))
 
     @property
     def stiffnesses(self) -> tuple[float, ...]:
@@ -79,14 +114,9 @@ class LaidLine(OfLine):
 
     def heavy(self, layers: tuple[str, ...]) -> dict[str, float]:
         """Mass per length of some layers, as their lateral load takes it; nothing where it is not counted [kg/m]."""
-        if self.values.centrifugal == "off":
+        if not self.lightened:
             return {}
         return {"heavy": sum(float(one.mass) for one in self._made_of(layers))}
-
-    @property
-    def load(self) -> float:
-        """Weight per length, if the scene has any [N/m]."""
-        return float(self.values.weight) if self.values.gravity == "on" else 0.0
 
     def slips_over(self) -> float:
         """Length of the longest module in which the hose may slip on the core; 0 where it cannot [m]."""
@@ -95,11 +125,12 @@ class LaidLine(OfLine):
 
     def rigid_from(self, begin: float, sea: Any) -> float:
         """Place on the route from which on the line moves as one body in a sea that begins at `begin` [m]."""
-        return begin + self.margin(sea) if sea.form == "rigid" else math.inf
+        return begin + self.margin(sea) if sea.moves_as_one() else math.inf
 
     def margin(self, sea: Any) -> float:
         """Line in a sea that moves by itself before the rest moves as one, if that is wanted [m]."""
-        return float(self.slips_over() + LEAST_MARGIN if sea.margin is None else sea.margin)
+        given = sea.keeps_apart()
+        return float(self.slips_over() + LEAST_MARGIN if given is None else given)
 
     def handed_on(self, now: LaidLine) -> Parts | None:
         """Parts of which laying is to know nothing, and what stands in their place in `now`; None if more differs."""
@@ -111,7 +142,7 @@ class LaidLine(OfLine):
         faults = fits(assembly, self, line, route)
         if faults:
             return faults
-        add = _On(self, Laying(assembly, line), route.path, route.line)
+        add = OnRoute(self, Laying(assembly, line), route.path, route.line)
         for i in range(self.mesh.elements + 1):
             if PortRef(f"{line.path}.{self.outer}[{i}]", "flange") not in add.to.prescribed:  # friction changes nothing
                 add.node(i)
@@ -119,307 +150,3 @@ class LaidLine(OfLine):
         add.loops()
         add.bare()
         return []
-
-
-@dataclass(frozen=True)
-class _On:
-    """A line and the route it is laid on."""
-
-    line: LaidLine
-    to: Laying
-    path: str  # of the route
-    route: RouteLine
-
-    def node(self, i: int) -> None:
-        """Contacts and forces of one node."""
-        body, reach = f"{self.line.outer}[{i}]", self.line.mesh.reach(i)
-        two = bool(self.line.inner) and i not in self.line.mesh.connectors
-        bulkhead = (self.line.bulkheads or {}).get(i) if two else None
-        surfaces = self.route.surfaces if self.line.values.device_friction == "on" else []
-        if i == 0 and any(self.given_by(drum) for drum in self.drums()):  # friction could not change its motion
-            surfaces = []
-        squeezed = self.clamps(i, body, reach) if surfaces or bulkhead is not None else {}
-        slots = [made for surface in surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
-        if bulkhead is not None:
-            self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
-        self.readings(i, body, reach)
-        self.twist(i, body)
-        bodies = [body] + ([f"{self.line.inner}[{i}]"] if two else [])
-        for one in bodies:
-            self.storage(i, one)
-            self.far_out(i, one)
-            self.weight(i, one, reach, bodies)
-        self.drag(i, body, reach)
-
-    def contact(self, surface: Surface, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
-        """Loads and contact of a node with one surface; the name of the contact, none where nothing ever presses."""
-        name = f"outer_{surface.name}" if surface.name else "outer"
-        load, told = "", [one.name for one, _ in surface.devices]
-        pressed = surface.pressed(self.line.load)
-        if pressed:
-            load = self.pressed_load(f"{name}_pressed[{i}]", body, reach, pressed)
-        for one in told:
-            if one in squeezed:
-                load = squeezed[one]
-        if surface.curved():
-            kind = RoundLoad if surface.all_round else LateralLoad
-            curved, layers = surface.curved(), self.line.layers
-            load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, curved, layers, load)
-        if not load:
-            return ""
-        two = self.line.inner and i not in self.line.mesh.connectors
-        masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
-        self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
-        self.meter(f"{name}[{i}]")
-        if surface.name in self.route.machinery:
-            self.tell(surface.name, f"{name}_tells[{i}]", load)
-        return f"{name}[{i}]"
-
-    def tell(self, station: str, name: str, load: str) -> None:
-        """Add the load of a node to the sum of a device, if it keeps one."""
-        total_of = self.route.machinery[station].total
-        if total_of:
-            tells = self.to.child(name, Told)
-            self.to.join(f"{load}.force", f"{tells}.value")
-            self.to.join_to(f"{tells}.sum", f"{self.path}.{station}.{total_of}")
-
-    def readings(self, i: int, body: str, reach: Reach) -> None:
-        """What a node counts in the means of tensions that devices tell."""
-        for one in self.route.placed:
-            counts = one.station.reads()
-            if counts:
-                name, windows = f"reading_{one.name}", [one.window(counts)]
-                read = self.tension_load(f"{name}[{i}]", LateralLoad, i, body, reach, windows, self.line.layers, "")
-                self.tell(one.name, f"{name}_tells[{i}]", read)
-
-    def rub(self, name: str, i: int, surface: str, body: str, load: str, curve: Any, masses: dict[str, float]) -> None:
-        """The contact itself; for a line that twists, one in two directions or one in each."""
-        p = self.line.values
-        if p.torsion is None or p.planar_slip == "off":
-            self.to.contact(name, surface, body, load, curve, masses)
-        if p.torsion is None:
-            return
-        if p.planar_slip == "on":
-            self.to.child(name, PlanarContact, curve=curve, radius=p.diameter / 2, **self.to.creep)
-            self.to.join_to(f"{name}.a", surface)
-            self.to.join(f"{body}.flange", f"{name}.b")
-            self.to.join(f"twist[{i}].shaft", f"{name}.turning")
-            self.to.join(f"{load}.force", f"{name}.normal")
-            return
-        if f"{self.to.line.path}.rim[{i}]" not in self.to.assembly.instances:
-            self.to.child(f"rim[{i}]", Rack, radius=p.diameter / 2)
-            self.to.join(f"twist[{i}].shaft", f"rim[{i}].pinion")
-        self.to.contact(f"twist_{name}", self.to.still(), f"rim[{i}]", load, curve, {}, port="rack")
-
-    def inner_contact(self, i: int, body: str, reach: Reach, clamped: str, slots: list[str]) -> None:
-        """Bulkhead on hose: pressed by the tension of the core in bends, and by clamps."""
-        core, load = f"{self.line.inner}[{i}]", clamped
-        curved = [one.window(one.curvature) for one in self.route.placed if one.curvature]
-        if curved:
-            layers = self.line.layers[1:]
-            load = self.tension_load(f"inner_load[{i}]", LateralLoad, i, core, reach, curved, layers, clamped)
-        if not load:
-            return
-        masses = {"partner_mass_a": FIXED_DEVICE}
-        path = f"{self.to.line.path}.{body}.flange"
-        self.to.contact(f"inner[{i}]", path, core, load, self.line.values.bulkhead_friction, masses)
-        self.meter(f"inner[{i}]")
-        if slots:
-            self.to.exchange(slots[0], "bound_b", f"inner[{i}]")
-            self.to.exchange(f"inner[{i}]", "bound_a", slots[0])
-
-    def meter(self, contact: str) -> None:
-        """What counts slip and work, if the line wants it."""
-        if self.line.meter is not None:
-            name, _, number = contact.partition("[")
-            meter = self.to.child(f"{name}_meter[{number}", self.line.meter)
-            self.to.join(f"{contact}.slip", f"{meter}.slip")
-            self.to.join(f"{contact}.friction", f"{meter}.friction")
-
-    def tension_load(
-        self, name: str, kind: Any, i: int, body: str, reach: Reach, curved: list[Window],
-        layers: tuple[str, ...], more: str,
-    ) -> str:  # fmt: skip
-        """A load fed by the tensions of the elements on both sides."""
-        beside = self.line.mesh.neighbours(i)
-        table = self.table(reach, *curved)
-        heavy = self.line.heavy(layers)
-        load = self.to.child(name, kind, curvature=table, length=reach.length, share=1 / len(beside), **heavy)
-        self.to.join(f"{load}.flange", f"{body}.flange")
-        for layer, entry in zip(layers, ("hose", "core")[-len(layers) :], strict=True):
-            for element in beside:
-                self.to.join(f"{layer}[{element}].tension", f"{load}.{entry}_{SIDES[element - i + 1]}")
-        if more:
-            self.to.join(f"{more}.force", f"{load}.more")
-        return load
-
-    def pressed_load(self, name: str, body: str, reach: Reach, windows: list[Window]) -> str:
-        """A load that does not come from tension."""
-        load = self.to.child(name, PressedLoad, load=self.table(reach, *windows), length=reach.length)
-        self.to.join(f"{load}.flange", f"{body}.flange")
-        return load
-
-    def clamps(self, i: int, body: str, reach: Reach) -> dict[str, str]:
-        """Load of every clamping device on a node, by its name."""
-        made = {}
-        for one, output in self.route.squeezing():
-            window = self.table(reach, one.window())
-            load = self.to.child(f"clamp_{one.name}[{i}]", ClampLoad, window=window, length=reach.length)
-            self.to.join(f"{load}.flange", f"{body}.flange")
-            self.to.join_to(f"{load}.pressing", f"{self.path}.{output}")
-            made[one.name] = load
-        return made
-
-    def all_clamps(self, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
-        """What squeezes a bulkhead: of one clamp the load on its node, of several their chain; tubes too."""
-        tubes = [one.window(one.station.squeeze()) for one in self.route.placed if one.station.squeeze()]
-        if len(squeezed) <= 1 and not tubes and reach == self.line.mesh.reach(i):
-            return next(iter(squeezed.values()), "")
-        load = ""
-        if tubes:
-            load = self.pressed_load(f"inner_pressed[{i}]", body, reach, tubes)
-        for one, output in self.route.squeezing():
-            window = self.table(reach, one.window())
-            again = self.to.child(f"inner_clamp_{one.name}[{i}]", ClampLoad, window=window, length=reach.length)
-            self.to.join(f"{again}.flange", f"{body}.flange")
-            self.to.join_to(f"{again}.pressing", f"{self.path}.{output}")
-            if load:
-                self.to.join(f"{load}.force", f"{again}.more")
-            load = again
-        return load
-
-    def storage(self, i: int, body: str) -> None:
-        """The bond with the drum."""
-        for one in self.route.of_type(Winch):
-            made, station = self.route.machinery[one.name], one.station
-            given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
-            name = self.of_layer("stored", body, i)
-            if i == 0 and one in self.drums():
-                self.fasten(body, f"{self.path}.{one.name}.{made.surface}")
-                continue
-            if station.layers == "off":
-                stored = self.to.child(name, StoredNode, **given)
-                self.to.join_to(f"{stored}.rim", f"{self.path}.{one.name}.{made.surface}")
-            else:
-                stored = self.to.child(name, WoundNode, **given)
-                self.to.join_to(f"{stored}.drum", f"{self.path}.{one.name}.{made.surface}")
-                self.to.join_to(f"{stored}.radius", f"{self.path}.{one.name}.layers.radius_now")
-            self.to.join(f"{stored}.node", f"{body}.flange")
-
-    def far_out(self, i: int, body: str) -> None:
-        """The bond with the outboard end, where the line out in the sea is to move as one body with it."""
-        last = self.line.mesh.elements
-        for one in self.route.of_type(Sea):
-            if one.station.form == "rigid" and i != last:
-                place = self.line.rigid_from(one.begin, one.station) + HANDS_OVER / 2
-                bond = self.to.child(self.of_layer("far", body, i), FarNode, place=place, edge=HANDS_OVER)
-                self.to.join(f"{bond}.end", f"{self.line.outer}[{last}].flange")
-                self.to.join(f"{bond}.node", f"{body}.flange")
-
-    def of_layer(self, word: str, body: str, i: int) -> str:
-        """Name of what acts on one body of a node: of a line with two layers, with the name of its own."""
-        return f"{word}_{body.partition('_')[0]}[{i}]" if self.line.inner else f"{word}[{i}]"
-
-    def drums(self) -> list[Placed]:
-        """The drum that the inboard end of the line is fastened to, if it is."""
-        winches = self.route.of_type(Winch)
-        return [one for one in winches if one.station.layers == "off" and self.line.values.start < one.end]
-
-    def given_by(self, drum: Placed) -> bool:
-        """Whether the motion of a drum's rim is given."""
-        instance, _, port = f"{self.path}.{drum.name}.{self.route.machinery[drum.name].surface}".rpartition(".")
-        return PortRef(instance, port) in self.to.prescribed
-
-    def fasten(self, body: str, rim: str) -> None:
-        """The inboard end of a line that lies on the drum is fastened to it: one body, which holds all tension."""
-        link = self.to.child("fastening", RigidLink, length=self.line.values.start)
-        self.to.join_to(f"{link}.a", rim)
-        self.to.join(f"{link}.b", f"{body}.flange")
-
-    def twist(self, i: int, body: str) -> None:
-        """What holds the twist of a line on the drum; and its rim, where friction in turning acts by itself."""
-        p = self.line.values
-        if p.torsion is None:
-            return
-        for one in self.route.of_type(Winch):
-            if one.station.layers == "off":
-                drum = {"place": one.end, "edge": one.station.edge or 0.1, "lay": one.station.lay}
-                laid = self.to.child(f"laid[{i}]", LaidOn, **drum)
-                self.to.join(f"twist[{i}].shaft", f"{laid}.node")
-                self.to.join(f"{body}.flange", f"{laid}.along")
-                self.to.join_to(f"{laid}.rim", f"{self.path}.{one.name}.{self.route.machinery[one.name].surface}")
-
-    def weight(self, i: int, body: str, reach: Reach, bodies: list[str]) -> None:
-        """Weight along the slope, divided between the layers by mass."""
-        weight = self.line.load
-        steep = [one for one in self.route.placed if one.station.slope]
-        if not weight or not steep:
-            return
-        share = self.to.mass(body) / sum(map(self.to.mass, bodies))
-        windows = [one.window(weight * share * math.sin(one.station.slope)) for one in steep]
-        name = self.of_layer("weight", body, i)
-        child = self.to.child(name, LineWeight, fall=self.table(reach, *windows), length=reach.length)
-        self.to.join(f"{child}.node", f"{body}.flange")
-
-    def drag(self, i: int, body: str, reach: Reach) -> None:
-        """Drag of the sea."""
-        for one in self.route.of_type(Sea):
-            if one.station.form != "lumped" and one.station.drag_coefficient > 0:
-                per_length = one.station.per_length(self.line.values.diameter)
-                window = self.table(reach, one.window())
-                child = self.to.child(f"drag[{i}]", SeaDrag, window=window, per_length=per_length, length=reach.length)
-                self.to.join(f"{child}.node", f"{body}.flange")
-                self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
-
-    def ends(self) -> None:
-        """What pulls at the outboard end; and how much lies on the drum at the start."""
-        p, last = self.line.values, self.line.mesh.elements
-        for one in self.route.of_type(Sea):
-            s = one.station
-            lumped = s.form == "lumped"
-            beyond = s.beyond if lumped else 0.0
-            per_length, drogue = s.per_length(p.diameter) if lumped else 0.0, 0.5 * s.density * s.drogue
-            pull = {"tail": s.tail, "drogue": drogue, "per_length": per_length}
-            child = self.to.child("tail", TailEnd, **pull, beyond=beyond, place=p.start + p.length)
-            self.to.join(f"{child}.node", f"{self.line.outer}[{last}].flange")
-            self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
-        for one in self.route.of_type(Winch):
-            if one.station.layers == "on":
-                wound = one.station.filled + max(one.end - p.start, 0.0)
-                path, instances = f"{self.path}.{one.name}.layers", self.to.assembly.instances
-                radius = one.station.wound().over_angle(wound, one.station.crossover)
-                instances[path] = with_other(instances[path], radius=radius)
-
-    def loops(self) -> None:
-        """Elements that run through a tensioner take the loop into their stretch."""
-        looped = {Hose: LoopedHose, Core: LoopedCore}
-        instances, path = self.to.assembly.instances, self.to.line.path
-        for one in self.route.of_type(Tensioner):
-            table = step(one.begin, one.station.edge or max(self.line.mesh.lengths))
-            for layer in self.line.layers:
-                for k in range(self.line.mesh.elements):
-                    old = instances[f"{path}.{layer}[{k}]"].values
-                    given = {name: old.given[name] for name in ("axial_stiffness", "length", "damping", "line_damping")}
-                    self.to.child(f"{layer}[{k}]", looped[old.type], **given, behind=table, ahead=table)
-                    self.to.join_to(f"{layer}[{k}].carriage", f"{self.path}.{one.name}.carriage.flange")
-
-    def bare(self) -> None:
-        """Surfaces that no node can touch: standing ones, as guides of a line without weight, need no ground."""
-        joined = {ref for join in self.to.assembly.joins for ref in join.ports}
-        ground = f"{self.path}.surface"
-        if not any(ref.instance == ground for ref in joined):
-            self.to.assembly.instances.pop(ground, None)
-        for name, mover in self.route.machinery.items():
-            instance, _, port = f"{self.path}.{name}.{mover.surface}".rpartition(".")
-            if mover.surface and PortRef(instance, port) not in joined:
-                self.to.child(f"untouched_{name}", Untouched)
-                self.to.join_to(f"untouched_{name}.surface", f"{instance}.{port}")
-
-    def table(self, reach: Reach, *windows: Window) -> Any:
-        """The sum of windows; the same table for all nodes of the same reach."""
-        return _table(windows, reach)
-
-
-@functools.lru_cache(maxsize=4096)
-def _table(windows: tuple[Window, ...], reach: Reach) -> Any:
-    return total(windows, reach)

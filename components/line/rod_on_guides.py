@@ -21,7 +21,7 @@ class RodOnGuides(Composite):
     """
 
     end = Translational("the end that is pulled")
-    blocks = Count("How many blocks.", default=100, least=2, most=20_000)
+    blocks = Count("How many blocks.", default=100, least=2, most=20_000, mesh=True)
     mass = Parameter("kg", "Mass of the rod.", above=0)
     axial_stiffness = Parameter("N", "EA over a length of 1 m: each spring has blocks times this.", above=0)
     damping_time = Parameter("s", "Damping of each spring over its stiffness.", default=0.0, least=0)

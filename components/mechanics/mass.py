@@ -8,8 +8,8 @@ class Mass(Component):
 
     flange = Translational("the mass itself")
     mass = Parameter("kg", "Mass.", above=0)
-    position = Parameter("m", "Position at the start.", default=None)
-    velocity = Parameter("m/s", "Velocity at the start.", default=None)
+    position = Parameter("m", "Position at the start.", default=None, physics=False)
+    velocity = Parameter("m/s", "Velocity at the start.", default=None, physics=False)
     x = Output("m", "Position.")
     v = Output("m/s", "Velocity.")
 

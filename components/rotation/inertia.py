@@ -8,8 +8,8 @@ class Inertia(Component):
 
     shaft = Rotational("the body itself")
     moment = Parameter("kg*m^2", "Moment of inertia about the axis.", above=0)
-    angle = Parameter("rad", "Angle at the start.", default=None)
-    speed = Parameter("rad/s", "Angular speed at the start.", default=None)
+    angle = Parameter("rad", "Angle at the start.", default=None, physics=False)
+    speed = Parameter("rad/s", "Angular speed at the start.", default=None, physics=False)
     turned = Output("rad", "Angle.")
     rate = Output("rad/s", "Angular speed.")
 

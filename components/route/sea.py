@@ -32,6 +32,7 @@ class Sea(Station):
     """
 
     word = "Sea"
+    as_one = ("form", "rigid", "distributed")
     speed = Waveform("m/s", "Speed of the ship through the water.", default=0.0)
     drag_coefficient = Parameter("1", "Tangential drag coefficient C_t.", default=0.003, least=0)
     density = Parameter("kg/m^3", "Density of the water.", default=WATER, above=0)
@@ -59,6 +60,23 @@ class Sea(Station):
     def per_length(p, diameter):
         """1/2 rho C_t pi d [kg/m^2]: drag per length and speed squared."""
         return 0.5 * p.density * p.drag_coefficient * math.pi * diameter
+
+    def flow(p):
+        """The speed of the ship."""
+        return p.speed
+
+    def drags(p, diameter):
+        """Where it acts along the line."""
+        return 0.0 if p.form == "lumped" else p.per_length(diameter)
+
+    def tows(p, diameter, way):
+        """The tail, the drogue, and drag that is lumped at the end."""
+        drogue = 0.5 * p.density * p.drogue
+        return p.tail, drogue + (p.per_length(diameter) * (p.beyond + way) if p.form == "lumped" else 0.0)
+
+    def keeps_apart(p):
+        """The margin."""
+        return p.margin
 
     def machinery(p, scene):
         """The speed of the ship, one signal for all nodes."""

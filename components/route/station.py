@@ -88,6 +88,29 @@ class Station(Family, abstract=True):
         """True for a water (`Sea`) that drags the line outboard of its start."""
         return False
 
+    def flow(p):
+        """Speed at which a water flows past the route, a quantity in time [m/s]; None when it rests."""
+        return None
+
+    def drags(p, diameter):
+        """Drag of a water along a line of that diameter, per length and speed squared [kg/m^2]."""
+        return 0.0
+
+    def tows(p, diameter, way):
+        """What a water and what is in it pull at the outboard end when `way` [m] has been paid out.
+
+        A steady pull [N], and a drag per speed squared [kg/m].
+        """
+        return 0.0, 0.0
+
+    def moves_as_one(p):
+        """True when the line far out in a water moves as one body with its end; see `as_one`."""
+        return p.type.answers.as_one is not None and p.path(p.type.answers.as_one[0]) == p.type.answers.as_one[1]
+
+    def keeps_apart(p):
+        """Line in such a water that moves by itself all the same [m]; None when the line is to say."""
+        return None
+
     def lever(p):
         """Radius from the surface to the shaft that drives it [m]; None where no shaft does."""
         return None

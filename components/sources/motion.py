@@ -28,7 +28,8 @@ class MotionSource(Component):
     velocity = Waveform("m/s", "Velocity in time.", default=None)
     position = Waveform("m", "Position in time.", default=None)
     origin = Parameter(
-        "m", "Position at t = 0 when the velocity is given; else where the driven body starts.", default=None
+        "m", "Position at t = 0 when the velocity is given; else where the driven body starts.", default=None,
+        physics=False,
     )
     x = Output("m", "Position.")
     v = Output("m/s", "Velocity.")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairlead.component.declare import Table
+from fairlead.component.given import Table
 from fairlead.component.tables import MOST_BYTES, TableError, read_table
 
 FORCE = Table("s", "N", "Force over time.")

@@ -1,12 +1,20 @@
 """What things are called decides nothing: contacts, and what a class of a library has for parameters and zones."""
 
+import pathlib
+import re
+
+import fairlead.components
 import pytest
 
 import fairlead
+from fairlead.analysis.characteristic import characteristic
 from fairlead.analysis.fastest import motors
 from fairlead.analysis.laid_route import laid_routes
+from fairlead.analysis.meshes import meshes
 from fairlead.analysis.statics import statics
-from fairlead.analysis.treatments import contacts, creep, creep_of
+from fairlead.analysis.statics_record import record
+from fairlead.analysis.switches import switches
+from fairlead.analysis.treatments import contacts, creep, creep_of, kinds_of_treatment
 from fairlead.component.answers import METHODS
 from fairlead.integrate import Run, integrate
 
@@ -214,3 +222,135 @@ def test_only_the_settings_of_contacts_are_changed_with_the_treatment(scene, lib
     model = scene(GREASED.format(**LOADED[0]).replace("Grease}", "Grease, creep: 2 mm/s}"),
                   (library(GREASE.format(**LOADED[0])),))  # fmt: skip
     assert creep(model, 1e-5) == {"friction.creep": "1e-05"}
+
+
+def copied(*files, **words):
+    """Bundled classes as those of a library, each word of `words` replaced."""
+    folder = pathlib.Path(next(iter(fairlead.components.__path__)))
+    text = "\n".join((folder / file).read_text(encoding="utf-8") for file in files)
+    modules = "|".join(file.removesuffix(".py").replace("/", r"\.") for file in files)
+    text = re.sub(rf"^from fairlead\.components\.({modules}) import .*\n|^from __future__.*\n", "", text, flags=re.M)
+    return re.sub(rf"\b({'|'.join(words)})\b", lambda found: words[found[0]], text)
+
+
+ROD = """
+    parameters: {{count: 12}}
+    components:
+      rod: {{type: {kind}, {blocks}: "{{count}}", mass: 1 kg, axial_stiffness: 1 kN, friction: 2 N}}
+      hand: {{type: MotionSource, velocity: 0.1 m/s}}
+    connections: [[rod.end, hand.flange]]
+    run: {{stop: 1 s}}
+"""
+HAWSER = copied("line/cable.py", Cable="Hawser", element="piece", graded="pieces", side_wall="bears",
+                ruck_force="buckles", profile="begins").replace("laid = LaidLine", "laid = Laid") + """
+
+class Laid(LaidLine):
+    ruck_force = property(lambda self: self.values.buckles)
+    side_wall = property(lambda self: self.values.bears)
+    begins_sliding = property(lambda self: self.values.begins == "statics")
+"""  # fmt: skip
+LINE = """
+    parameters: {{fine: 0.25 m, also: "{{fine}}"}}
+    components:
+      rope: {{type: {kind}, length: 12 m, {element}: "{{also}}", start: -6 m, tension: 150 N, mass: 0.5 kg/m,
+             stiffness: 1 MN, compression: carried, {side_wall}: 100 N/m, {ruck_force}: 90 N, bend_radius: 0.1 m,
+             {profile}: statics}}
+      route:
+        type: Route
+        stations:
+          - {{type: Winch, start: 0 m, radius: 0.5 m, name: drum}}
+          - {{type: Bend, start: 1 m, angle: 90 deg, radius: 0.6 m, friction: 0.3, name: bend}}
+      haul: {{type: MotionSource, velocity: 0.3 m/s}}
+      brake: {{type: ForceSource, force: -200 N}}
+    connections:
+      - [rope.path, route.path]
+      - [haul.flange, rope.outboard]
+      - [brake.flange, route.drum.rim]
+    run: {{stop: 3 s}}
+"""
+OURS = {name: name for name in ("element", "side_wall", "ruck_force", "profile")}
+THEIRS = {"element": "piece", "side_wall": "bears", "ruck_force": "buckles", "profile": "begins"}
+
+
+def test_elements_are_found_where_a_class_declares_them(scene, library):
+    """A scene parameter is set for what a component takes from it, whatever either is called."""
+    rods = scene(ROD.format(kind="RodOnGuides", blocks="blocks")), scene(
+        ROD.format(kind="Rod", blocks="pieces"),
+        (library(copied("line/rod_on_guides.py", RodOnGuides="Rod", blocks="pieces")),),
+    )  # fmt: skip
+    assert [dict(meshes(rod, [2])[0].settings) for rod in rods] == [{"count": "24"}] * 2
+    ropes = scene(LINE.format(kind="Cable", **OURS)), scene(LINE.format(kind="Hawser", **THEIRS), (library(HAWSER),))
+    assert [dict(meshes(rope, [2])[0].settings) for rope in ropes] == [{"fine": "0.125"}] * 2
+    doubled = scene(LINE.format(kind="Cable", **OURS).replace('"{also}"', '"{2*fine}"'))
+    assert dict(meshes(doubled, [2])[0].settings) == {"rope.element": "0.25"}  # `fine` may mean something else
+    unsaid = scene(ROD.format(kind="RodOnGuides", blocks="blocks").replace('blocks: "{count}", ', ""))
+    assert dict(meshes(unsaid, [2])[0].settings) == {"rod.blocks": "200"}
+
+
+def test_what_a_line_bears_is_told_by_the_line(scene, library):
+    told = []
+    for kind, words, files in (("Cable", OURS, ()), ("Hawser", THEIRS, (library(HAWSER),))):
+        model = scene(LINE.format(kind=kind, **words), files)
+        found = record(statics(model.flat)[0])
+        assert found["limits"] == {"side_wall": 100.0, "ruck_force": 90.0}
+        lengths = [one.values.length for one in model.flat.instances if "line[" in one.path]
+        told.append((found["states"], found["remarks"], lengths))
+    assert told[0] == told[1]
+    assert any("more than rope bears" in remark for remark in told[0][1])
+    assert len(set(told[0][2])) > 5  # elements of their own, for the tensions of statics
+
+
+def test_only_physics_is_left_out_by_the_study_of_effects(scene, library):
+    """Not where a line may be bent, nor what it starts with, nor how fine it is."""
+    files = (library(HAWSER),)
+    models = scene(LINE.format(kind="Cable", **OURS)), scene(LINE.format(kind="Hawser", **THEIRS), files)
+    found = [{one.label for one in switches(model)} for model in models]
+    renamed = {label.replace("buckles", "ruck_force").replace("begins", "profile") for label in found[1]}
+    assert found[0] == renamed
+    assert "rope.ruck_force absent" in found[0]
+    assert not any(name in label for label in found[0] for name in ("side_wall", "bend_radius", "element"))
+
+
+PAD = """
+    components:
+      floor: {{type: Ground}}
+      block: {{type: Mass, mass: 1 kg, position: 1 m}}
+      pad: {{type: Contact, normal_force: 10 N, curve: {curve}{method}}}
+      hand: {{type: ForceSource, force: 3 N}}
+    connections: [[floor.flange, pad.a], [pad.b, block.flange, hand.flange]]
+    run: {{stop: 1 s}}
+"""
+
+
+def test_a_curve_says_what_its_level_is(scene, library):
+    plain = "{curve: stribeck, stiction: 0.5, coulomb: 0.4, velocity: 20 mm/s}"
+    other = "{curve: sloping, stiction: 0.5, kinetic: 0.4, velocity: 20 mm/s}"
+    files = (library(copied("friction/stribeck.py", Stribeck="Sloping", Tustin="Steep", coulomb="kinetic")),)
+    for curve in (plain, other):
+        (flat,) = [one for one in switches(scene(PAD.format(curve=curve, method=""), files)) if one.kind == "curve"]
+        assert dict(flat.settings) == {"pad.curve": "0.4"}
+    shared = PAD.format(curve=0.3, method="").replace(", curve: 0.3", "") + f"    friction: {{curve: {plain}}}\n"
+    (flat,) = [one for one in switches(scene(shared)) if one.kind == "curve"]
+    assert dict(flat.settings) == {"friction.curve": "0.4"}
+
+
+def test_a_contact_says_how_it_sticks(scene, library):
+    kinds = kinds_of_treatment(scene(PAD.format(curve=0.3, method="")))
+    assert (kinds.exact, kinds.creeping, kinds.never_sticking) == ("hold", "binding", "tanh")
+    files = (library(copied("friction/bristles.py", "friction/dahl.py", Dahl="Bent", ratio="stiff", z="bend",
+                            presliding="give")),)  # fmt: skip
+    one = scene(PAD.format(curve=0.3, method=", method: dahl, presliding: 1 mm"))
+    two = scene(PAD.format(curve=0.3, method=", method: bent, give: 1 mm"), files)
+    found = [characteristic(contacts(model)[0].values, 10.0) for model in (one, two)]
+    assert found[0].stiffness == found[1].stiffness == pytest.approx(3000.0)
+
+
+def test_a_water_says_how_it_flows_and_drags(scene, library):
+    words = {"Sea": "Tide", "form": "shape", "speed": "stream", "margin": "apart", "tail": "end"}
+    files = (library(copied("route/tow.py", "route/sea.py", **words)),)
+    other = ROUTE.replace("Sea, start: 6 m, speed: 3 m/s, tail", "Tide, start: 6 m, stream: 3 m/s, end")
+    states = [statics(model.flat)[0].moving for model in (scene(ROUTE), scene(other, files))]
+    tensions = [[one.tension.tolist() for state in found for one in state.passages] for found in states]
+    assert tensions[0] == tensions[1]
+    (far,) = [one for one in switches(scene(other, files)) if "water" in one.name]
+    assert dict(far.settings) == {"route.stations[4].shape": "rigid"}

@@ -83,6 +83,12 @@ REFUSED = {
         f"{LAW}\ndef stored(p, a, b):\n    return 0",
         "stored asks for 'b'; known: ['a', 'direction', 'p', 't', 'zone']",
     ),
+    "a choice that there is not": (f"{LAW}\nas_one = ('form', 'a', 'b')", "it names a choice and two of its options"),
+    "options that a choice has not": (
+        f"{LAW}\nform = Choice(('up', 'down'))\nas_one = ('form', 'up', 'left')",
+        "as_one is ('form', 'up', 'left'); it names a choice and two of its options",
+    ),
+    "a level that is no parameter": (f"{LAW}\nlevel = 'coulomb'", "level is 'coulomb'; the parameters are []"),
     "a unit inside a block": (LAW + "\nhose = Block({'mass': Parameter('kg per m')})", "kg per m"),
 }  # fmt: skip
 
@@ -171,9 +177,11 @@ def test_the_page_lists_all_that_a_class_may_be_asked():
 def test_all_that_may_be_asked_of_the_bundled_classes_is_said_by_one_of_them():
     """What no class says, nobody needs to ask; the ledger may stand in a law as well, where they all have it."""
     from fairlead.components.friction.contact import Contact
+    from fairlead.components.friction.curve import Curve
+    from fairlead.components.route.station import Station
 
     from fairlead.component.registry import bundled
 
-    kinds = [*bundled().values(), *Contact.members.values()]
+    kinds = [*bundled().values(), *Contact.members.values(), *Curve.members.values(), *Station.members.values()]
     silent = [one.name for one in fields(Answers) if all(getattr(k.answers, one.name) == one.default for k in kinds)]
     assert set(silent) == set(LEDGER)

@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.cli import app
-from fairlead.component.declare import Waveform
+from fairlead.component.given import Waveform
 from fairlead.component.registry import known_types
 from fairlead.component.tables import TERMS, read_waveform
 from fairlead.netlist.yaml12 import read_yaml

@@ -6,7 +6,7 @@ import pathlib
 import numpy as np
 import pytest
 
-from fairlead.component.declare import Table, Waveform
+from fairlead.component.given import Table, Waveform
 from fairlead.component.piecewise import constant, linear_table, monotone_cubic_table, pieces
 from fairlead.component.tables import add, read_table, read_waveform
 

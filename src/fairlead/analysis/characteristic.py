@@ -110,8 +110,8 @@ def _measured(
               "numbers": numbers, "can_hold": p.type.answers.can_hold,
               "latched": p.type.declaration.zones.latched, "called": _branches(p.type.declaration)}  # fmt: skip
     if holds or p.type.declaration.states:
-        ratio = getattr(p, "ratio", None)
-        stiffness = None if holds or ratio is None else normal * ratio
+        gives = p.type.answers.gives_by
+        stiffness = normal * p.path(gives) if gives and not holds else None
         return Characteristic(
             **common, holds=holds, capacity=breakaway, stiffness=stiffness, creep=tuple(rest.values())
         )
@@ -142,7 +142,8 @@ def _forward(branches: list[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
 def _slips(p: Values) -> Floats:
     """Slip speeds of both signs, logarithmic, that show the treatment's own scale and the curve's."""
     own = [p.path(p.type.answers.sticks_below)] if p.type.answers.sticks_below else []
-    curve = [scale for scale in (p.curve.scale(),) if scale]
+    changes = p.type.answers.changes_over
+    curve = [scale for scale in (changes(p),) if scale] if changes is not None else []
     scales = [*own, *curve] or [1e-3]
     half = np.geomspace(min(scales) / 100, max([*curve, *(100 * s for s in own), *scales]) * 10, POINTS)
     return np.concatenate([-half[::-1], half])

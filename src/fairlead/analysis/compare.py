@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fairlead.analysis.treatments import kinds_of_treatment
 from fairlead.errors import FairleadError, Fault, Location, ModelError
 from fairlead.netlist.settings_file import Setting
 
@@ -29,7 +30,6 @@ GRID = 4001  # common times at which signals are compared
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 LEAST = 1e-3  # of the widest range of a unit: what hardly moves is measured by that
 VARIED = Location("--vary")
-EXACT = "hold"  # the treatment that the others are measured against
 
 
 @dataclass(frozen=True)
@@ -64,14 +64,15 @@ def compare(
 
     A run ends after `max_wall` seconds at the latest.
 
-    The reference is exact hold at a hundredth of the accuracy where a `method` is varied, else the first
+    The reference is exact hold at a hundredth of the accuracy where the treatment is varied, else the first
     combination. Raises ModelError for every mistake in what is varied, before anything runs.
     """
     folder, fixed = pathlib.Path(out), dict(settings or {})
     vary = {name: [Setting(value, VARIED) for value in values] for name, values in vary.items()}
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
     _refuse_mistakes(load, fixed, chosen)
-    exact = {name: EXACT if name.split(".")[-1] == "method" else values[0] for name, values in vary.items()}
+    kinds = kinds_of_treatment(load({**fixed, **chosen[0]}))
+    exact = {name: kinds.exact if name.split(".")[-1] == kinds.key else values[0] for name, values in vary.items()}
     accuracy = load({**fixed, **exact}).netlist.run.accuracy
     reference, failed = _run(load, {**fixed, **exact}, folder / "reference", max_wall, accuracy * FINER)
     if reference is not None and reference.status != "finished":
@@ -132,7 +133,7 @@ def _error(result: Result, reference: Result, pattern: str) -> tuple[float | Non
     common = set(reference.match(pattern)) & set(result.match(pattern))
     compared = [
         signal for signal in reference.signals
-        if signal.name in common and signal.unit in ("m", "rad") and not signal.name.endswith(".deflection")
+        if signal.name in common and signal.unit in ("m", "rad")
     ]  # fmt: skip
     right = {signal.name: np.interp(t, reference.t, reference[signal.name]) for signal in compared}
     widest = {unit: max((float(np.ptp(right[s.name])) for s in compared if s.unit == unit), default=0.0)

@@ -13,20 +13,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from fairlead.analysis.meshes import Mesh, meshes
-from fairlead.analysis.treatments import EXACT, creep, creep_of, treatment, treatment_of
+from fairlead.analysis.treatments import creep, creep_of, kinds_of_treatment, treatment, treatment_of
 from fairlead.errors import UsageError, did_you_mean
 
 ENGINES = ("rodas", "stepping", "ida")
 ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5)
 CREEPS = (10.0, 0.1)  # times that of the scene
 FINER = (0.5, 2.0)  # elements of twice and of half the size; the finest is what the others are measured against
-CREEPING = "binding"  # the treatment in which a creep is tried where the scene has none
-USUAL_TREATMENTS = (EXACT, CREEPING)
 
 
 @dataclass(frozen=True)
 class Ladder:
-    """What the user chose; None means the sensible set above."""
+    """What the user chose; None means the sensible set: what is above, exact hold, and what creeps."""
 
     accuracies: Sequence[float] = ACCURACIES
     engines: Sequence[str] | None = None
@@ -94,7 +92,7 @@ def checked(ladder: Ladder) -> Ladder:
 def own_equations(model: Any) -> Equations:
     """The scene as it is."""
     word = treatment_of(model)
-    return Equations("", exact=word in (EXACT, ""))
+    return Equations("", exact=word in (kinds_of_treatment(model).exact, ""))
 
 
 def other_equations(model: Any, ladder: Ladder) -> list[Equations]:
@@ -102,20 +100,23 @@ def other_equations(model: Any, ladder: Ladder) -> list[Equations]:
     now, tolerated, found = treatment_of(model), creep_of(model), []
     if not now:
         return []
-    wanted = ladder.treatments if ladder.treatments is not None else USUAL_TREATMENTS
-    found += [Equations(w, treatment(model, w), "treatment", exact=w == EXACT) for w in wanted if w != now]
+    kinds = kinds_of_treatment(model)
+    exact, creeping = kinds.exact, kinds.creeping
+    wanted = ladder.treatments if ladder.treatments is not None else [word for word in (exact, creeping) if word]
+    found += [Equations(w, treatment(model, w), "treatment", exact=w == exact) for w in wanted if w != now]
     chosen = ladder.creeps
     if chosen is None:
-        chosen = [factor * tolerated for factor in CREEPS] if tolerated and now != EXACT else []
-    within = {} if tolerated else treatment(model, CREEPING)
-    label = "creep" if tolerated else f"{CREEPING}, creep"
+        chosen = [factor * tolerated for factor in CREEPS] if tolerated and now != exact else []
+    within = {} if tolerated else treatment(model, creeping)
+    label = "creep" if tolerated else f"{creeping}, creep"
     found += [Equations(f"{label} {1e3 * one:.3g} mm/s", {**within, **creep(model, one)}, "creep") for one in chosen]
     return found
 
 
 def exact_equations(model: Any) -> Equations:
     """The scene with contacts that hold exactly."""
-    return Equations(EXACT, treatment(model, EXACT), "treatment", exact=True)
+    word = kinds_of_treatment(model).exact
+    return Equations(word, treatment(model, word), "treatment", exact=True)
 
 
 def other_meshes(model: Any, ladder: Ladder) -> list[Mesh]:

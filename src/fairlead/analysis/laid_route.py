@@ -89,44 +89,45 @@ class LaidRoute:
     seas: tuple[Device, ...]
 
     @property
-    def values(self) -> Any:
-        """Parameters of the line."""
-        return self.line.values
+    def says(self) -> OfLine:
+        """What the line says of itself."""
+        said: OfLine = self.line.line
+        return said
 
     @property
     def mass(self) -> float:
         """Mass per length [kg/m]."""
-        return self.line.line.mass
+        return self.says.mass
 
     @property
     def layers(self) -> tuple[float, float]:
         """EA of hose and core [N]; of a line of one layer its own and none."""
-        each = self.line.line.stiffnesses
-        return (each[0], each[1]) if self.line.line.slips else (self.stiffness, 0.0)
+        each = self.says.stiffnesses
+        return (each[0], each[1]) if self.says.slips else (self.stiffness, 0.0)
 
     @property
     def stiffness(self) -> float:
         """EA of all layers [N]."""
-        return float(sum(self.line.line.stiffnesses))
+        return float(sum(self.says.stiffnesses))
 
     @property
     def pushes(self) -> bool:
         """True when the line can carry compression."""
-        return self.line.line.pushes
+        return self.says.pushes
 
     def ends(self, way: float) -> tuple[float, float]:
         """Where the line lies on the route [m] after `way` was paid out: from the drum, or its inboard end."""
-        begin, end = self.values.start + way, self.values.start + self.values.length + way
+        begin, end = self.says.start + way, self.says.start + self.says.length + way
         return (max(begin, self.winch.end), end) if self.winch is not None else (begin, end)
 
     def connectors(self, way: float) -> list[float]:
         """Places of the end connectors on the route [m]."""
-        mesh = self.line.line.mesh
-        return [self.values.start + way + mesh.places[node] for node in sorted(mesh.connectors)]
+        mesh = self.says.mesh
+        return [self.says.start + way + mesh.places[node] for node in sorted(mesh.connectors)]
 
     def stored(self, way: float) -> float:
         """Line on the drum [m]."""
-        return max(self.ends(way)[0] - self.values.start - way, 0.0)
+        return max(self.ends(way)[0] - self.says.start - way, 0.0)
 
     def radius(self, way: float) -> float:
         """Radius at which the line leaves the drum [m]; 1 when there is none."""
@@ -175,7 +176,7 @@ class LaidRoute:
 
     def signal(self, device: Device, t: float) -> float:
         """Speed of the ship at a sea [m/s]."""
-        wave: Wave = device.station.speed if device.station.speed is not None else steady(0.0)
+        wave: Wave = device.station.flow() or steady(0.0)
         return wave(t)
 
 
@@ -197,10 +198,10 @@ def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
         moved = made is not None and made.surface and not one.station.stores()
         mover = machine(flat, _port(f"{path}.{made.surface}"), *ends) if moved else None
         clamps = _clamps(flat, path, made) if made is not None and made.clamp else ()
-        curve = one.station.rubs() if line.values.device_friction == "on" else None
+        curve = one.station.rubs() if line.line.rubs else None
         devices.append(Device(one.name, one.begin, one.end, one.station, curve, mover, clamps))
     aliases = flat.assembly.aliases
-    winch = next((one for one in devices if one.station.stores() and line.values.start < one.end), None)
+    winch = next((one for one in devices if one.station.stores() and line.line.start < one.end), None)
     inboard = aliases[f"{line.path}.inboard"]
     if winch is not None:
         inboard = _port(f"{route.path}.{winch.name}.{route.line.machinery[winch.name].surface}")

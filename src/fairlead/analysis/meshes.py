@@ -8,15 +8,31 @@ element or a node takes in (the friction of one contact) belongs to its length a
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from fairlead.quantities import QuantityError, si
+from fairlead.analysis.written import components, scene_parameter
+from fairlead.component.given import REQUIRED, Count, Parameter, Table
+from fairlead.netlist.netlist import Entry, Value
+from fairlead.quantities import si
 from fairlead.results.signal import family
 
-SIZES, COUNTS = ("element",), ("elements", "blocks")  # how netlists and components call the size and the number
-GRADED, SIZE = "graded", 1  # rows of a place and the size of elements there
+
+@dataclass(frozen=True)
+class Fineness:
+    """What says how fine the elements are somewhere: the setting that changes it, its value in SI."""
+
+    setting: str
+    value: float
+    counts: bool  # it is a number of elements, not their size
+    alone: bool = True  # it is one of all of them, not that of a place in a line
+
+    def finer(self, factor: float) -> str:
+        """The value of a mesh finer by a factor."""
+        if self.counts:
+            return str(max(1, round(self.value * factor)))
+        return f"{self.value / factor:.10g}"
 
 
 @dataclass(frozen=True)
@@ -28,27 +44,53 @@ class Mesh:
     finer: float
 
 
-def mesh_settings(model: Any) -> dict[str, float]:
-    """Parameters of scene or components that say how fine the elements are, with their values in SI.
+def mesh_settings(model: Any) -> list[Fineness]:
+    """What the components of a scene are given for their elements, as their classes declare it (`mesh=True`).
 
-    A parameter of the scene is taken for what its components say by it; a graded line has a size for every place.
+    A parameter of the scene that a component takes as it stands is set in its place, for the scene may use it
+    elsewhere too. A table of sizes has one for every place, and then decides.
     """
-    netlist = model.netlist
-    entries = netlist.components.values()
-    found = {name: value.content for name, value in netlist.parameters.items() if name in (*SIZES, *COUNTS)}
-    if not found:
-        found = {
-            f"{entry.name}.{name}": value.content
-            for entry in entries if GRADED not in entry.parameters
-            for name, value in entry.parameters.items() if name in (*SIZES, *COUNTS)
-        }  # fmt: skip
-    rows = [
-        (f"{entry.name}.{GRADED}.{number}.{SIZE}", row.content[SIZE].content)
-        for entry in entries if isinstance(getattr(entry.parameters.get(GRADED), "content", None), list)
-        for number, row in enumerate(entry.parameters[GRADED].content)
-        if isinstance(row.content, list) and len(row.content) > SIZE
-    ]  # fmt: skip
-    return _numbers(found | dict(rows))
+    found: dict[str, Fineness] = {}
+    for entry, kind in components(model):
+        mine = {name: one for name, one in kind.declaration.parameters.items() if _is_mesh(one)}
+        tables = [name for name, one in mine.items() if isinstance(one, Table) and _given(entry, name) is not None]
+        for name in tables or mine:
+            said = _graded if name in tables else _single
+            for each in said(model, entry, name, mine[name]):
+                found.setdefault(each.setting, each)
+    return list(found.values())
+
+
+def _is_mesh(declared: Any) -> bool:
+    return isinstance(declared, Parameter | Count | Table) and declared.mesh
+
+
+def _given(entry: Entry, name: str) -> Value | None:
+    value = entry.parameters.get(name)
+    return value if value is not None and value.content is not None else None
+
+
+def _single(model: Any, entry: Entry, name: str, declared: Any) -> Iterator[Fineness]:
+    """One size or number; that which it is by default can be set as well."""
+    given, counts = _given(entry, name), isinstance(declared, Count)
+    setting = (scene_parameter(model, given) if given is not None else None) or f"{entry.name}.{name}"
+    content = given.content if given is not None else declared.default
+    if content is not REQUIRED and content is not None:
+        yield Fineness(setting, si(content, "1" if counts else declared.unit), counts)
+
+
+def _graded(model: Any, entry: Entry, name: str, declared: Any) -> Iterator[Fineness]:
+    """The sizes of a table that is written as rows, or as a list for each column; not those of a file."""
+    path, value = f"{entry.name}.{name}", entry.parameters[name]
+    sizes = {f"{path}.{k}.1": row.content[1] for k, row in _listed(value) if len(row.content or ()) > 1}
+    if not sizes and "y" in value.entries:
+        sizes = {f"{path}.y.{k}": one for k, one in _listed(value.entries["y"])}
+    for setting, one in sizes.items():
+        yield Fineness(scene_parameter(model, one) or setting, si(one.content, declared.y), counts=False, alone=False)
+
+
+def _listed(value: Value) -> list[tuple[int, Any]]:
+    return list(enumerate(value.content)) if isinstance(value.content, list) else []
 
 
 def meshes(model: Any, factors: Sequence[float]) -> list[Mesh]:
@@ -56,10 +98,10 @@ def meshes(model: Any, factors: Sequence[float]) -> list[Mesh]:
     now = mesh_settings(model)
     found = []
     for factor in factors if now else ():
-        settings = {name: _scaled(name, value, factor) for name, value in now.items()}
-        name, text = next(iter(settings.items()))
-        known = name.rpartition(".")[2] in (*SIZES, *COUNTS)
-        label = f"{name.rpartition('.')[2]} {text}" if known else f"elements / {factor:g}"
+        settings = {one.setting: one.finer(factor) for one in now}
+        first = now[0]
+        name = first.setting.rpartition(".")[2]
+        label = f"{name} {first.finer(factor)}" if first.alone else f"elements / {factor:g}"
         found.append(Mesh(label, settings, factor))
     return found
 
@@ -95,19 +137,3 @@ def _families(names: Sequence[str]) -> dict[str, list[int]]:
         if index is not None and "[*]" in key:
             found[key].append(index)
     return {key: sorted(numbers) for key, numbers in found.items()}
-
-
-def _numbers(found: Mapping[str, Any]) -> dict[str, float]:
-    numbers = {}
-    for name, content in found.items():
-        try:
-            numbers[name] = si(content, "1" if name.rpartition(".")[2] in COUNTS else "m")
-        except QuantityError:  # not a size of elements after all
-            continue
-    return numbers
-
-
-def _scaled(name: str, value: float, factor: float) -> str:
-    if name.rpartition(".")[2] in COUNTS:
-        return str(max(1, round(value * factor)))
-    return f"{value / factor:.10g}"

@@ -15,7 +15,7 @@ TOUCHES = 1e-6  # m
 
 def off_the_drum(route: LaidRoute) -> Iterator[Fault]:
     """A line that begins outboard of a winch; one that stays on it; one of which more is paid out than is stored."""
-    p, name = route.values, route.line.path
+    p, name = route.says, route.line.path
     listed = [one for one in route.route.line.placed if one.station.stores()]
     for one in listed if route.winch is None else ():
         what = (
@@ -52,5 +52,5 @@ def most_paid_out(schedule: Schedule) -> tuple[float, float]:
 def _start(route: LaidRoute) -> Location:
     """Where the netlist says where the line begins."""
     entry = route.flat.assembly.netlist.components.get(route.line.path)
-    start = entry.parameters.get("start") if entry is not None else None
+    start = entry.parameters.get(route.says.start_from) if entry is not None else None
     return start.where if start is not None else route.line.where

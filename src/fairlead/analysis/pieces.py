@@ -30,10 +30,10 @@ def pieces(route: LaidRoute, t: float, speed: float, way: float, acceleration: f
         if device is None:
             yield None, Piece(begin, end, load=load), 0.0
             continue
-        p, weight = device.station, route.line.line.load
+        p, weight = device.station, route.says.weight
         pressed = device.squeeze(t) + (weight * math.cos(p.slope) if p.bears_weight() else 0.0)
         load += weight * math.sin(p.slope)
-        lightened = route.mass * speed**2 if route.values.centrifugal == "on" else 0.0
+        lightened = route.mass * speed**2 if route.says.lightened else 0.0
         piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round(), lightened)
         slid = 0.0 if device.machine is not None else device.friction(speed) * _grip(route, device, piece)
         yield device, piece, math.copysign(slid, speed)
@@ -44,28 +44,24 @@ def _grip(route: LaidRoute, device: Device, piece: Piece) -> float:
     curve = device.curve
     if curve is None or curve.load_exponent is None or not (piece.pressed or piece.curvature):
         return 1.0
-    element = max(route.line.line.mesh.lengths)
-    load = (piece.pressed + abs(float(route.values.tension)) * piece.curvature) * element
+    element = max(route.says.mesh.lengths)
+    load = (piece.pressed + abs(route.says.tension) * piece.curvature) * element
     return float((load / curve.load_reference) ** (curve.load_exponent - 1)) if load > 0 else 1.0
 
 
 def drag(route: LaidRoute, sea: Device, t: float, speed: float) -> float:
     """Drag per length [N/m] in a sea whose drag acts along the line, which may move as one body; outboard positive."""
-    if sea.station.form == "lumped":
-        return 0.0
     flow = route.signal(sea, t) - speed
-    return float(sea.station.per_length(route.values.diameter) * abs(flow) * flow)
+    return float(sea.station.drags(route.says.diameter) * abs(flow) * flow)
 
 
 def tail(route: LaidRoute, t: float, speed: float, way: float) -> float:
     """Tension at the outboard end [N]: what pulls there, tail and drogue, and drag that is lumped there."""
     total = route.pull(route.outboard, t, speed, way)
     for sea in route.seas:
-        s, flow = sea.station, route.signal(sea, t) - speed
-        area = 0.5 * s.density * s.drogue
-        if s.form == "lumped":
-            area += s.per_length(route.values.diameter) * (s.beyond + way)
-        total += float(s.tail) + area * abs(flow) * flow
+        flow = route.signal(sea, t) - speed
+        steady, area = sea.station.tows(route.says.diameter, way)
+        total += float(steady) + area * abs(flow) * flow
     return total
 
 

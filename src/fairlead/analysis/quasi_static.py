@@ -52,7 +52,7 @@ def _cannot(one: Statics, line: RecordedLine | None) -> str:
     if any(each.remarks for each in one.moving) or one.remarks:
         return (one.remarks + tuple(text for each in one.moving for text in each.remarks))[0]
     if line is None or line.nodes is None:
-        return f"record {one.route.line.path}.{one.route.line.line.outer}[*].x to tell where the elements are"
+        return f"record {one.route.line.path}.{one.route.says.outer}[*].x to tell where the elements are"
     if line.total is None:
         layers = " and ".join(f"{one.route.line.path}.{layer}[*].tension" for layer in line.record["layers"])
         return f"record {layers}"
@@ -62,7 +62,7 @@ def _cannot(one: Statics, line: RecordedLine | None) -> str:
 def _stretches(one: Statics, schedule: Schedule, result: Result) -> Iterator[Stretch]:
     """What is left of every stretch of steady motion that the run reached."""
     reached = float(result.t[-1]) if len(result.t) else schedule.begin
-    element = max(one.route.line.line.mesh.lengths)
+    element = max(one.route.says.mesh.lengths)
     for stretch in schedule.stretches():
         end = min(stretch.end, reached)
         begin = stretch.begin + SETTLED * (end - stretch.begin)
@@ -75,7 +75,7 @@ def _compared(one: Statics, line: RecordedLine, stretch: Stretch) -> Iterator[di
     assert one.schedule is not None
     way, times = one.schedule.way, np.linspace(stretch.begin, stretch.end, STATES)
     states = [state(one.route, float(t), stretch.speed, way(float(t))) for t in times]
-    element = max(one.route.line.line.mesh.lengths)
+    element = max(one.route.says.mesh.lengths)
     spans = [(name, place) for name, place in _spans(states[0], element) if _laid(states, place)]
     if not spans:
         return

@@ -64,7 +64,7 @@ def _needed(worst: float, steady: float, state: State) -> str:
 
 def side_walls(found: Statics) -> Iterator[Fault]:
     """Curves in which the line is pressed harder than it bears."""
-    most = getattr(found.route.values, "side_wall", None)
+    most = found.route.says.side_wall
     if most is None:
         return
     worst: dict[str, tuple[float, State]] = {}

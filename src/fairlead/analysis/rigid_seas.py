@@ -14,13 +14,13 @@ from fairlead.errors import Fault
 def rigid_seas(route: LaidRoute) -> Iterator[Fault]:
     """Margins shorter than a module in which a hose slips; speeds that change faster than a wave comes back."""
     for sea in route.seas:
-        if sea.station.form == "rigid":
+        if sea.station.moves_as_one():
             yield from _short_margin(route, sea)
             yield from _fast_change(route, sea)
 
 
 def _short_margin(route: LaidRoute, sea: Device) -> Iterator[Fault]:
-    margin, module = sea.station.margin, route.line.line.slips_over()
+    margin, module = sea.station.keeps_apart(), route.says.slips_over()
     if margin is None or margin >= module:
         return
     what = (
@@ -36,7 +36,7 @@ def _fast_change(route: LaidRoute, sea: Device) -> Iterator[Fault]:
     schedule, worst = route.schedule(), None
     for begin, end, change in changes(schedule) if schedule is not None else ():
         assert schedule is not None
-        beyond = route.ends(schedule.way(begin))[1] - route.line.line.rigid_from(sea.begin, sea.station)
+        beyond = route.ends(schedule.way(begin))[1] - route.says.rigid_from(sea.begin, sea.station)
         back = 2 * beyond / math.sqrt(route.stiffness / route.mass)
         if end - begin < back and (worst is None or back - (end - begin) > worst[0]):
             worst = back - (end - begin), begin, end - begin, change, beyond, back

@@ -15,7 +15,7 @@ def route_records(flat: FlatModel) -> list[dict[str, Any]]:
 
 
 def _record(laid: LaidRoute) -> dict[str, Any]:
-    line, p = laid.line.line, laid.values
+    line = laid.says
     contacts = {
         one.name: f"outer_{surface.name}" if surface.name else "outer"
         for surface in laid.route.line.surfaces
@@ -32,6 +32,6 @@ def _record(laid: LaidRoute) -> dict[str, Any]:
     ]  # fmt: skip
     return {
         "line": laid.line.path, "route": laid.route.path, "layers": list(line.layers), "outer": line.outer,
-        "nodes": line.mesh.elements + 1, "ruck_force": p.ruck_force, "side_wall": p.side_wall, "stations": stations,
-        "rigid_from": rigid_from if math.isfinite(rigid_from) else None,
+        "nodes": line.mesh.elements + 1, "ruck_force": line.ruck_force, "side_wall": line.side_wall,
+        "stations": stations, "rigid_from": rigid_from if math.isfinite(rigid_from) else None,
     }  # fmt: skip

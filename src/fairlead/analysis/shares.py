@@ -17,7 +17,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,7 +93,7 @@ def _slips(state: State, one: Passage, together: float) -> bool:
     """True where the bulkheads cannot give the hose what the device takes of it."""
     if not _presses(one) or one.device is None:
         return False
-    held = coefficient(state.route.values.bulkhead_friction, 0.0)
+    held = coefficient(state.route.says.inner_curve, 0.0)
     tension = np.maximum(one.tension, 0.0)
     can = held * (together * tension * one.piece.curvature + _squeezed(one))
     if one.device.machine is not None and not one.device.machine.drives and not one.piece.curvature:
@@ -132,12 +132,12 @@ def _core(state: State, one: Passage, piece: slice, slips: bool) -> tuple[Values
     """How the core's tension changes along a part: by a factor, and by what is added [N]."""
     runs = one.places[piece] - one.places[piece][0]
     growth, more = np.ones_like(runs), np.zeros_like(runs)
-    p: Any = state.route.values
-    if one.device is not None and one.device.station.slope and state.route.line.line.load:
-        share = p.core.mass / (p.hose.mass + p.core.mass)
-        more = more - share * state.route.line.line.load * math.sin(one.device.station.slope) * runs
+    says = state.route.says
+    if one.device is not None and one.device.station.slope and says.weight:
+        share = says.masses[1] / sum(says.masses)
+        more = more - share * says.weight * math.sin(one.device.station.slope) * runs
     if slips:
-        slid = coefficient(p.bulkhead_friction, state.speed)
+        slid = coefficient(says.inner_curve, state.speed)
         sense = math.copysign(1, one.outboard - one.inboard)
         growth = np.exp(sense * slid * one.piece.curvature * runs)
         more = more + sense * slid * _squeezed(one) * runs

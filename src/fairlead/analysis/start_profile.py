@@ -22,7 +22,7 @@ from fairlead.flatten.flat_model import FlatModel
 
 def laid_under_statics(flat: FlatModel) -> FlatModel:
     """The model with the elements of such lines cut anew. Raises ModelError where no reference moves the line."""
-    lines = [laid for laid in laid_routes(flat) if laid.values.profile == "statics"]
+    lines = [laid for laid in laid_routes(flat) if laid.says.begins_sliding]
     if not lines:
         return flat
     made: dict[str, Instance] = {}
@@ -40,19 +40,19 @@ def about_to_slide(laid: LaidRoute) -> State:
         for t in np.linspace(schedule.begin, schedule.end, LOOKS):
             if abs(schedule.speed(float(t))) > STILL:
                 return state(laid, begin, STILL if schedule.speed(float(t)) > 0 else -STILL, 0.0)
-    what = f"{laid.line.path}.profile = statics: no reference tells which way the line will move."
-    raise ModelError([Fault(laid.line.where, what, "Write profile: uniform, or drive it with a speed.")])
+    what = f"{laid.line.path} is to begin as statics has it: no reference tells which way the line will move."
+    raise ModelError([Fault(laid.line.where, what, "Drive it with a speed, or let it begin under one tension.")])
 
 
 def _cut(laid: LaidRoute, found: State) -> dict[str, Instance]:
     """The elements of a line, each without tension as long as it must be to have that of statics at the start."""
-    mesh, p, made = laid.line.line.mesh, laid.values, {}
+    mesh, says, made = laid.says.mesh, laid.says, {}
     for k, length in enumerate(mesh.lengths):
-        tension = found.tension(min(p.start + (mesh.places[k] + mesh.places[k + 1]) / 2, found.ends[1]))
+        tension = found.tension(min(says.start + (mesh.places[k] + mesh.places[k + 1]) / 2, found.ends[1]))
         if np.isnan(tension):  # on the drum, wound on with what the winch keeps
-            tension = found.passages[0].inboard if found.passages else float(p.tension)
+            tension = found.passages[0].inboard if found.passages else says.tension
         free = length / (1 + max(tension, 0.0) / laid.stiffness)
-        for layer in laid.line.line.layers:
+        for layer in says.layers:
             old = laid.flat.assembly.instances[f"{laid.line.path}.{layer}[{k}]"]
             made[old.path] = with_other(old, length=free)
     return made

@@ -120,7 +120,7 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
         loops = [one for one in route.devices if one.station.draws(t) is not None]
         loop = next((one for one in loops if _holds(laid, between, one)), None)
         here = between[0] if loop is None else next(k for k in between if laid[k][1].begin == loop.begin)
-        tension = float(route.values.tension) if loop is None else float(loop.station.draws(t)) / 2
+        tension = route.says.tension if loop is None else float(loop.station.draws(t)) / 2
         remarks += [_undetermined(laid, between, tension)] if loop is None else []
         march.outward(tension, [k for k in between if k >= here])
         march.inward(tension, [k for k in reversed(between) if k < here])
@@ -256,7 +256,7 @@ def _end_tension(march: _March, *, inboard: bool) -> float:
         return inboard_tension(route, march.t, march.speed, march.way, march.acceleration)
     if not inboard and not route.outboard.drives:
         return tail(route, march.t, march.speed, march.way)
-    return float(route.values.tension)
+    return route.says.tension
 
 
 def capacity(device: Device, piece: Piece) -> float | None:

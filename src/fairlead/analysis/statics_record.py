@@ -17,10 +17,10 @@ MOVES = 1e-9  # N; a span in which the tension changes by less is not told
 
 def record(found: Statics) -> dict[str, Any]:
     """One line on its route: its states, the cone at rest, the drives."""
-    p = found.route.values
+    says = found.route.says
     return {
         "line": found.route.line.path, "route": found.route.route.path,
-        "limits": {name: getattr(p, name, None) for name in ("side_wall", "ruck_force")},
+        "limits": {"side_wall": says.side_wall, "ruck_force": says.ruck_force},
         "states": [state_record(state) for state in found.moving],
         "standing": _standing(found.standing),
         "drives": [row for state in (*found.moving, *found.starts) for row in _drives(state)],
@@ -33,7 +33,7 @@ def _remarks(found: Statics) -> Iterator[str]:
     yield from found.remarks
     for state in found.moving:
         yield from state.remarks
-    if len(found.route.line.line.layers) > 1 or not found.route.pushes:
+    if len(found.route.says.layers) > 1 or not found.route.pushes:
         yield from _slack(found)
     for fault in (*weak_clamps(found), *side_walls(found)):
         yield f"{fault.what} {fault.way_out}".rstrip(".")
@@ -67,8 +67,8 @@ def name(state: State) -> str:
 
 def _stations(state: State) -> Iterator[dict[str, Any]]:
     """Ends and devices in the order of the route, inboard first; spans that change nothing are left out."""
-    layers, p = shares(state), state.route.values
-    ruck, wall = p.ruck_force, getattr(p, "side_wall", None)
+    layers, says = shares(state), state.route.says
+    ruck, wall = says.ruck_force, says.side_wall
     if not state.passages:
         return
     first, last = state.passages[0], state.passages[-1]

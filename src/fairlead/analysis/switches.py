@@ -18,17 +18,13 @@ from typing import Any
 from fairlead.analysis.laid_route import laid_routes
 from fairlead.analysis.on_the_drum import most_paid_out
 from fairlead.analysis.timed_run import Load
-from fairlead.analysis.treatments import EXACT, treatment, treatment_of
-from fairlead.component.base import Family
-from fairlead.component.declare import Block, Choice, Effect, Parameter, Table
+from fairlead.analysis.treatments import kinds_of_treatment, treatment, treatment_of
+from fairlead.analysis.written import components, parts
+from fairlead.component.base import Declared, Family
 from fairlead.component.effects import switch
+from fairlead.component.given import Block, Choice, Effect, Parameter, Table
 from fairlead.component.scene import FRAMEWORK_EFFECTS
 from fairlead.errors import FairleadError, ModelError
-
-NO_STICKING = "tanh"
-NOT_PHYSICS = ("name", "start", "width", "bend_radius", "position", "velocity", "angle", "speed", "method", "creep",
-               "normal_force", "graded")  # fmt: skip
-"""Optional parameters that say where or how, not what is modelled."""
 
 
 @dataclass(frozen=True)
@@ -95,42 +91,31 @@ def _effect(model: Any, name: str, now: str) -> Switch:
 
 
 def _treatments(model: Any) -> Iterator[Switch]:
-    """Exact hold or binding, whichever the scene has not, and friction that never sticks."""
-    now = treatment_of(model)
-    for word in dict.fromkeys(("binding" if now == EXACT else EXACT, NO_STICKING)) if now else ():
-        if word != now:
+    """Exact hold or what creeps, whichever the scene has not, and friction that never sticks."""
+    now, kinds = treatment_of(model), kinds_of_treatment(model)
+    others = (kinds.creeping if now == kinds.exact else kinds.exact, kinds.never_sticking) if now else ()
+    for word in dict.fromkeys(others):
+        if word not in (now, ""):
             yield Switch("friction", now, word, treatment(model, word), "treatment")
 
 
 def _curves(model: Any) -> Iterator[Switch]:
     """Curves of friction without their dependence on speed: all at once, each at its level of steady sliding."""
     levels = {
-        path: str(value.entries["coulomb"].content)
-        for entry in model.netlist.components.values()
-        for name, one in entry.parameters.items()
-        for path, value in _maps(f"{entry.name}.{name}", one)
-        if "coulomb" in value.entries and "curve" in value.entries and value.entries["curve"].content != "coulomb"
+        path: str(value.entries[level].content)
+        for path, member, value in parts(model)
+        if member.bare is not None and member.word != member.bare[0]
+        if (level := member.answers.level) and level in value.entries
     }
     if levels:
         yield Switch("speed dependence of friction", "on", "off", levels, "curve")
-
-
-def _maps(path: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """All maps in a value, with the path that overrides them."""
-    if isinstance(value.content, dict):
-        yield path, value
-        for name, one in value.content.items():
-            yield from _maps(f"{path}.{name}", one)
-    elif isinstance(value.content, list):
-        for number, one in enumerate(value.content):
-            yield from _maps(f"{path}.{number}", one)
 
 
 def _words(model: Any) -> Iterator[Switch]:
     """Other options of the choices that components of the netlist have."""
     for entry, declared in _entries(model):
         for name, one in declared.items():
-            if not isinstance(one, Choice) or isinstance(one, Effect) or name in NOT_PHYSICS:
+            if not isinstance(one, Choice) or isinstance(one, Effect):
                 continue
             given = entry.parameters.get(name)
             now = given.plain() if given is not None else one.default
@@ -142,16 +127,20 @@ def _words(model: Any) -> Iterator[Switch]:
 
 def _seas(model: Any) -> Iterator[Switch]:
     """Line far out in a sea that moves as one body, or does so no longer; if any line comes so far."""
-    other = {"distributed": "rigid", "rigid": "distributed"}
     for laid in laid_routes(model.flat):
         schedule = laid.schedule()
         outmost = laid.ends(most_paid_out(schedule)[0] if schedule is not None else 0.0)[1]
         for sea in laid.seas:
-            now = sea.station.form
-            if now in other and outmost > sea.begin + laid.line.line.margin(sea.station):
+            choice = sea.station.type.answers.as_one
+            if choice is None or outmost <= sea.begin + laid.says.margin(sea.station):
+                continue
+            name, *forms = choice
+            now = sea.station.path(name)
+            if now in forms:
+                other = next(word for word in forms if word != now)
                 number = next(one.number for one in laid.route.line.placed if one.name == sea.name)
-                form = {f"{laid.route.path}.stations[{number}].form": other[now]}
-                yield Switch(f"{laid.route.path}.{sea.name}.form", now, other[now], form, "word")
+                form = {f"{laid.route.path}.stations[{number}].{name}": other}
+                yield Switch(f"{laid.route.path}.{sea.name}.{name}", now, other, form, "word")
 
 
 def _parts(model: Any) -> Iterator[Switch]:
@@ -159,16 +148,22 @@ def _parts(model: Any) -> Iterator[Switch]:
     for entry, declared in _entries(model):
         for name, one in declared.items():
             optional = isinstance(one, Parameter | Block | Table) and one.default is None
-            if optional and name in entry.parameters and name not in NOT_PHYSICS:
+            if optional and name in entry.parameters:
                 yield Switch(f"{entry.name}.{name}", "given", "absent", {f"{entry.name}.{name}": "null"}, "part")
 
 
 def _entries(model: Any) -> Iterator[tuple[Any, Mapping[str, Any]]]:
-    """The components of the netlist with what their classes declare; contacts have their treatments instead."""
-    from fairlead.component.registry import known_types
-
-    types = known_types(getattr(model, "libraries", ()))
-    for entry in model.netlist.components.values():
-        kind = types[entry.type]
+    """The components of the netlist with what they declare of their physics; contacts have their treatments instead."""
+    for entry, kind in components(model):
         if not issubclass(kind, Family):
-            yield entry, kind.declaration.parameters
+            declared = kind.declaration.parameters
+            yield entry, {name: one for name, one in declared.items() if _is_physics(kind, name, one)}
+
+
+def _is_physics(kind: type[Declared], name: str, declared: Any) -> bool:
+    """False for what says where, how or how finely, what stands for a signal, and what is handed on to contacts."""
+    if name in kind.answers.hands_on or any(one.default == name for one in kind.declaration.inputs.values()):
+        return False
+    if isinstance(declared, Parameter | Table):
+        return declared.physics and not declared.mesh
+    return declared.physics if isinstance(declared, Choice) else True

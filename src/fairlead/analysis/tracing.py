@@ -22,7 +22,7 @@ from types import SimpleNamespace
 
 from fairlead.analysis.schedule import followed, scaled
 from fairlead.component.base import DeclarationError, terms_of
-from fairlead.component.declare import Waveform
+from fairlead.component.given import Waveform
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel

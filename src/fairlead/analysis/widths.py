@@ -59,7 +59,9 @@ def _steady_speeds(motion: Wave) -> Iterator[float]:
 def _remarks(alike: list[Instance], drive: Scale | None) -> Iterator[Fault]:
     first = alike[0]
     values: Values = first.values
-    width, scale, own = values.narrowest(), values.curve.scale(), first.type.answers.sticks_below
+    says = first.type.answers
+    width = says.narrowest(values) if says.narrowest is not None else None
+    scale, own = says.changes_over(values) if says.changes_over is not None else None, says.sticks_below
     if width is None or not own:
         return
     scales = [Scale(scale, "the curve's velocity")] if scale else []

@@ -37,7 +37,7 @@ def friction(
     out.mkdir(parents=True, exist_ok=True)
     contacts, remarks = _contacts(subject, settings, libraries, method)
     for number, (names, values) in enumerate(contacts.items()):
-        given = getattr(values, "normal_force", None)
+        given = _pressed(values)
         found = characteristic(values, usual if given is None else given)
         figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
         rows = found.rows()
@@ -75,6 +75,12 @@ def _contacts(
         for each in found.values()
     }
     return named, too_wide(model.flat)
+
+
+def _pressed(values: "Values") -> float | None:
+    """The normal force that stands for the input where nothing is connected; None when there is none."""
+    stands = values.type.declaration.inputs["normal"].default
+    return values.path(stands) if isinstance(stands, str) else stands
 
 
 def _of_curve(text: str, libraries: list[str], method: str) -> "Values":

@@ -3,29 +3,19 @@
 from fairlead.component.base import Component, Composite, Declared, Expansion, Family
 from fairlead.component.controller import Controller
 from fairlead.component.declare import (
-    Block,
     Carries,
-    Choice,
-    Count,
     Discrete,
-    Effect,
     Electrical,
     Hydraulic,
     Input,
     Law,
-    Name,
     Output,
-    Parameter,
-    Part,
     Path,
     Rotational,
     State,
-    Stations,
     Summing,
-    Table,
     Translational,
     Unknown,
-    Waveform,
     Zones,
     derived,
     derived_wave,
@@ -49,6 +39,7 @@ from fairlead.component.functions import (
     sqrt,
     tanh,
 )  # fmt: skip
+from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
 
 __all__ = [
     "Block", "Carries", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect",

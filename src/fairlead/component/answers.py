@@ -21,6 +21,7 @@ from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
 from fairlead.component.declaration import Declaration
+from fairlead.component.given import Choice
 
 NEAR = 0.82
 """Likeness (Ratcliff and Obershelp, as difflib has it) from which on a name counts as misspelt: one letter of four."""
@@ -28,6 +29,7 @@ BY_NAME = ("law", "sample", "dissipated", "supplied", "stored")
 """Methods whose arguments are given by their names, so that a class asks for those it wants."""
 SET_HERE = ("declaration", "answers", "members", "joined")
 """What the framework itself leaves in a class."""
+DECLARED_IN = ("fairlead.component.declare", "fairlead.component.given")
 BUDGETS = ("max_steps", "max_events")
 EVERYWHERE, COMPONENT, COMPOSITE = "any class", "a Component", "a Composite"
 
@@ -111,6 +113,12 @@ def _share(value: Any, has: Declaration) -> str:
     return "" if fits else f"is {_shown(value)}; it is a number above 0 and at most 1"
 
 
+def _options(value: Any, has: Declaration) -> str:
+    choice = has.parameters.get(value[0]) if isinstance(value, tuple) and len(value) == 3 else None
+    fits = isinstance(choice, Choice) and {*value[1:]} <= {*choice.options}
+    return "" if fits else f"is {_shown(value)}; it names a choice and two of its options"
+
+
 def _map(value: Any, has: Declaration) -> str:
     fits = isinstance(value, dict) and all(isinstance(key, str) for key in value)
     return "" if fits else f"is {_shown(value)}; it is a map with names"
@@ -124,6 +132,7 @@ TWO_PORTS = Kind("two ports", _two_ports)
 PARAMETERS = Kind("parameters", _parameters)
 PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
 SHARE = Kind("a share", _share)
+TWO_OPTIONS = Kind("a choice and two of its options", _options)
 
 
 def _asked(kind: Kind, doc: str, of: str = COMPONENT, default: Any = None) -> Any:
@@ -195,10 +204,30 @@ class Answers:
     narrowest: Callable[[Any], float | None] | None = _asked(
         method("p"), "of a contact: slip speed [m/s] from which on friction is that of sliding; None without a band"
     )
+    changes_over: Callable[[Any], float | None] | None = _asked(
+        method("p"), "of a contact: smallest slip speed [m/s] over which its sliding friction changes; None when level"
+    )
+    gives_by: str = _asked(
+        PARAMETER, "of a contact: its stiffness over the normal force before it slides [1/m]", default=""
+    )
     numbers: Callable[[Any, float], Iterable[tuple[str, float, str]]] | None = _asked(
         method("p", "normal"), "of a contact: (name, value, unit) of more that `fairlead friction` tells"
     )
+    exact: bool = _asked(
+        YES_OR_NO, "of a contact: sticking, it does not move; what others are measured against", default=False
+    )
+    never_sticks: bool = _asked(
+        YES_OR_NO, "of a contact: it slips under any load, by one formula for all slip speeds", default=False
+    )
     can_hold: bool = _asked(YES_OR_NO, "of a contact: it can keep a load at rest", default=True)
+    level: str = _asked(
+        PARAMETER, "of a curve: the coefficient of steady sliding, which stands for it where its dependence on speed "
+        "is left out", EVERYWHERE, "",
+    )  # fmt: skip
+    as_one: tuple[str, str, str] | None = _asked(
+        TWO_OPTIONS, "of a station that immerses the line: the choice, and its options for a line that moves as one "
+        "body out there and for one that does not", EVERYWHERE,
+    )  # fmt: skip
     compressible: float = _asked(
         SHARE, "with an output of role strain: the share of its length by which it may get shorter without a remark",
         default=0.5,
@@ -278,7 +307,7 @@ def _other_kind(name: str, value: Any, before: Any) -> Iterator[str]:
 
 def _plain(value: Any) -> bool:
     """False for declarations, which say themselves what they are, so that a parameter may be called `start`."""
-    return type(value).__module__ != "fairlead.component.declare"
+    return type(value).__module__ not in DECLARED_IN
 
 
 def _near(word: str, known: Iterable[str]) -> str:

@@ -25,31 +25,22 @@ from fairlead.component.answers import COMPONENT, COMPOSITE, EVERYWHERE, Answers
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import (
     ROLES,
-    Block,
     Carries,
-    Choice,
-    Count,
     Derived,
     Discrete,
-    Effect,
     Guard,
     Input,
     Law,
-    Name,
     Output,
-    Parameter,
-    Part,
     Port,
     Sampled,
     Shared,
     State,
-    Stations,
-    Table,
     Unknown,
-    Waveform,
     ZoneLaw,
     Zones,
 )  # fmt: skip
+from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
 from fairlead.quantities import QuantityError, parse_unit
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)

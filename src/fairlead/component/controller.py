@@ -20,7 +20,8 @@ from dataclasses import replace
 from typing import Any
 
 from fairlead.component.base import Component, DeclarationError, source_place
-from fairlead.component.declare import Discrete, Law, Parameter
+from fairlead.component.declare import Discrete, Law
+from fairlead.component.given import Parameter
 
 
 class Controller(Component, abstract=True):

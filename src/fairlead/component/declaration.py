@@ -10,7 +10,6 @@ from fairlead.component.declare import (
     Carries,
     Derived,
     Discrete,
-    Effect,
     Guard,
     Input,
     Output,
@@ -20,7 +19,8 @@ from fairlead.component.declare import (
     State,
     Unknown,
     Zones,
-)
+)  # fmt: skip
+from fairlead.component.given import Effect
 
 
 @dataclass(frozen=True)

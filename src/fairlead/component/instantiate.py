@@ -13,9 +13,10 @@ from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
-from fairlead.component.declare import PATH, SWITCH, Input, Output, Port
+from fairlead.component.declare import PATH, Input, Output, Port
 from fairlead.component.effects import switch
 from fairlead.component.friction_block import sound
+from fairlead.component.given import SWITCH
 from fairlead.component.parameters import read
 from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_head
 from fairlead.component.stand_in import stand_in

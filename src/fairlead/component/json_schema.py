@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import SWITCH, Block, Part, Stations
+from fairlead.component.given import SWITCH, Block, Part, Stations
 from fairlead.component.parameters import model_of
 from fairlead.component.scene import FRAMEWORK_EFFECTS, is_head
 from fairlead.netlist.schema import Document

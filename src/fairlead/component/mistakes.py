@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fairlead.component.base import Component, Declared, Family
-from fairlead.component.declare import Block, Choice, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.given import Block, Choice, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.tables import TableError
 from fairlead.errors import Fault, did_you_mean, listing, shown
 from fairlead.netlist.netlist import Value

@@ -19,7 +19,8 @@ from typing import Annotated, Any, Literal, cast
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, create_model
 
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import (
+from fairlead.component.effects import in_force, nested, switch
+from fairlead.component.given import (
     REQUIRED,
     Block,
     Choice,
@@ -32,7 +33,6 @@ from fairlead.component.declare import (
     Table,
     Waveform,
 )  # fmt: skip
-from fairlead.component.effects import in_force, nested, switch
 from fairlead.component.mistakes import explain
 from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
 from fairlead.component.values import Values

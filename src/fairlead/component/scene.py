@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any, TypeGuard
 
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import SWITCH
 from fairlead.component.effects import switch
+from fairlead.component.given import SWITCH
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
 from fairlead.errors import Fault, Location, ModelError

@@ -14,7 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from fairlead.component.base import Composite, Declared
-from fairlead.component.declare import REQUIRED, Block, Choice, Count, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.given import REQUIRED, Block, Choice, Count, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.parameters import validated
 from fairlead.component.values import Values
 from fairlead.errors import FairleadError, did_you_mean

@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.declare import Table, Waveform
+from fairlead.component.given import Table, Waveform
 from fairlead.component.piecewise import (
     DEGREE,
     FAR,

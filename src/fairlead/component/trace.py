@@ -19,7 +19,8 @@ import sympy
 
 from fairlead.component.base import LEDGER, source_place, terms_of
 from fairlead.component.declaration import Declaration
-from fairlead.component.declare import Choice, Count, Hold, Law, Part, Port, Table, Waveform
+from fairlead.component.declare import Hold, Law, Port
+from fairlead.component.given import Choice, Count, Part, Table, Waveform
 from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TABLE, TIME, Key, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.values import Variant

@@ -18,6 +18,8 @@ class Value:
     content: str | int | float | bool | dict[str, Value] | list[Value] | None
     where: Location
     key_where: Location | None = None
+    written: str = field(default="", compare=False)
+    """The expression that the content was worked out from, if it was: `{element}`."""
 
     @property
     def named_at(self) -> Location:

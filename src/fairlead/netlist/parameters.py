@@ -42,7 +42,7 @@ class Parameters:
             )
             return replace(value, content=0), fault
         try:
-            return replace(value, content=substitute(text, self.values)), None
+            return replace(value, content=substitute(text, self.values), written=text), None
         except ExpressionError as error:
             return replace(value, content=0), Fault(value.where, error.what, error.way_out)
 

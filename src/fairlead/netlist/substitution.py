@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fairlead.errors import Fault, shown
+from fairlead.netlist.expressions import has_expression
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.parameters import NAME, Parameters, work_out
@@ -21,7 +22,10 @@ def fill_tree(tree: Value) -> tuple[Value, list[Fault]]:
     given = entries["parameters"].entries if "parameters" in entries else {}
     parameters, faults = work_out(given)
     if given:
-        values = {name: replace(given[name], content=content) for name, content in parameters.values.items()}
+        values = {
+            name: replace(given[name], content=content, written=_expression(given[name]))
+            for name, content in parameters.values.items()
+        }
         entries["parameters"] = replace(entries["parameters"], content=values)
     for block in FILLED:
         if block in entries:
@@ -31,6 +35,11 @@ def fill_tree(tree: Value) -> tuple[Value, list[Fault]]:
         inner = {**entries["record"].entries, "every": _fill(every, parameters, faults)}
         entries["record"] = replace(entries["record"], content=inner)
     return replace(tree, content=entries), faults
+
+
+def _expression(value: Value) -> str:
+    """What a parameter is worked out from, if it is."""
+    return value.content if isinstance(value.content, str) and has_expression(value.content) else ""
 
 
 def _fill(value: Value, parameters: Parameters, faults: list[Fault]) -> Value:

@@ -9,7 +9,7 @@ from sympy import Expr, sympify
 
 from fairlead.component.answers import METHODS
 from fairlead.component.base import Declared
-from fairlead.component.declare import Choice
+from fairlead.component.given import Choice
 from fairlead.component.trace import Traced, TraceError, inverse_mass, symbol, trace_function
 from fairlead.system.columns import columns, heading, wrapped
 from fairlead.system.equations import NEVER, Writing, condition, equations, tables_as_functions, writing_of

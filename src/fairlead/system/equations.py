@@ -14,7 +14,8 @@ from typing import Any
 
 import sympy
 
-from fairlead.component.declare import Parameter, Port
+from fairlead.component.declare import Port
+from fairlead.component.given import Parameter
 from fairlead.component.trace import Traced, TracedGuard, TracedZone, TraceError, symbol, trace_function
 from fairlead.system.formula import Names, formula, is_parameter, names_of, negative
 

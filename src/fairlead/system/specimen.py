@@ -11,7 +11,7 @@ from typing import Any
 
 from fairlead.component.answers import METHODS
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import REQUIRED, Choice, Parameter, Part, Table, Waveform
+from fairlead.component.given import REQUIRED, Choice, Parameter, Part, Table, Waveform
 from fairlead.component.piecewise import linear_table
 from fairlead.component.scene import is_head
 from fairlead.component.trace import Traced, TraceError, Unsaid, trace

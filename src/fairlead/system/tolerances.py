@@ -106,9 +106,9 @@ def _most(instance: Instance) -> tuple[float, float]:
     says = instance.type.answers
     if says.creeps:
         return instance.values.path(says.sticks_below), np.inf
-    if says.narrowest is None:
+    if says.changes_over is None:
         return np.inf, np.inf
-    return np.inf, CURVE_SHARE * (instance.values.curve.scale() or np.inf)
+    return np.inf, CURVE_SHARE * (says.changes_over(instance.values) or np.inf)
 
 
 def nominal(unknown: Unknown) -> float:

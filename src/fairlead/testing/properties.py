@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.base import terms_of
-from fairlead.component.declare import Hold, Table, Waveform
+from fairlead.component.declare import Hold
+from fairlead.component.given import Table, Waveform
 from fairlead.component.keys import OWN, PORT, key
 from fairlead.component.values import parameter
 from fairlead.system import layout

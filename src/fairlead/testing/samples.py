@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 
 from fairlead.component.base import Declared, Family
-from fairlead.component.declare import Block, Choice, Count, Parameter, Part, Table, Waveform
+from fairlead.component.given import Block, Choice, Count, Parameter, Part, Table, Waveform
 from fairlead.component.parameters import make
 from fairlead.component.scene import is_head
 from fairlead.component.values import Values
