@@ -19,6 +19,7 @@ for two processors lie side by side.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 import hashlib
@@ -30,7 +31,7 @@ import platform
 import struct
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -38,6 +39,8 @@ import fairlead.sealed as sealed
 from fairlead.processor import processor
 
 MAGIC = b"fairlead-native-2\n"
+PATIENCE = 300.0
+"""Seconds that a process waits for another that compiles the same; the loop takes a minute on a slow machine."""
 # numba refers to these only on paths that raise or count references; compiled laws do neither.
 UNREACHED = (
     "NRT_Free", "NRT_MemInfo_call_dtor", "NRT_decref", "NRT_incref", "numba_do_raise", "numba_gil_ensure",
@@ -97,18 +100,49 @@ def _environment() -> tuple[str, ...]:
 def load_or_compile(key: str, build: Callable[[], Build]) -> Native:
     """Machine code under `key` from the cache, or from `build()` when it is not there.
 
-    Never raises for a bad cache: it warns (CacheWarning) and compiles.
+    Of processes that ask for the same at once one compiles, the others wait for it. Never raises for a bad cache: it
+    warns (CacheWarning) and compiles.
     """
     folder = cache_folder()
-    if folder is not None:
-        stored = _read(folder / f"{key}.native")
+    if folder is None:
+        return _load(*_compiled(build()), cached=False)
+    entry = folder / f"{key}.native"
+    stored = _read(entry)
+    if stored is not None:
+        return _load(*stored, cached=True)
+    with _alone(folder / f"{key}.lock"):
+        stored = _read(entry) if entry.exists() else None
         if stored is not None:
             return _load(*stored, cached=True)
-    made = build()
-    objects = {name: _compile(function) for name, function in made.functions.items()}
-    if folder is not None:
-        _write(folder / f"{key}.native", made.meta, objects)
-    return _load(made.meta, objects, cached=False)
+        made = _compiled(build())
+        _write(entry, *made)
+    return _load(*made, cached=False)
+
+
+@contextlib.contextmanager
+def _alone(path: pathlib.Path) -> Iterator[None]:
+    """Hold the lock of a file while compiling; without one where the folder has no locks, or another takes too long.
+
+    The lock dies with its process. The file may be removed by whoever holds it: those that waited find the entry.
+    """
+    import filelock  # takes a quarter of a second, and is needed where something is compiled
+
+    lock = filelock.FileLock(path, timeout=PATIENCE)
+    try:
+        lock.acquire()
+    except (OSError, NotImplementedError):  # a Timeout is an OSError
+        yield
+        return
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):  # Windows does not remove an open file
+            path.unlink()
+        lock.release()
+
+
+def _compiled(made: Build) -> tuple[dict[str, Any], dict[str, _ObjectCode]]:
+    return made.meta, {name: _compile(function) for name, function in made.functions.items()}
 
 
 def cache_folder() -> pathlib.Path | None:
