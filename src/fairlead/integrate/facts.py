@@ -41,7 +41,7 @@ class Facts(Protocol):
     def kink_guard(self) -> Integers:
         """[ng]: 1 for guards at which f is continuous and only its slope jumps, as between two pieces of a table.
 
-        `rodas` steps a hair past those instead of on them.
+        `stepping` goes over such a kink by an implicit step where a law that is stiff bends there.
         """
 
     @property

@@ -87,7 +87,7 @@ NUMBERS = (
     # stepping only: theta asked for, its rise when zones cycle, theta in force, the step asked for, distances of the
     # slopes remembered, what was allowed in the last steps (steady_steps.py)
     "least_theta", "theta_raise", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
-    "t_jump", "t_switch", "allowed", "allowed_before",
+    "t_jump", "t_switch", "t_bent", "allowed", "allowed_before",
 )  # fmt: skip
 """Real numbers of the struct."""
 

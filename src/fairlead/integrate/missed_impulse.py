@@ -22,6 +22,8 @@ from fairlead.integrate.overload import error_of_speed, response_of
 
 AT_ONCE = 1e-2
 """A switch within this share of a step happens at its start."""
+NOTHING = 1e-6
+"""Share of a step so near its start that what follows a table there by a stiff law has no difference to follow."""
 SHORT_OF = 1e-2
 """Share of a step by which it ends short of a stop or a rope: right there no zone is the right one, and they cycle."""
 
@@ -59,8 +61,14 @@ def note_switches(m):
 @compiled
 def impulse_is_missed(m, h):
     """True if a switch inside the step makes an error that counts; the step should end at `t_switch`."""
-    first = min(first_turned(m, h), first_bent(m, h))
+    turned, bent = first_turned(m, h), first_bent(m, h)
+    first = min(turned, bent)
     m.t_switch = m.t + first * h
+    kink = first_kink(m)
+    if bent == first and bent == (1.0 - SHORT_OF) * kink and kink < 1.0:
+        m.t_bent = m.t + kink * h
+        if kink < AT_ONCE:
+            m.t_switch = m.t + 2.0 * kink * h
     return first < 1.0
 
 
@@ -85,10 +93,28 @@ def first_turned(m, h):
 
 
 @compiled
+def first_kink(m):
+    """The share of the step after which a table first went on in its next piece; 1 without one.
+
+    A step that goes over a kink on purpose (stepping_trial.over_kink) has none, for it is implicit.
+    """
+    switched, after = indices(m.at_switched, m.n_zones), reals(m.at_switched_after, m.n_zones)
+    rows, kinks = indices(m.at_hold_row, m.n_zones), indices(m.at_only_kinks, m.n_zones)
+    first = 1.0
+    for k in range(m.n_switched):
+        z = switched[k]
+        if rows[z] < 0 and kinks[z] == 1 and m.theta_now < 1.0 and after[z] >= NOTHING:
+            first = min(first, after[z])
+    return first
+
+
+@compiled
 def first_bent(m, h):
     """The share of the step after which a law without a force of its own first switched, if the error counts; or 1."""
     switched, after = indices(m.at_switched, m.n_zones), reals(m.at_switched_after, m.n_zones)
-    rows, first, last = indices(m.at_hold_row, m.n_zones), 1.0, 0.0
+    rows, first, last = indices(m.at_hold_row, m.n_zones), first_kink(m), 0.0
+    if first < 1.0:
+        last = first
     for k in range(m.n_switched):
         s = after[switched[k]]
         if rows[switched[k]] < 0 and s >= AT_ONCE:
