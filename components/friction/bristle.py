@@ -77,14 +77,14 @@ class Bristle(OneFormula):
         "dissipates": "Bonds are springs, and their energy counts as dissipated when it goes in, so it comes out of "
         "that (Haessig, Friedland 1991: the energy is lost when a bond snaps).",
     }
-    gives_by = "ratio"
+    preslides, gives_by = "presliding", "ratio"
     asked_with = {"bonds": "5", "presliding": 0.5, "travel": 2.0}  # random sizes would mean thousands of sites
     advice = "method bristle has no sites beyond `travel` of slip; give it more if the slip went there."
     presliding = Parameter("m", "Stretch at which a bond snaps.", default=2e-5, above=0)
     travel = Parameter("m", "Slip to either side of the start that has sites.", default=5e-3, above=0)
     bonds = Choice(("5", str(MOST)), "Number of bonds.", default=str(MOST))
     seed = Count("Seed of the random numbers; the same gives the same sites.", default=1, least=0)
-    moved = State("m", "Slip since the start.", nominal=1e-5)
+    moved = State("m", "Slip since the start.", nominal="presliding")
     deflection = Output("m", "Mean stretch of the bonds.")
 
     @derived

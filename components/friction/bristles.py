@@ -19,10 +19,10 @@ class Bristles(Contact, abstract=True):
     reported as creep is slip slower than `stick_speed`, less what the bristles will give back.
     """
 
-    sticks_below, gives_by = "stick_speed", "ratio"
+    sticks_below, preslides, gives_by = "stick_speed", "presliding", "ratio"
     presliding = Parameter("m", "Deflection at which the contact breaks away.", default=2e-5, above=0)
     stick_speed = Parameter("m/s", "Slip below it counts as sticking, in the report of creep.", default=1e-4, above=0)
-    z = State("m", "Deflection of the bristles.", nominal=1e-5)
+    z = State("m", "Deflection of the bristles.", nominal="presliding")
     deflection = Output("m", "Deflection of the bristles.")
 
     @derived

@@ -21,18 +21,18 @@ record: {{signals: [block.x, block.v, pad.slip]}}
 
 
 def test_presliding_far_below_the_weight_of_a_position_is_told_and_gone_with_the_accuracy_proposed(scene, tmp_path):
-    """The bristles, 0.5*10 N over 20 um, give by 0.01 N/(250 kN/m) = 40 nm each way; 1e-4 has positions to 1 um."""
+    """The bristles, 0.5*10 N over 20 um, give by 0.1 mN/(250 kN/m) = 0.4 nm each way; 1e-4 of 20 um is 2 nm."""
     out = tmp_path / "run"
-    run = scene(PRESLIDING.format(force=0.01, method="lugre", accuracy=1e-4)).run(out=out).run
+    run = scene(PRESLIDING.format(force=1e-4, method="lugre", accuracy=1e-4)).run(out=out).run
     (position,) = (one for one in run["below_weight"] if one["signal"] == "block.x")
-    assert position["size"] == pytest.approx(8e-8, rel=0.1)
-    assert position["weight"] == pytest.approx(1e-6)
+    assert position["size"] == pytest.approx(8e-10, rel=0.1)
+    assert position["weight"] == pytest.approx(2e-9)
     assert {"block.x", "block.v", "pad.slip"} == {one["signal"] for one in run["below_weight"]}
     (said,) = json.loads((out / "run.json").read_text())["remarks"]
-    assert "block.x moves by 8e-08 m, its error weight is 1e-06" in said
-    assert "run.accuracy: 1e-08 (it was 0.0001)" in said
+    assert "block.x moves by 8e-10 m, its error weight is 2e-09" in said
+    assert "run.accuracy: 1e-09 (it was 0.0001), or tell its size under `nominal`" in said
     assert any(name == "below its weight" and "block.x" in value for name, value in summary_rows(run, out))
-    fine = scene(PRESLIDING.format(force=0.01, method="lugre", accuracy=1e-8)).run(out=None).run
+    fine = scene(PRESLIDING.format(force=1e-4, method="lugre", accuracy=1e-9)).run(out=None).run
     assert fine["below_weight"] == []
     assert fine["remarks"] == []
 

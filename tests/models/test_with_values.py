@@ -34,7 +34,7 @@ def settings_of(name):
     for entry in netlist.components.values():
         for parameter, value in entry.parameters.items():
             found |= inside(f"{entry.name}.{parameter}", value)
-    for block in ("friction", "initial", "limits", "effects"):
+    for block in ("friction", "initial", "nominal", "limits", "effects"):
         for parameter, value in getattr(netlist, block).items():
             found |= inside(f"{block}.{parameter}", value) if "[" not in parameter and "." not in parameter else {}
     found |= {"run.stop": "0.07 s", "run.start": "0.01 s", "run.accuracy": 1e-5}

@@ -97,7 +97,8 @@ class BelowWeight:
         finer = 10.0 ** math.floor(math.log10(finer) + 1e-9)
         if finer < FINEST:
             return [f"{what} No accuracy is fine enough; take it for rest."]
-        return [f"{what} If it matters, ask for run.accuracy: {finer:.0e} (it was {self.accuracy:g})."]
+        way_out = f"ask for run.accuracy: {finer:.0e} (it was {self.accuracy:g}), or tell its size under `nominal`"
+        return [f"{what} If it matters, {way_out}."]
 
 
 def rows_of_table(found: Sequence[Mapping[str, Any]] | None) -> list[tuple[str, str]]:

@@ -205,8 +205,13 @@ class Answers:
         method("p"), "of a contact: slip speed [m/s] from which on friction is that of sliding; None without a band"
     )
     changes_over: Callable[[Any], float | None] | None = _asked(
-        method("p"), "of a contact: smallest slip speed [m/s] over which its sliding friction changes; None when level"
-    )
+        method("p"), "of a contact: smallest range of slip speeds [m/s] over which friction changes, to which the "
+        "accuracy of speeds there is relative; None when level",
+    )  # fmt: skip
+    preslides: str = _asked(
+        PARAMETER, "of a contact: the way that it gives before it slides [m], to which the accuracy of positions there "
+        "is relative", default="",
+    )  # fmt: skip
     gives_by: str = _asked(
         PARAMETER, "of a contact: its stiffness over the normal force before it slides [1/m]", default=""
     )

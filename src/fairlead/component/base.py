@@ -258,6 +258,9 @@ def _check_named_numbers(cls: type[Declared]) -> None:
     for name, one in starting.items():
         named = not isinstance(one.start, str) or one.start in known
         _demand(cls, named, f"{name!r} starts at {one.start!r}, which is no parameter")
+    for name, state in has.states.items():
+        named = not isinstance(state.nominal, str) or state.nominal in known
+        _demand(cls, named, f"{name!r} has the size {state.nominal!r}, which is no parameter")
     for name, read in has.inputs.items():
         named = not isinstance(read.default, str) or read.default in known
         _demand(cls, named, f"{name!r} is {read.default!r} when nothing is connected, which is no parameter")

@@ -116,14 +116,14 @@ class Output:
 class State:
     """An unknown of the component's own with a rate. `start` is a number or a parameter's name.
 
-    `nominal` is a size of it that matters; the accuracy is relative to that. Without, the unit decides. `least`
-    is a bound below which its law does not let it fall.
+    `nominal` is a size of it that matters, likewise a number or a name; the accuracy is relative to that. Without, the
+    unit decides. `least` is a bound below which its law does not let it fall.
     """
 
     unit: str
     doc: str = ""
     start: str | float = 0.0
-    nominal: float | None = None
+    nominal: str | float | None = None
     least: float | None = None
 
 

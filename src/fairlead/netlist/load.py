@@ -83,7 +83,7 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
         connections=tuple(ends for ends, _ in _connections(tree) if len(ends) > 1),
         run=run,
         record=record,
-        **{block: _block(tree, block) for block in ("effects", "friction", "initial", "limits")},
+        **{block: _block(tree, block) for block in ("effects", "friction", "initial", "nominal", "limits")},
         digest=digest,
         written={block: _block(tree, block) for block in ("run", "record")},
     )

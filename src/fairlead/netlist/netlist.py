@@ -74,7 +74,7 @@ class Netlist:
     """A netlist with its includes merged, its overrides applied and its expressions worked out.
 
     `connections` holds sets of two or more ports joined in one node. Component parameters, `effects`,
-    `friction`, `initial` and `limits` stay as written: the next stage knows their units. `digest` is a hash
+    `friction`, `initial`, `nominal` and `limits` stay as written: the next stage knows their units. `digest` is a hash
     over the bytes of every file read and the overrides.
     """
 
@@ -89,6 +89,7 @@ class Netlist:
     effects: Mapping[str, Value] = field(default_factory=dict)
     friction: Mapping[str, Value] = field(default_factory=dict)
     initial: Mapping[str, Value] = field(default_factory=dict)
+    nominal: Mapping[str, Value] = field(default_factory=dict)
     limits: Mapping[str, Value] = field(default_factory=dict)
     digest: str = ""
     written: Mapping[str, Mapping[str, Value]] = field(default_factory=lambda: {"run": {}, "record": {}})

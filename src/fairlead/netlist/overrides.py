@@ -1,7 +1,7 @@
 """Overrides: `--set mu=0.6`, `--set pad.normal_force="12 N"`, `--set run.stop=5`, put into the tree.
 
 A name without a dot is a scene parameter. In a dotted path the first word is a component, or else a block of
-the netlist (`run`, `record`, `friction`, `effects`, `initial`, `limits`); further words lead into maps, and
+the netlist (`run`, `record`, `friction`, `effects`, `initial`, `nominal`, `limits`); further words lead into maps, and
 into lists by number or by the `name` of an item.
 """
 
@@ -16,7 +16,7 @@ from fairlead.netlist.limits import DEEPEST
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.yaml12 import resolve
 
-BLOCKS = ("run", "record", "friction", "effects", "initial", "limits")
+BLOCKS = ("run", "record", "friction", "effects", "initial", "nominal", "limits")
 LONGEST = 1000
 PLACE = Location("--set")
 

@@ -65,6 +65,8 @@ class Document(Part):
     """Defaults for every friction contact of the scene."""
     initial: Block = {}
     """Initial values by signal."""
+    nominal: Block = {}
+    """Sizes that count as 1, by signal; the accuracy is relative to them."""
     run: RunSettings
     """How far and how exactly to run, such as run: {stop: 20 s}."""
     record: Annotated[RecordSettings, BeforeValidator(_nothing_is_empty)] = RecordSettings()

@@ -10,7 +10,7 @@ from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.parameters import NAME, Parameters, work_out
 
-FILLED = ("components", "friction", "effects", "initial", "run", "limits")
+FILLED = ("components", "friction", "effects", "initial", "nominal", "run", "limits")
 
 
 def fill_tree(tree: Value) -> tuple[Value, list[Fault]]:

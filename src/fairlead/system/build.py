@@ -30,7 +30,7 @@ from fairlead.system.switching import (
 )
 from fairlead.system.system import Pattern, System
 from fairlead.system.timing import first_pieces, samplers
-from fairlead.system.tolerances import scales
+from fairlead.system.tolerances import roundings, scales
 from fairlead.system.unknowns import Numbering
 from fairlead.system.working import set_apart
 
@@ -79,7 +79,7 @@ def build(
         stiff=np.array([u.kind == "state" for u in unknowns], dtype=bool),
         accuracy=run.accuracy,
         start=run.start,
-        scales=scales(flat, numbering, [unit for _, unit in slots]) if whole else None,
+        scales=scales(flat, numbering, roundings([unit for _, unit in slots])) if whole else None,
         guard_machine=memory["guard_machines"],
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),

@@ -21,6 +21,7 @@ from fairlead.system.initial import starts
 from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.narrowing import Narrowing
 from fairlead.system.ranks import signal_ranks
+from fairlead.system.sizes import nominal_faults
 from fairlead.system.start_speeds import started
 from fairlead.system.system import System
 from fairlead.system.unknowns import number
@@ -35,6 +36,7 @@ def compile(flat: FlatModel) -> System:
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
     begin, initially, faults = starts(flat, numbering)
+    faults += nominal_faults(flat, numbering)
     faults += undetermined(flat, numbering, blocks)
     if faults:
         raise ModelError(faults)

@@ -29,12 +29,13 @@ from fairlead.system.build import HOLD_TIME, build
 from fairlead.system.context import ADDRESSES
 from fairlead.system.initial import starts
 from fairlead.system.shares import rows, shares
+from fairlead.system.sizes import nominal_faults
 from fairlead.system.start_speeds import started
 from fairlead.system.switching import kinks, machine_owners, machine_zones
 from fairlead.system.system import System
 from fairlead.system.timing import first_pieces, samplers, time_places
-from fairlead.system.tolerances import slow_speeds
-from fairlead.system.unknowns import Numbering
+from fairlead.system.tolerances import scales
+from fairlead.system.unknowns import Numbering, nominal_given
 from fairlead.system.working import set_apart
 
 
@@ -47,6 +48,7 @@ def refreshed(old: System, flat: FlatModel) -> System:
     heavier = any(old.flat.groups[k].mass != flat.groups[k].mass for k in moved)
     numbering = _numbering(old.numbering, flat, changed.values(), moved)
     begin, initially, faults = starts(flat, numbering)
+    faults += nominal_faults(flat, numbering)
     if faults:
         raise ModelError(faults)
     near = on_groups(flat, moved)
@@ -77,12 +79,11 @@ def _with_numbers(
     shared, end = shares(blocks)
     memory["blocks"] = rows(blocks, shared, end)["blocks"]
     memory["context"] = _addressed(memory)
-    creep, width = slow_speeds(flat, numbering)
     assert old.scales is not None, "a part has the numbers of the whole"
     run = flat.assembly.netlist.run
     return replace(
         old, flat=flat, numbering=numbering, blocks=blocks, tables=tables, initial=begin, accuracy=run.accuracy,
-        start=run.start, scales=replace(old.scales, creep=creep, width=width),
+        start=run.start, scales=scales(flat, numbering, old.scales.rounding),
         machine_guards=machine_owners(blocks, len(old.zones)), memory=memory,
         working=set_apart(memory, blocks, samples=True), **other,
     )  # fmt: skip
@@ -110,7 +111,8 @@ def _numbering(old: Numbering, flat: FlatModel, changed: Iterable[Instance], mov
     for instance in changed:
         for name, state in instance.type.declaration.states.items():
             at = old.own[instance.path, name]
-            unknowns[at] = replace(unknowns[at], start=number_given(instance.values, state.start))
+            start, nominal = number_given(instance.values, state.start), nominal_given(instance, state)
+            unknowns[at] = replace(unknowns[at], start=start, nominal=nominal)
     return replace(old, unknowns=unknowns)
 
 

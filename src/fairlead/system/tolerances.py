@@ -1,7 +1,8 @@
 """One number, the accuracy, turned into weights and tolerances; and the checks that keep them in order.
 
 The error weight of unknown i is  min(absolute_i + relative_i |y_i|, cap_i).  Positions get no relative
-part: a stiff line far from the origin would lose its tension in it. The speeds of a binding contact are
+part: a stiff line far from the origin would lose its tension in it. The absolute part is the accuracy times a size
+(`sizes.py`). The speeds of a binding contact are
 capped at a tenth of its creep, or less: with a weight as large as the creep itself a run never ends.
 """
 
@@ -11,18 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fairlead.component.declare import TRANSLATIONAL
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
-from fairlead.system.unknowns import Numbering, Unknown
+from fairlead.system.sizes import NOMINAL, Floats, nominal_sizes, of_contacts
+from fairlead.system.unknowns import Numbering
 
-Floats = NDArray[np.float64]
-
-# Sizes that matter in a scene of handling equipment, by unit; the accuracy is relative to these.
-NOMINAL = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "rad": 1e-2, "rad/s": 1.0, "N*m": 10.0, "Pa": 1e5, "V": 1.0, "A": 1.0,
-           "m^3/s": 1e-5, "m^3": 1e-6}  # fmt: skip
 # Weight of a speed at a binding contact, in creeps: the force of what is bound follows the slip, and is known to
 # that share of stiction. At accuracies finer than the ordinary it is less, by the root of the accuracy.
 CREEP_SHARE, ORDINARY = 0.1, 1e-3
@@ -67,51 +61,14 @@ class Scales:
         return Weights(accuracy * self.nominal, accuracy * self.follows, cap, tolerance)
 
 
-def scales(flat: FlatModel, numbering: Numbering, units: Sequence[str]) -> Scales:
-    """The scales of a model; `units` are those of its guards."""
-    unknowns = numbering.unknowns
-    creep, width = slow_speeds(flat, numbering)
-    return Scales(
-        np.array([nominal(u) for u in unknowns]),
-        np.array([0.0 if u.kind in ("position", "ledger") else 1.0 for u in unknowns]),
-        creep, width, np.array([GUARD_ROUNDING.get(unit, 1e-9) for unit in units]),
-    )  # fmt: skip
+def scales(flat: FlatModel, numbering: Numbering, rounding: Floats) -> Scales:
+    """The scales of a model; `rounding` is that of its guards."""
+    contacts = of_contacts(flat, numbering)
+    follows = np.array([0.0 if u.kind in ("position", "ledger") else 1.0 for u in numbering.unknowns])
+    sizes = nominal_sizes(flat, numbering, contacts)
+    return Scales(sizes, follows, contacts.creep, CURVE_SHARE * contacts.changes, rounding)
 
 
-def slow_speeds(flat: FlatModel, numbering: Numbering) -> tuple[Floats, Floats]:
-    """By unknown the smallest creep and the largest weight at which curves are seen, see `Scales`; shape (n,) each."""
-    creep, width = np.full(numbering.n, np.inf), np.full(numbering.n, np.inf)
-    known: dict[int, tuple[float, float]] = {}
-    for instance in flat.instances:
-        key = id(instance.values)  # nodes of a line share theirs
-        if key not in known:
-            known[key] = _most(instance)
-        for least, most in zip((creep, width), known[key], strict=True):
-            if most == np.inf:
-                continue
-            for port in _slipping(instance):
-                rate = numbering.rate.get(flat.place(PortRef(instance.path, port))[0])
-                if rate is not None:
-                    least[rate] = min(least[rate], most)
-    return creep, width
-
-
-def _slipping(instance: Instance) -> list[str]:
-    """Ports of a contact between which it slips along a line."""
-    return [name for name, port in instance.type.declaration.ports.items() if port.domain is TRANSLATIONAL]
-
-
-def _most(instance: Instance) -> tuple[float, float]:
-    """The creep of a contact, and the weight of a speed at which its curve is seen, m/s; infinite where it has none."""
-    says = instance.type.answers
-    if says.creeps:
-        return instance.values.path(says.sticks_below), np.inf
-    if says.changes_over is None:
-        return np.inf, np.inf
-    return np.inf, CURVE_SHARE * (says.changes_over(instance.values) or np.inf)
-
-
-def nominal(unknown: Unknown) -> float:
-    """The size of an unknown that counts as 1."""
-    return NOMINAL.get(unknown.unit, 1.0) if unknown.nominal is None else unknown.nominal
-
+def roundings(units: Sequence[str]) -> Floats:
+    """What guards of these units are known to."""
+    return np.array([GUARD_ROUNDING.get(unit, 1e-9) for unit in units])

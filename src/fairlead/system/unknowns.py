@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from fairlead.component.declare import State
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import PORT, key
 from fairlead.component.values import number_given
@@ -135,12 +136,17 @@ def _number_own(made: Numbering, instance: Instance) -> None:
     for name, state in has.states.items():
         start = number_given(instance.values, state.start)
         made.own[instance.path, name] = made.add(
-            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, start, "state", state.nominal)
+            Unknown(f"{instance.path}.{name}", state.unit, True, 1.0, start, "state", nominal_given(instance, state))
         )
     for name, unknown in has.unknowns.items():
         made.own[instance.path, name] = made.add(
             Unknown(f"{instance.path}.{name}", unknown.unit, False, 0.0, 0.0, "multiplier", unknown.nominal)
         )
+
+
+def nominal_given(instance: Instance, state: State) -> float | None:
+    """The size of a state that matters, as its component says."""
+    return None if state.nominal is None else number_given(instance.values, state.nominal)
 
 
 def _groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
