@@ -120,10 +120,13 @@ def test_h3_the_ramp_of_the_printed_law_is_negative_damping():
 def test_h4_in_a_chain_the_printed_law_undoes_each_break_away(scene, tmp_path, mu: float):
     """25 nodes of hose and core: what one contact lets go another answers at once, so that it binds again."""
     literal = ran(scene, tmp_path, CHAIN, form="literal", mu=mu)
-    assert literal.status == "failed"
     assert literal.run["end_time"] < 0.1
-    assert "zones did not settle" in literal.run["sentence"]
-    assert "<->" in literal.run["sentence"]
+    if literal.status == "failed":  # within one instant
+        assert "zones did not settle" in literal.run["sentence"]
+        assert "<->" in literal.run["sentence"]
+    else:  # from instant to instant
+        assert literal.status == "budget"
+        assert literal.run["switches"] > 400 * 46  # contacts that are in the bend for a while
 
 
 @pytest.mark.parametrize("mu", [0.35, 0.6])

@@ -3,11 +3,14 @@
 For the complementarity problem that stick and slip pose (a matrix with positive principal minors) changing the
 violator of least index never returns to a pattern of zones (Murty, Opsearch 11:123, 1974). Any numbering of the
 contacts will do, as long as it stays the same. The order in which they happen to be stored is none of the scene's,
-so they are numbered by how far their guards are from zero when the search begins: furthest above it, first. Rounded,
-since the last digits of a guard hang on the order of sums. Contacts that are equal even so stand in the order stored.
+so they are numbered by how far their guards are from zero when the search begins: the least far above it first, since
+to change the most wrong alone has been tried (settling.py). Rounded, for the last digits of a guard hang on the order
+of sums. Contacts that are equal even so stand in the order stored.
 """
 
 from __future__ import annotations
+
+from math import sqrt
 
 from fairlead.integrate.even_steps import FINE, rounded
 from fairlead.integrate.foreign import compiled, indices, reals
@@ -20,16 +23,17 @@ no last digit decides."""
 
 @compiled
 def number_machines(m, at_g):
-    """Set `rank` of every machine from these guards, in units of their tolerances."""
+    """Set `rank` of every machine from these guards, in units of their tolerances; the root lets all of them count."""
     g, tolerance = reals(at_g, m.n_guards), reals(m.at_guard_tolerance, m.n_guards)
     rank, machine = reals(m.at_rank, m.n_zones), indices(m.at_guard_machine, m.n_guards)
     for z in range(m.n_zones):
-        rank[z] = -1e300
+        rank[z] = 0.0
     for i in range(m.n_guards):
-        if machine[i] >= 0:
-            far = g[i] / tolerance[i]
-            far = rounded(far, FINE) if abs(far) > ROUNDING else 0.0
-            rank[machine[i]] = max(rank[machine[i]], far)
+        far = g[i] / tolerance[i]
+        if machine[i] >= 0 and abs(far) > ROUNDING:
+            rank[machine[i]] += sqrt(far) if far > 0.0 else -sqrt(-far)
+    for z in range(m.n_zones):
+        rank[z] = rounded(rank[z], FINE)
 
 
 @compiled
@@ -37,10 +41,10 @@ def keep_first(m):
     """Of the violators in `fired` keep the one whose machine comes first; guards without a machine come last."""
     fired, machine = indices(m.at_fired, m.n_guards), indices(m.at_guard_machine, m.n_guards)
     rank = reals(m.at_rank, m.n_zones)
-    first, highest = fired[0], -1e308
+    first, lowest = fired[0], 1e308
     for k in range(m.n_fired):
         z = machine[fired[k]]
-        if z >= 0 and rank[z] > highest:
-            first, highest = fired[k], rank[z]
+        if z >= 0 and rank[z] < lowest:
+            first, lowest = fired[k], rank[z]
     fired[0] = first
     m.n_fired = 1
