@@ -8,7 +8,8 @@ contacts of a node are a function of the slip speed alone, without zones, hyster
 
 the first being what the robust binding law amounts to (physics 1.10, remark). N_12 follows from both tensions
 at the node and the window at the hose's place, N_23 from the core tension and the window at the core's place
-(physics 3.3, 4.0). End connectors are merged: node 0 is driven, node n is one mass.
+(physics 3.3, 4.0). Each counts the arc that the node has, half the way between its neighbours of that layer.
+End connectors are merged: node 0 is driven, node n is one mass.
 """
 
 from typing import NamedTuple
@@ -72,7 +73,8 @@ class Bend:
         self.core_rest = scene.pitch - scene.outboard * (1.0 - scene.hose_share) / self.core_k
         self.hose_m, self.core_m = scene.hose_mass * scene.node_length, scene.core_mass * scene.node_length
         self.end_m = self.hose_m[-1] + self.core_m[-1]
-        self.curve = scene.node_length / scene.radius
+        self.borders = np.tile([[-0.5], [0.0], [0.5]], self.n + 1)  # slopes of an arc to the node before, itself, after
+        self.borders[:, 0], self.borders[:, -1] = (0.0, -0.5, 0.5), (-0.5, 0.5, 0.0)
         self.size = 4 * (self.n - 1) + 4
         self._plan_pattern()
 
@@ -99,12 +101,18 @@ class Bend:
         core = self.core_k * stretch + self.core_c * np.diff(m.core_speed)
         taut = (stretch > 0.0) & (core > 0.0)
         core = np.where(taut, core, 0.0)
-        load, core_load = np.maximum(node_mean(hose + core), 0.0) * self.curve, node_mean(core) * self.curve
+        load = np.maximum(node_mean(hose + core), 0.0) * self.turn(m.hose)
+        core_load = node_mean(core) * self.turn(m.core)
         guide = friction(m.hose_speed, sc.mu, sc.mu, 1.0, sc.creep, self.law)
         slip = m.core_speed - m.hose_speed
         decay = sc.stribeck_speed
         bulkhead = friction(slip, sc.bulkhead_stiction, sc.bulkhead_coulomb, decay, sc.creep, self.law)
         return Forces(hose, core, taut, load, core_load, *guide, *bulkhead)
+
+    def turn(self, place: np.ndarray) -> np.ndarray:
+        """Angle that each node stands for [rad], of nodes at these places of one layer."""
+        middle = 0.5 * (place[:-1] + place[1:])
+        return np.diff(middle, prepend=place[0], append=place[-1]) / self.scene.radius
 
     def rhs(self, t: float, y: np.ndarray) -> np.ndarray:
         """dy/dt."""
@@ -140,9 +148,13 @@ class Bend:
         in_hose, in_core = s.window(m.hose), s.window(m.core)
         share = np.full(self.n + 1, 0.5)
         share[[0, -1]] = 1.0
-        press = share * self.curve * in_hose * f.guide * (f.load > 0.0)
-        squeeze = share * self.curve * in_core * f.bulkhead
+        press = share * self.turn(m.hose) * in_hose * f.guide * (f.load > 0.0)
+        squeeze = share * self.turn(m.core) * in_core * f.bulkhead
         out = np.zeros((2, 4, 3, self.n + 1))
+        total, inner = node_mean(f.hose_tension + f.core_tension), node_mean(f.core_tension)
+        out[0, 0] -= np.maximum(total, 0.0) * in_hose * f.guide * self.borders / s.radius
+        out[0, 1] += inner * in_core * f.bulkhead * self.borders / s.radius
+        out[1, 1] -= inner * in_core * f.bulkhead * self.borders / s.radius
         for motion, k, c in ((0, self.hose_k, self.hose_c), (1, self.core_k, self.core_c)):
             on = f.taut if motion else np.ones(self.n)
             gains = (

@@ -118,7 +118,7 @@ def run_fairlead() -> None:
     BY_FAIRLEAD.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
 
 
-def run_radau(rtol: float = 1e-5, wall: float = 600.0) -> None:
+def run_radau(rtol: float = 1e-6, wall: float = 600.0) -> None:
     """The first second of all variants, the equations of `bend_equations.py` by scipy's Radau."""
     from bend_equations import Bend
     from bend_scene import table

@@ -1,6 +1,7 @@
 """The single bend by an engine of another kind: implicit Euler on speeds, one convex problem a step.
 
-Over a step of length h the loads N and the friction coefficients are frozen at their values at its start.
+Over a step of length h the loads N, which count the arc that a node has, and the friction coefficients are frozen at
+their values at its start.
 The speeds V at its end then minimise (Moreau's time stepping written as a minimisation; physics 1.11)
 
     1/2 sum M (V - v)^2  +  energy of springs and dampers at the end  -  h F_ext V  +  h sum H(V_rel),
@@ -83,11 +84,11 @@ class ConvexBend:
             middle = 0.5 * (self.core[1:] + self.core[:-1])
             beneath = np.interp(self.hose[1:-1], middle, self.core_tension)
         both = beneath + 0.5 * (self.hose_tension[1:] + self.hose_tension[:-1])
-        curve = s.pitch / s.radius
-        guide = s.mu * np.maximum(both, 0.0) * curve * s.window(self.hose[1:-1])
+        hose_turn, core_turn = (0.5 * (each[2:] - each[:-2]) / s.radius for each in (self.hose, self.core))
+        guide = s.mu * np.maximum(both, 0.0) * hose_turn * s.window(self.hose[1:-1])
         slide = np.exp(-(((core_speed - hose_speed) / s.stribeck_speed) ** 2))
         coefficient = s.bulkhead_coulomb + (s.bulkhead_stiction - s.bulkhead_coulomb) * slide
-        bulkhead = coefficient * core_mean * curve * s.window(self.core[1:-1])
+        bulkhead = coefficient * core_mean * core_turn * s.window(self.core[1:-1])
         hose_force = self.hose_k * (np.diff(self.hose) - self.hose_rest)
         core_force = self.core_k * (np.diff(self.core) - self.core_rest)
         before = s.haul(t_end - self.h)[0]

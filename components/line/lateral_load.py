@@ -1,12 +1,17 @@
-"""How hard a node of a line is pressed against what it touches."""
+"""How hard a node of a line is pressed against what it touches.
+
+What comes of the tension counts the arc that the node has: half the way between its neighbours as they are, however
+far the line is stretched. The pieces of all nodes tile the route, so a stretched line feels no more nor less of a bend
+than a stiff one. Weight goes with the line and counts the length it had at the start; clamps and tubes do so too.
+"""
 
 from fairlead.component import Component, Input, Law, Output, Parameter, Table, Translational, Zones, guard, zone
 
 
 class LateralLoad(Component):
-    """Normal force of a node on a curved route: tension times curvature times length.
+    """Normal force of a node on a curved route: tension times curvature times arc.
 
-    force = (mean tension - heavy v^2) * curvature(s) * length + more
+    force = (mean tension - heavy v^2) * curvature(s) * arc + more,   arc = (ahead.x - behind.x)/2
 
     The mean is over the elements on both sides (the one element at an end: `share` 1 instead of 1/2). What the line
     needs to follow the bend does not press on it: `heavy` v^2, with the mass per length; no term when not given. The
@@ -15,8 +20,9 @@ class LateralLoad(Component):
     """
 
     flange = Translational("the node, whose position along the route counts")
+    behind = Translational("the node inboard of it; itself at the inboard end")
+    ahead = Translational("the node outboard of it; itself at the outboard end")
     curvature = Table("m", "1/m", "Curvature times window along the route.")
-    length = Parameter("m", "Length of line that belongs to the node.", above=0)
     share = Parameter("1", "Weight of each adjacent element.", default=0.5)
     heavy = Parameter("kg/m", "Mass per length that is turned; not counted when not given.", default=None, least=0)
     hose_in = Input("N", "Hose tension on the inboard side.", default=0.0)
@@ -26,10 +32,15 @@ class LateralLoad(Component):
     more = Input("N", "What presses besides.", default=0.0)
     force = Output("N", "Normal force.", role="share")
 
-    def law(p, flange, hose_in, hose_out, core_in, core_out, more):
+    def law(p, flange, behind, ahead, hose_in, hose_out, core_in, core_out, more):
         """A signal only; the contact makes friction of it."""
         tension = pressing(p, flange, p.share * (hose_in + hose_out + core_in + core_out))
-        return Law(flange=0, force=tension * p.curvature(flange.x) * p.length + more)
+        return Law(flange=0, behind=0, ahead=0, force=tension * p.curvature(flange.x) * arc(behind, ahead) + more)
+
+
+def arc(behind, ahead):
+    """The part of the route that a node stands for [m]."""
+    return (ahead.x - behind.x) / 2
 
 
 def pressing(p, flange, tension):
@@ -40,17 +51,18 @@ def pressing(p, flange, tension):
 class RoundLoad(LateralLoad):
     """The same inside a tube, which holds the line from all sides: a line in compression rides the outer wall.
 
-    force = |mean tension - heavy v^2| * curvature(s) * length + more
+    force = |mean tension - heavy v^2| * curvature(s) * arc + more
     """
 
     zones = Zones("inner", "outer")
 
     @zone("inner", "outer")
-    def law(p, flange, hose_in, hose_out, core_in, core_out, more, zone):
+    def law(p, flange, behind, ahead, hose_in, hose_out, core_in, core_out, more, zone):
         """The wall it rides on decides the sign."""
         wall = 1 if zone == "inner" else -1
         tension = pressing(p, flange, p.share * (hose_in + hose_out + core_in + core_out))
-        return Law(flange=0, force=wall * tension * p.curvature(flange.x) * p.length + more)
+        load = wall * tension * p.curvature(flange.x) * arc(behind, ahead)
+        return Law(flange=0, behind=0, ahead=0, force=load + more)
 
     @guard("inner", to="outer", unit="N")
     def is_pushed(p, flange, hose_in, hose_out, core_in, core_out):

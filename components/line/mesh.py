@@ -42,6 +42,13 @@ class Mesh:
         ahead = self.length(node) / 2 if node < self.elements else 0.0
         return Reach(_tidy(behind), _tidy(ahead))
 
+    def beside(self, node: int, reach: Reach) -> tuple[int, int]:
+        """The nodes inboard and outboard of one, half way to which its piece reaches; itself where that is nowhere."""
+        here = self.places[node]
+        ends = (here - 2 * reach.behind, here + 2 * reach.ahead)
+        behind, ahead = (_nearest(self.places, place, 0, self.elements) for place in ends)
+        return behind, ahead
+
     def neighbours(self, node: int) -> list[int]:
         """Elements that meet at a node, inboard first."""
         return [k for k in (node - 1, node) if 0 <= k < self.elements]

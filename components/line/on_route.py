@@ -157,14 +157,21 @@ class OnRoute:
         beside = self.line.mesh.neighbours(i)
         table = self.table(reach, *curved)
         heavy = self.line.heavy(layers)
-        load = self.to.child(name, kind, curvature=table, length=reach.length, share=1 / len(beside), **heavy)
-        self.to.join(f"{load}.flange", f"{body}.flange")
+        load = self.to.child(name, kind, curvature=table, share=1 / len(beside), **heavy)
+        self.between(load, i, body, reach)
         for layer, entry in zip(layers, ("hose", "core")[-len(layers) :], strict=True):
             for element in beside:
                 self.to.join(f"{layer}[{element}].tension", f"{load}.{entry}_{SIDES[element - i + 1]}")
         if more:
             self.to.join(f"{more}.force", f"{load}.more")
         return load
+
+    def between(self, load: str, i: int, body: str, reach: Reach) -> None:
+        """Join a load that counts the arc of its node with the node and those beside it, all of one layer."""
+        behind, ahead = self.line.mesh.beside(i, reach)
+        layer = body.partition("[")[0]
+        for port, node in (("behind", behind), ("flange", i), ("ahead", ahead)):
+            self.to.join(f"{load}.{port}", f"{layer}[{node}].flange")
 
     def pressed_load(self, name: str, body: str, reach: Reach, windows: list[Window]) -> str:
         """A load that does not come from tension."""

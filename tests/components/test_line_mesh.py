@@ -67,3 +67,15 @@ def test_bulkheads_sit_at_their_pitch_and_share_the_core_among_them(pitch, nodes
 def test_bulkheads_that_are_smeared_take_the_piece_of_every_node():
     mesh = cut(10.0, 0.5)
     assert bulkheads(mesh, None) == {i: mesh.reach(i) for i in range(1, 20)}
+
+
+def test_a_piece_reaches_half_way_to_the_nodes_beside_it():
+    """To its neighbours, itself at an end; a bulkhead's to the bulkheads or connectors beside it."""
+    mesh = cut(12.0, 1.0, modules=2, graded=lambda place: 0.25 if 3.0 < place < 6.0 else 1.0)
+    inner = range(1, mesh.elements)
+    assert all(mesh.beside(i, mesh.reach(i)) == (i - 1, i + 1) for i in inner)
+    assert mesh.beside(0, mesh.reach(0)) == (0, 1)
+    assert mesh.beside(mesh.elements, mesh.reach(mesh.elements)) == (mesh.elements - 1, mesh.elements)
+    found = bulkheads(mesh, 2.0)
+    marks = sorted({*found, *mesh.connectors})
+    assert all(mesh.beside(i, found[i]) == (marks[k - 1], marks[k + 1]) for k, i in enumerate(marks) if i in found)

@@ -19,7 +19,7 @@ import bend_variants
 from bend_variants import figures
 
 RADAU, CONVEX = map(bend_variants.kept, (bend_variants.BEGIN, bend_variants.DATA))
-# Between 0.394 and 0.492 there are two answers; Radau finds 21 or 30 mm, by its tolerance.
+# Between 0.394 and 0.492 there are two answers; Radau finds one or the other, by its tolerance.
 EITHER = "mu 0.45"
 
 

@@ -29,6 +29,15 @@ def test_a_coarse_mesh_has_the_error_of_the_trapezoid_rule(bundled):
     assert HOLD * exact * 0.99 < force < HOLD * finest * 1.01
 
 
+@pytest.mark.parametrize(("stiffness", "within"), [("5 kN", 5e-4), ("2 kN", 1.5e-3)])
+def test_a_soft_rope_has_the_capstan_of_a_stiff_one(bundled, stiffness, within):
+    """Stretched by 2 or 5 % round the bend; a load that counts the length of the start would leave 0.3 or 1 % out."""
+    result = bundled("capstan", {"rope.stiffness": stiffness, "run.stop": "6 s"})
+    late = result.t > 3.0
+    force = np.trapezoid(-result["haul.force"][late], result.t[late]) / (result.t[-1] - result.t[late][0])
+    assert force == pytest.approx(HOLD * tension_ratio(MU, math.pi / 2), rel=within)
+
+
 @pytest.fixture(scope="module")
 def anchor(bundled):
     return lambda pull: bundled("friction_anchor", {"pull": f"{pull} N"})

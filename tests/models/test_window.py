@@ -41,14 +41,16 @@ def test_the_window_of_the_model_is_the_trapezoid(curvature, place: float) -> No
     assert curvature(place) == pytest.approx(exact, abs=1e-12)
 
 
-def travelling_chain(edge: float, nodes: int = 20) -> str:
+def travelling_chain(edge: float, nodes: int = 20, strain: float = 0.0) -> str:
     """Nodes at a pitch of 0.25 m that travel inboard past a device at 2 ... 4.1 m; each feels 1 N/m of it."""
     half, lines, joins = edge / 2, [], []
     table = f"[[{2 - half}, 0], [{2 + half}, 1], [{4.1 - half}, 1], [{4.1 + half}, 0]]"
     for i in range(nodes):
-        lines.append(f"node{i}: {{type: MotionSource, velocity: -0.3 m/s, origin: {1 + i * PITCH} m}}")
-        lines.append(f"load{i}: {{type: LateralLoad, length: {PITCH} m, curvature: {table}}}")
-        joins += [f"[node{i}.flange, load{i}.flange]"]
+        lines.append(f"node{i}: {{type: MotionSource, velocity: -0.3 m/s, origin: {1 + i * PITCH * (1 + strain)} m}}")
+        lines.append(f"load{i}: {{type: LateralLoad, curvature: {table}}}")
+        beside = [f"load{k}.{port}" for k, port in ((i + 1, "behind"), (i - 1, "ahead")) if 0 <= k < nodes]
+        beside += [f"load{i}.behind"] * (i == 0) + [f"load{i}.ahead"] * (i == nodes - 1)
+        joins += [f"[node{i}.flange, load{i}.flange, {', '.join(beside)}]"]
         joins += [f"[pull.applied, load{i}.{side}]" for side in ("hose_in", "hose_out")]
     components = "\n".join(f"  {line}" for line in lines)
     connections = "\n".join(f"  - {join}" for join in joins)
@@ -77,3 +79,15 @@ def test_an_edge_that_is_no_multiple_of_the_pitch_ripples(simulate) -> None:
     result = simulate(travelling_chain(edge=0.6 * PITCH))
     total = result.columns(result.match("load*.force")).sum(axis=1)
     assert np.ptp(total) > 0.01
+
+
+@pytest.mark.parametrize("strain", [0.02, -0.02])
+def test_a_stretched_chain_feels_the_whole_device_and_ripples_by_half_its_strain(simulate, strain: float) -> None:
+    """Arcs between the neighbours as they are; with lengths of the start the mean would be off by the strain."""
+    result = simulate(travelling_chain(edge=PITCH, nodes=24, strain=strain))
+    total = result.columns(result.match("load*.force")).sum(axis=1)
+    passing = PITCH * (1 + strain) / 0.3  # s; whole elements, so that the mean is one over the phase
+    late = result.t <= 3 * passing
+    mean = np.trapezoid(total[late], result.t[late]) / result.t[late][-1]
+    assert mean == pytest.approx(window.exact_sum(2.0, 4.1), abs=1e-4)
+    assert np.ptp(total) / 2 == pytest.approx(abs(strain) * PITCH / 2, rel=0.1)
