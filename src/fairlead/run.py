@@ -141,6 +141,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         require_package()
     if settings.engine == "stepping" and system.uneven:
         raise UsageError(_uneven(system.uneven))
+    if settings.engine != "rodas" and settings.engine != "auto" and (kept := system.kept_positions):
+        raise UsageError(_kept(settings.engine, kept))
     if settings.engine == "stepping" and (stops := system.rigid_stops):
         raise UsageError(_met_rigidly(stops))
     patterns = _patterns(netlist)
@@ -208,6 +210,8 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
         return settings.engine, "chosen by run.engine"
     if system.uneven:
         return "rodas", "auto: a contact holds between a node with mass and one without"
+    if system.kept_positions:
+        return "rodas", "auto: it keeps relations of positions"
     if system.rigid_stops:
         return "rodas", "auto: it locates the instants at which rigid stops are met"
     smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
@@ -241,6 +245,14 @@ def _uneven(contacts: list[str]) -> str:
         "run.engine: stepping does not hold contacts between a node with mass and one without "
         f"({_few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
         "rodas (or auto)."
+    )
+
+
+def _kept(engine: str, parts: list[str]) -> str:
+    """Why another engine than `rodas` does not take relations of positions."""
+    return (
+        f"run.engine: {engine} does not bring positions back to what {_few(parts)} keeps after every step, so they "
+        "would drift. Take run.engine: rodas (or auto)."
     )
 
 
@@ -296,11 +308,17 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "worst_creep": watch.creep.summary(), "energy": judged(watch.ledger.summary(), watch.system.undeclared),
         "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
+        "projected": _projected(outcome, watch.system),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
         "strains": watch.strains.summary(),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip
+
+
+def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:
+    """Steps brought back to relations of positions, and the farthest way in error weights; None where none are kept."""
+    return {"steps": outcome.counters.projections, "most": outcome.most_moved} if system.kept_positions else None
 
 
 def _status(outcome: Outcome) -> str:

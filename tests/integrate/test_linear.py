@@ -15,6 +15,8 @@ from fairlead.integrate.protocol import Pattern
 from fairlead.integrate.replan import fresh_plan
 from fairlead.integrate.textbook import textbook
 
+NOTHING_KEPT = np.zeros((0, 3), dtype=np.int64)
+
 FACTORED, INACCURATE = 0, 2
 
 
@@ -77,7 +79,7 @@ def mechanical_network(rng, bodies, contacts):
     M_mask = (held[1] != 0) | (slid[1] != 0)
     problem = SimpleNamespace(
         initial=np.zeros(n), pattern=pattern_of(J_mask), mass_pattern=pattern_of(M_mask),
-        differential=~np.isin(np.arange(n), force), quadrature=np.arange(n) == ledger,
+        differential=~np.isin(np.arange(n), force), quadrature=np.arange(n) == ledger, moves=NOTHING_KEPT,
     )  # fmt: skip
     return problem, matrices
 
@@ -251,7 +253,7 @@ def test_condensed_positions_cause_no_fill_in_a_chain():
         J[v[k], x[k + shift]] = J[v[k], v[k + shift]] = True
     problem = SimpleNamespace(
         initial=np.zeros(n), pattern=pattern_of(J), mass_pattern=pattern_of(np.eye(n, dtype=bool)),
-        differential=np.ones(n, bool), quadrature=np.zeros(n, bool),
+        differential=np.ones(n, bool), quadrature=np.zeros(n, bool), moves=NOTHING_KEPT,
     )  # fmt: skip
     plan = ordering.plan(problem)
     # The core is tridiagonal in the speeds; eliminated by rounds, each touches two others.

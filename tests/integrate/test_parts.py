@@ -23,7 +23,7 @@ OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
     "core_kind",
     "core_valid", "core_scale", "factored_h", "factored_theta", "zones_differ", "rows_alone", "guessed", "distrusted",
-    "caught_by_row", "limits_vary", "searched", "midway", "replanned", "t_switch", "theta_now",
+    "caught_by_row", "limits_vary", "searched", "midway", "replanned", "t_switch", "theta_now", "moved",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""
 

@@ -12,6 +12,7 @@ from tests.integrate.test_budgets import chattering_machine
 from tests.models.lost_pivots import PAIR, lost_pivots
 from tests.models.test_names_say_nothing import pads
 from tests.models.test_narrowing_at_random import network
+from tests.models.test_positions import engine as engine_of
 from tests.unit.test_controllers import COUNTING, PULLER, SCENE
 
 CUTS = [(10**8, None), (1, None), (7, 6), (64, 7), (10**8, 7)]
@@ -63,6 +64,13 @@ def test_switches_that_do_not_advance_count_once(all_cuts, reaction):
 @pytest.mark.parametrize(("make", "engine"), [(falling_ball, "rodas"), *((belt_block, each) for each in ENGINES)])
 def test_textbook_problems_take_the_same_path(all_cuts, make, engine):
     assert all_the_same(all_cuts(make, Run(stop=1.0, every=0.05, engine=engine)))
+
+
+@pytest.mark.parametrize("cylinders", [1, 4])
+def test_what_is_brought_back_to_relations_of_positions_takes_the_same_path(scene, all_cuts, cylinders):
+    system = scene(engine_of(cylinders)).system
+    for every in (None, 0.01):
+        assert all_the_same(all_cuts(lambda: system, Run(stop=0.5, every=every, accuracy=1e-6)))
 
 
 @pytest.mark.parametrize("engine", ["rodas", "stepping"])

@@ -123,6 +123,7 @@ def test_a_hold_whose_ratio_moves_is_refused_at_its_law(tmp_path, slip, varies):
     said, named = refusal(tmp_path, GEARED.replace("SLIP", slip))
     assert varies in said
     assert "numbers and parameters" in said
+    assert varies.startswith("what is added") or "as hold_position(gap), the relation of positions" in said
     assert named == "def law(p, a, b, f, t, ratio, own, step):"
 
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from fairlead.component.base import terms_of
 from fairlead.component.declaration import Declaration
-from fairlead.component.declare import Hold
+from fairlead.component.holding import Hold
 from fairlead.component.values import Values
 
 DRIVEN = 1.5  # applied force over stiction, for zones that steady slip never sees

@@ -20,7 +20,6 @@ from fairlead.component.declare import (
     derived,
     derived_wave,
     guard,
-    hold,
     sampled,
     shared,
     zone,
@@ -40,11 +39,12 @@ from fairlead.component.functions import (
     tanh,
 )  # fmt: skip
 from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.holding import hold, hold_position
 
 __all__ = [
     "Block", "Carries", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect",
     "Electrical", "Expansion", "Family", "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path",
     "Rotational", "State", "Stations", "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan",
-    "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "least", "log", "pi",
-    "sampled", "shared", "sin", "sqrt", "tanh", "zone",
+    "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "hold_position", "least",
+    "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

@@ -41,6 +41,7 @@ from fairlead.component.declare import (
     Zones,
 )  # fmt: skip
 from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.holding import HoldPosition
 from fairlead.quantities import QuantityError, parse_unit
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
@@ -314,6 +315,8 @@ def terms_of(cls: type[Declared], said: Any) -> dict[str, Any]:
     known = {*has.ports, *has.states, *has.unknowns, *has.outputs, *LEDGER}
     unknown = set(terms) - known
     missing = {*has.ports, *has.states, *has.unknowns} - set(terms) - _passive(cls)
+    if any(isinstance(term, HoldPosition) for term in terms.values()):  # it puts its force on its ports itself
+        missing -= set(has.ports)
     if unknown or missing:
         raise DeclarationError(f"the law gives {sorted(unknown)} unasked and leaves out {sorted(missing)}")
     return terms

@@ -269,32 +269,12 @@ def derived_wave(function: Callable[..., Any]) -> Any:
 
 
 @dataclass(frozen=True)
-class Hold:
-    """The demand that a relative speed stays zero; the engine writes the row (see `docs/integrator.md`)."""
-
-    slip: Any
-    within: Any = None
-    restitution: Any = None
-
-
-def hold(slip: Any, within: Any = None, restitution: Any = None) -> Any:
-    """Law of an algebraic unknown in a zone that holds: keep `slip` [m/s or rad/s] at zero.
-
-    When the zone is entered with some slip, an impulse brings it to zero: without limit (a rigid link), or
-    only a slip of at most `within`. A contact has such a limit: friction is finite, and gives no impulse.
-    What takes any impulse, and may let go, may give back: `restitution`, a number or a parameter from 0 to 1, is
-    the share of the slip with which it parts again (`docs/integrator.md`, Impacts).
-    """
-    return Hold(slip, within, restitution)
-
-
-@dataclass(frozen=True)
 class Law:
     """What a law says, by the names the component declares.
 
     ports        what the port takes in                     Law(a=-tension, b=+tension)
     states       the rate                                   Law(speed=force / mass)
-    unknowns     what must be zero, or hold(slip)           Law(force=force - limit)
+    unknowns     what must be zero, or hold(slip), or hold_position(gap)    Law(force=force - limit)
     outputs      the value
     dissipated, supplied [W], stored [J]   lines of the energy ledger
     """

@@ -1,6 +1,7 @@
 """Keys: what a symbol of a traced law stands for. The text is the symbol's name, and what machine code is stored with.
 
-    port:a:v           of the port a: x position or potential, v rate, a acceleration, A prescribed one, R reaction
+    port:a:v           of the port a: x position or potential, v rate, a acceleration, A prescribed one, R reaction,
+                       U acceleration as an unknown (or the prescribed one)
     own:force          a state or unknown of the component's own
     in:normal          an input
     p:stiffness        a parameter, also of a part (p:curve.coulomb); p:#held a discrete variable

@@ -19,35 +19,31 @@ import sympy
 
 from fairlead.component.base import LEDGER, source_place, terms_of
 from fairlead.component.declaration import Declaration
-from fairlead.component.declare import Hold, Law, Port
+from fairlead.component.declare import Law, Port
 from fairlead.component.given import Choice, Count, Part, Table, Waveform
-from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TABLE, TIME, Key, key
+from fairlead.component.hold_rows import (
+    HoldRow,
+    check_everywhere,
+    position_row,
+    position_side,
+    put_on_ports,
+    slip_row,
+    slip_side,
+)
+from fairlead.component.holding import Hold, HoldPosition
+from fairlead.component.keys import PORT, key
 from fairlead.component.piecewise import DEGREE
+from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
 from fairlead.component.values import Variant
 
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
-TAU = "@tau"  # time constant of a hold row, a setting of the run
 
 
 class Unsaid(sympy.Function):
     """A function of a part that a listing leaves open, such as `curve.coefficient`; no kernel has one."""
 
     is_real = True
-
-
-class TraceError(TypeError):
-    """A law that cannot be traced; the text names the author's file and line."""
-
-
-@dataclass(frozen=True)
-class HoldRow:
-    """A row d(slip)/dt = -slip/tau: the slip and its coefficient of every speed it contains."""
-
-    slip: sympy.Expr
-    rates: dict[str, sympy.Expr]  # input key of a speed -> coefficient in the mass row
-    impulse: sympy.Expr  # the slip that an impulse takes away when the zone is entered
-    restitution: sympy.Expr = sympy.S.Zero  # a number, or the symbol of a parameter
 
 
 @dataclass
@@ -159,26 +155,11 @@ class _PortReader:
         self.inverse_mass = symbol(inverse_mass(name))
 
 
-def sine(path: str, part: str) -> str:
-    """The key of the amplitude, omega or phase of what a quantity in time swings with."""
-    return f"p:{path}:{part}"
-
-
-def inverse_mass(port: str) -> str:
-    """The key of one over the mass of the body at a port."""
-    return f"p:{port}.inverse_mass"
-
-
-@functools.cache
-def symbol(text: str) -> sympy.Symbol:
-    """The real symbol of a key (`keys.py`)."""
-    return sympy.Symbol(text, real=True)
-
-
 def trace(variant: Variant) -> Traced:
     """Run every law and guard of a class variant with symbols. Raises TraceError."""
     has = variant.type.declaration
     zones = {name: _trace_zone(variant, has, name) for name in has.zones}
+    check_everywhere(((name, zone.holds) for name, zone in zones.items()), source_place(variant.type))
     tables = list(dict.fromkeys(path for zone in zones.values() for path in zone.tables))
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():
@@ -215,15 +196,16 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     for term, value in _terms(variant, law, arguments):
         if term in has.ports:
             zone.flows[term] = _smooth(value, law)
-        elif isinstance(value, Hold):
-            zone.holds[term] = _hold_row(value, law)
-            zone.own[term] = _hold_right_side(zone.holds[term].slip)
+        elif isinstance(value, Hold | HoldPosition):
+            row = zone.holds[term] = _hold_row(value, has, law)
+            zone.own[term] = slip_side(row.slip) if row.gap is None else position_side(row, term)
         elif term in has.outputs:
             zone.outputs[term] = _expression(value, law)
         elif term in LEDGER:
             zone.ledger[term] = _power(value, law)
         else:
             zone.own[term] = _smooth(value, law)
+    _put_on_ports(zone, variant, law)
     for name in has.outputs.keys() & has.discrete.keys():  # what a controller in plain Python holds
         zone.outputs[name] = symbol(f"p:#{name}")
     for line in LEDGER:
@@ -331,68 +313,22 @@ def _without(expression: sympy.Expr, law: Callable[..., Any], parts: tuple[str, 
     return expression
 
 
-def _hold_row(said: Hold, law: Callable[..., Any]) -> HoldRow:
-    slip = _smooth(said.slip, law)
-    speeds = [s for s in slip.free_symbols if key(s.name).is_speed]
-    rates = {s.name: sympy.diff(slip, s) for s in sorted(speeds, key=lambda s: s.name)}
-    if not speeds or any(rate.free_symbols & set(speeds) for rate in rates.values()):
-        raise TraceError(f"{source_place(law)}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
-    _fixed(slip, rates, law)
-    little = 1 if said.within is None else (1 + sympy.sign(_smooth(said.within, law) - sympy.Abs(slip))) / 2
-    return HoldRow(slip, rates, slip * little, _restitution(said, law))
+def _hold_row(said: Hold | HoldPosition, has: Declaration, law: Callable[..., Any]) -> HoldRow:
+    if isinstance(said, HoldPosition):
+        return position_row(_smooth(said.gap, law), has.ports, source_place(law))
+    within = None if said.within is None else _smooth(said.within, law)
+    restitution = _smooth(0 if said.restitution is None else said.restitution, law)
+    return slip_row(_smooth(said.slip, law), within, restitution, source_place(law))
 
 
-def _restitution(said: Hold, law: Callable[..., Any]) -> sympy.Expr:
-    """What a rigid row gives back: a number or one parameter."""
-    value = _smooth(0 if said.restitution is None else said.restitution, law)
-    place = source_place(law)
-    if not (value.is_number or (value.is_Symbol and key(value.name).is_fixed)):
-        raise TraceError(f"{place}: the restitution {value} must be a number or a parameter, such as p.restitution")
-    if value.is_number and not 0 <= value <= 1:
-        raise TraceError(f"{place}: the restitution {value} must lie between 0, no rebound, and 1, no loss")
-    if value != 0 and said.within is not None:
-        raise TraceError(f"{place}: a hold `within` takes no impulse and gives none back; leave out its restitution")
-    return value
-
-
-def _fixed(slip: sympy.Expr, rates: dict[str, sympy.Expr], law: Callable[..., Any]) -> None:
-    """Refuse a slip of which anything but the speeds moves.
-
-    The row of a hold is d(slip)/dt = -slip/tau, with d(slip)/dt the sum of ratio times acceleration. What a moving
-    ratio, or a moving speed that is added, would add to that is not in it.
-    """
-    for speed, rate in rates.items():
-        if moving := _moving(rate):
-            whose = f"{key(speed).name}'s speed"
-            what = f"the ratio of {whose} varies with {moving}. A ratio must be made of numbers and parameters"
-            way_out = "Write a ratio that moves as a stiff spring and a damper between the two motions"
-            raise TraceError(f"{source_place(law)}: hold({slip}): {what}. {way_out}.")
-    if moving := _moving(slip.xreplace({symbol(speed): sympy.S.Zero for speed in rates})):
-        what = f"what is added to the speeds varies with {moving}. It must be made of numbers and parameters"
-        way_out = "Prescribe a speed that moves as that of a port, by a motion source"
-        raise TraceError(f"{source_place(law)}: hold({slip}): {what}. {way_out}.")
-
-
-def _moving(expression: sympy.Expr) -> str:
-    """What may vary within a run in this part of a slip; empty if nothing does."""
-    varies = sorted(s.name for s in expression.free_symbols if not key(s.name).is_fixed)
-    return ", ".join(dict.fromkeys(_said(key(text)) for text in varies))
-
-
-def _said(one: Key) -> str:
-    """The author's words for what a symbol stands for."""
-    words = {
-        TIME: "time", TABLE: f"the table {one.name!r}", INPUT: f"the signal {one.name!r}", OWN: repr(one.name),
-        PARAMETER: f"the discrete {one.name[1:]!r}", PORT: f"the motion of {one.name!r}",
-    }  # fmt: skip
-    return words[one.kind]
-
-
-def _hold_right_side(slip: Any) -> sympy.Expr:
-    """-slip/tau, less the acceleration of prescribed surfaces (zero for free ones)."""
-    speeds = {s: key(s.name) for s in slip.free_symbols if key(s.name).is_speed}
-    prescribed = {s: symbol(f"port:{speed.name}:A") for s, speed in speeds.items()}
-    return -slip / symbol(f"p:{TAU}") - sum(sympy.diff(slip, s) * a for s, a in prescribed.items())
+def _put_on_ports(zone: TracedZone, variant: Variant, law: Callable[..., Any]) -> None:
+    """Let what keeps relations of positions act on the ports; the law need not speak of those."""
+    kept = {unknown: row for unknown, row in zone.holds.items() if row.gap is not None}
+    for unknown, row in kept.items():
+        put_on_ports(zone.flows, row, unknown, source_place(law))
+    left = set(variant.type.declaration.ports) - set(zone.flows)
+    if kept and left and variant.type.answers.prescribes is None:
+        raise TraceError(f"{source_place(law)}: the law leaves out {sorted(left)}, which its gap does not read")
 
 
 def _borders(path: str, zone: TracedZone) -> list[TracedGuard]:

@@ -18,16 +18,22 @@ from fairlead.integrate.controller import restart, weigh, weighted_norm
 from fairlead.integrate.curvature import bend_beyond_rounding
 from fairlead.integrate.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.growth import watch_growth
+from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.impulse import RUBBED
+from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
-from fairlead.integrate.start import NOT_CONSISTENT
+from fairlead.integrate.start import NOT_CONSISTENT, keep_positions
 from fairlead.integrate.trial import not_finite_here, smallest_step
 
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 """Newton iterations allowed from the guess of a user, and from a point consistent before a switch."""
+
+
+MOST_DROPPED = 4
+"""Crossings in a row that the way back to relations of positions may undo: steps between them become short at once."""
 
 
 @compiled
@@ -52,6 +58,10 @@ def arrive(m):
     m.jacobian_fresh = 0
     if m.rows + 4 > m.row_capacity:
         return BUFFER_FULL
+    if m.n_moves > 0:
+        if keep_positions(m) == INACCURATE:
+            return REPLAN
+        judge_again(m)
     m.phase = TRY
     event_due = m.landing == 1 and (m.t < m.stop and m.t >= min(m.t_next, m.t_release))
     if m.crossed == 1:
@@ -69,12 +79,36 @@ def arrive(m):
         else:
             m.rows -= 1
     if m.phase == TRY:
-        copy(reals(m.at_g_end, m.n_guards), reals(m.at_g, m.n_guards))
+        if m.n_moves == 0:
+            copy(reals(m.at_g_end, m.n_guards), reals(m.at_g, m.n_guards))
         # The stop is recorded even when it is no point of the grid.
         off_grid = m.t >= m.stop and m.start + (m.grid_next - 1) * m.every < m.stop - 1e-9 * m.every
         if m.on_grid == 0 or off_grid:
             write_row(m, m.t, m.at_y, ORDINARY)
     return GO_ON
+
+
+@compiled
+def judge_again(m):
+    """Guards at the point that was brought back to relations of positions, into `g`; drop the fired that are below.
+
+    The interpolant is off what is kept by the error of a step, more than a guard is known to. What is dropped fires in
+    the next step, which begins on what is kept and is as short as its guard is near.
+    """
+    evaluate_guards(m, m.t, m.at_y, m.at_g)
+    if m.crossed == 0 or m.dropped >= MOST_DROPPED:
+        m.dropped = 0
+        return
+    g, tolerance = reals(m.at_g, m.n_guards), reals(m.at_guard_tolerance, m.n_guards)
+    fired, kept = indices(m.at_fired, m.n_guards), 0
+    for k in range(m.n_fired):
+        if g[fired[k]] >= -ROUNDING * tolerance[fired[k]]:
+            fired[kept] = fired[k]
+            kept += 1
+    if kept > 0:
+        m.n_fired, m.dropped = kept, 0
+    else:
+        m.n_fired, m.crossed, m.dropped = 0, 0, m.dropped + 1
 
 
 @compiled

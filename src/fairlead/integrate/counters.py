@@ -27,6 +27,7 @@ COUNTS = (
     "time_events",
     "replans",
     "partial_steps",
+    "projections",
 )
 """Counters kept by the compiled loop, in the order they lie in memory."""
 
@@ -67,6 +68,8 @@ class Counters:
     """Fresh pivot orders computed because the planned one lost accuracy."""
     partial_steps: int
     """Steps in which only what moves was computed, see parts.py."""
+    projections: int
+    """Ends of steps brought back to relations of positions that are kept, see position.py."""
     switches_by_machine: NDArray[np.int64]
     rejections_by_unknown: NDArray[np.int64]
     """How often each unknown had the largest error of a step that was rejected, or ended at a switch, for its error."""

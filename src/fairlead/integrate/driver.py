@@ -47,6 +47,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         chattering=tuple(own.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),
         counters=count(memory),
         begun=scope.whole.array["begun"].copy(),
+        most_moved=float(memory.number["most_moved"]),
         lost=memory.array["lost"].copy(),
         wall=time.perf_counter() - begun,
         loop_wall=going.wall,
@@ -66,6 +67,8 @@ def check(problem: Problem, run: Run) -> None:
             raise ValueError(f"{name} = {value:g} s must be above zero.")
     if run.engine == "ida" and run.fixed_step is not None:
         raise ValueError("fixed_step is for rodas and stepping; ida chooses its own steps.")
+    if len(problem.moves) and run.engine != "rodas":
+        raise ValueError(f"{run.engine} does not keep relations of positions; rodas does.")
     if not 0.5 <= run.theta <= 1.0:
         raise ValueError(f"theta = {run.theta:g} must be from 0.5 to 1.")
     n, ng = len(problem.initial), len(problem.guard_machine)

@@ -46,11 +46,21 @@ class Facts(Protocol):
 
     @property
     def takes_impulse(self) -> Integers:
-        """[n]: 0 for a row that never holds, 1 for one that takes no impulse but rounding, 2 for one that takes any."""
+        """[n]: 0 for a row that never holds, 1 for one that takes no impulse but rounding, 2 for one that takes any.
+
+        3 for a relation of positions, which takes any, and never meets what it keeps.
+        """
 
     @property
     def rebound(self) -> Floats:
         """[n]: the coefficient of restitution with which a row takes impulses, 0 for none (rebound.py)."""
+
+    @property
+    def moves(self) -> Integers:
+        """[k, 3]: every position, its speed and its acceleration (-1: no unknown), if relations of positions are kept.
+
+        Else none. Where the acceleration is an unknown, M has the mass in the row of the speed, and f mass times it.
+        """
 
     @property
     def ledger(self) -> tuple[int, int]:
@@ -154,6 +164,11 @@ class Plain:
     def rebound(self) -> Floats:
         """No row does."""
         return np.zeros(len(self.initial))
+
+    @property
+    def moves(self) -> Integers:
+        """None are kept."""
+        return np.zeros((0, 3), dtype=np.int64)
 
     @property
     def holder(self) -> Integers:

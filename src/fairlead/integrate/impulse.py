@@ -113,7 +113,7 @@ def slip_to_stop(m):
     slip_at(m.call_slip, (m.context, m.t, m.at_y, m.at_x))
     slips = False
     for k in range(n):
-        slips = slips or (takes[k] == UNLIMITED and little[k] != 0.0)
+        slips = slips or (takes[k] >= UNLIMITED and little[k] != 0.0)
     if not slips:
         return False
     field_at(m.call_drift, (m.context, m.t, m.at_y, m.at_b))
@@ -237,5 +237,5 @@ def any_support_moves(m):
     r, takes = reals(m.at_x, n), indices(m.at_takes_impulse, n)
     moves = False
     for k in range(n):
-        moves = moves or (takes[k] == UNLIMITED and r[k] != 0.0)
+        moves = moves or (takes[k] >= UNLIMITED and r[k] != 0.0)
     return moves

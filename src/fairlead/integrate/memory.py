@@ -40,7 +40,7 @@ INTEGERS = (
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # impacts: whether any row takes impulses, and the unknowns of the energy ledger (-1: there is none)
-    "takes_impulses", "rebounds", "dissipated_at", "supplied_at",
+    "takes_impulses", "rebounds", "n_moves", "dropped", "dissipated_at", "supplied_at",
     # the order of release (release.py): whether friction of a contact falls as it lets go, whether the order was
     # asked for in this settlement, levels of load that are still out, whether zones have changed since the last of
     # them, whether there was nothing before
@@ -67,12 +67,13 @@ INTEGERS = (
     "steps", "rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
     "rejected_diverged", "rejected_singular", "rhs", "jacobians", "factorisations", "solves", "guards", "switches",
     "located", "settling_passes", "time_events", "replans", "partial_steps",
+    "projections",
 )  # fmt: skip
 """Whole numbers of the struct."""
 
 CALLS = (
     "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
-    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes",
+    "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes", "call_gap",
 )  # fmt: skip
 """Addresses of C functions of the problem, and of their context."""
 
@@ -83,7 +84,7 @@ NUMBERS = (
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
     "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
-    "fastest",
+    "fastest", "moved", "most_moved",
     # stepping only: theta asked for, its rise when zones cycle, theta in force, the step asked for, distances of the
     # slopes remembered, what was allowed in the last steps (steady_steps.py)
     "least_theta", "theta_raise", "theta_now", "factored_theta", "fixed_step", "gap", "gap_before",
@@ -134,6 +135,10 @@ VECTORS = {
 INDICES = {
     "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "jacobian_place": "n_jacobian",
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_columns": "n_mass", "mass_place": "n_mass",
+    # relations of positions (position.py): a position, its speed, and its acceleration where that is an unknown
+    "move_position": "n_moves", "move_speed": "n_moves", "move_acceleration": "n_moves",
+    # the speed of an acceleration that is an unknown; of others they themselves
+    "speed_of": "n",
     "differential": "n", "quadrature": "n", "unweighed": "n", "watched": "n", "takes_impulse": "n",
     # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
     # zones at the start of the step; machines that switched in the trial (missed_impulse.py)

@@ -64,12 +64,12 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, **plan.lengths,
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
         **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
-        "n_algebraic": int(n - np.count_nonzero(problem.differential)),
+        "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
-        "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
+        "n_moves": len(problem.moves), "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
@@ -88,9 +88,10 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "jacobian_starts": problem.pattern.starts, "jacobian_rows": problem.pattern.rows,
         "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
         "mass_columns": columns_of(problem.mass_pattern),
-        **plan.arrays,
+        **{f"move_{name}": np.ascontiguousarray(problem.moves[:, k], np.int64) for k, name in enumerate(MOVES)},
+        "speed_of": speed_of(problem), **plan.arrays,
     }  # fmt: skip
-    numbers["takes_impulses"] = int((given["takes_impulse"] == RIGID).any())
+    numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
     if stepping:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
         given |= {"controlled": controlled(problem), "position_of": position_of(problem)}
@@ -112,6 +113,18 @@ def _of_contacts(problem: Problem) -> Integers:
 
 RIGID = 2
 """What a row takes that takes any impulse."""
+
+
+MOVES = ("position", "speed", "acceleration")
+"""What the columns of `problem.moves` are."""
+
+
+def speed_of(problem: Problem) -> Integers:
+    """By unknown: the speed of an acceleration that is an unknown, else itself."""
+    found = np.arange(len(problem.initial), dtype=np.int64)
+    _, speeds, accelerations = problem.moves[problem.moves[:, 2] >= 0].T
+    found[accelerations] = speeds
+    return found
 
 
 def _in_circles(problem: Problem) -> Integers:

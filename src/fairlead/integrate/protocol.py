@@ -27,6 +27,9 @@ accuracy that the run asks for, and the choice of what is recorded.
     drift     void   (ctx, t, y, r)               as slip, where slip answers only for a slip that an
                                                   impulse takes away
 
+    gap       void   (ctx, t, y, r)               r[n] = 0 but -g on the rows of relations g of positions that
+                                                  are kept (facts.py, moves); asked for where there are any
+
 What a problem knows beside its equations is in `facts.py`; one made of plain functions knows nothing of that.
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
@@ -54,7 +57,7 @@ Bytes = NDArray[np.uint8]
 
 CALLBACKS = (
     "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
-    "slopes",
+    "slopes", "gap",
 )  # fmt: skip
 """The names a problem may use in `callbacks`; the first three must be there."""
 
@@ -287,6 +290,8 @@ class Outcome:
     counters: Counters
     begun: Floats
     """[n]: the unknowns as they were settled at the start; zeros if they were not."""
+    most_moved: float
+    """The farthest, in error weights, that the end of a step was brought back to relations of positions."""
     lost: Floats
     """[n]: energy lost in impacts, J, by the row that held."""
     wall: float

@@ -65,12 +65,12 @@ def spread(m, floor):
     e, b, dv = reals(m.at_y_probe, n), reals(m.at_b, n), reals(m.at_u, n)
     takes, differential = indices(m.at_takes_impulse, n), indices(m.at_differential, n)
     starts, rows = indices(m.at_jacobian_starts, n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
-    values = reals(m.at_jacobian, m.n_jacobian)
+    values, speed_of = reals(m.at_jacobian, m.n_jacobian), indices(m.at_speed_of, n)
     changed = False
     for k in range(n):
         if takes[k] > 0 and abs(b[k]) > floor:
             for p in range(starts[k], starts[k + 1]):
-                i = rows[p]
+                i = speed_of[rows[p]]
                 joined = dv[i] != 0.0 if differential[i] == 1 else takes[i] > 0 and abs(b[i]) > floor
                 if joined and values[p] != 0.0 and e[i] != e[k]:
                     e[i] = e[k] = min(e[i], e[k])

@@ -67,7 +67,8 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         ),
         Status.SINGULAR: (
             f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or "
-            "damping, or a contact that closes a loop of held contacts, leaves a force open; add a mass or "
+            "damping, a contact that closes a loop of held contacts, or a relation of positions that nothing can keep "
+            "here, as that of a crank in its dead centre under a given slider, leaves a force open; add a mass or "
             "damping there."
         ),
         Status.CHATTER: (

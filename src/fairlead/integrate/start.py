@@ -17,11 +17,17 @@ from math import isfinite
 
 from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
-from fairlead.integrate.impulse import impact
-from fairlead.integrate.linear import DONE, add_mass_times, factorise_consistent, solve, solve_watched
+from fairlead.integrate.impulse import ROUNDED as ROUNDED_IMPULSE
+from fairlead.integrate.impulse import change_of_speed, impact
+from fairlead.integrate.linear import DONE, SINGULAR, add_mass_times, factorise_consistent, solve, solve_watched
+from fairlead.integrate.position import project_positions
 from fairlead.integrate.rosenbrock import times_jacobian
 
 NOT_CONSISTENT = 3
+OF_POSITIONS = 3
+"""What a row takes that keeps a relation of positions: any impulse, see `Facts.takes_impulse`."""
+HANDED_ON = 1e-6
+"""Share of the slip of contacts that relations of positions may be left with: more would be an impact on the next."""
 SETTLED_UPDATE = 1e-6
 """A Newton update of the algebraic unknowns below this, in units of their weights, is the last."""
 
@@ -41,7 +47,11 @@ def prepare_consistent(m):
 
 @compiled
 def project(m):
-    """Bring held rows to rest by the impulse that conserves momentum."""
+    """Bring held rows to rest by the impulse that conserves momentum.
+
+    Not where that is more than rounding or would leave a relation of positions, as where its ratio goes through zero: a
+    crank in its dead centre is not stopped by what stops the slider. The force that would be needed decides.
+    """
     n = m.n
     if m.call_slip == 0:
         return
@@ -53,11 +63,56 @@ def project(m):
         at_rest = at_rest and r[k] == 0.0
     if at_rest:
         return
+    if m.n_moves > 0:
+        copy(r, reals(m.at_v, n))
     solve(m, m.at_b)
     y, differential = reals(m.at_y, n), indices(m.at_differential, n)
+    if m.n_moves > 0 and (change_of_speed(m) > ROUNDED_IMPULSE or hands_slip_on(m)):
+        return
     for k in range(n):
         if differential[k] == 1:
             y[k] += r[k]
+
+
+@compiled
+def hands_slip_on(m):
+    """True if the change of speed in u takes slip (in v) from contacts and leaves it to relations of positions."""
+    n = m.n
+    y, dv, moved, slip = reals(m.at_y, n), reals(m.at_u, n), reals(m.at_y_probe, n), reals(m.at_v, n)
+    takes, left = indices(m.at_takes_impulse, n), reals(m.at_x, n)
+    for k in range(n):
+        moved[k] = y[k] + dv[k]
+    slip_at(m.call_slip, (m.context, m.t, m.at_y_probe, m.at_x))
+    before = taken = after = 0.0
+    for k in range(n):
+        if takes[k] == OF_POSITIONS:
+            before = max(before, abs(slip[k]))
+            after = max(after, abs(left[k]))
+        else:
+            taken = max(taken, abs(slip[k]))
+    return after > max(before, HANDED_ON * taken)
+
+
+@compiled
+def keep_positions(m):
+    """Bring the end of a step back to the relations of positions: positions, speeds, and what follows from them.
+
+    DONE or INACCURATE. Where relations are not independent of what holds, the end stays as it is.
+    """
+    status = prepare_consistent(m)
+    if status == SINGULAR:
+        return DONE
+    if status == DONE:
+        status = project_positions(m)
+    if status != DONE:
+        return status
+    project(m)
+    residual_here(m, m.at_x)
+    solve(m, m.at_x)
+    update(m, 1.0)
+    m.projections += 1
+    m.most_moved = max(m.most_moved, m.moved)
+    return DONE
 
 
 @compiled
@@ -82,6 +137,8 @@ def consistent(m, iterations):
     """
     mass_at(m.call_mass, (m.context, m.at_mass))
     status = prepare_consistent(m)
+    if status == DONE and m.n_moves > 0:
+        status = project_positions(m)
     if status == DONE:
         status = impact(m)
     if status != DONE:
@@ -94,6 +151,8 @@ def consistent(m, iterations):
             status = prepare_consistent(m)
             if status != DONE:
                 return status
+        if m.n_moves > 0:
+            weigh(m, m.at_y)  # the force that would keep the slider of a crank from passing its dead centre is huge
         residual_here(m, m.at_x)
         if iteration == 0:
             status = solve_watched(m, m.at_x)

@@ -28,6 +28,7 @@ from fairlead.integrate.growth import short_of_growth
 from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.meters import judge_meters, meter_piece
+from fairlead.integrate.position import way_back
 from fairlead.integrate.record import BEFORE, write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
@@ -68,6 +69,8 @@ def attempt(m):
         if m.n_watched > 0 and m.adaptive == 1:
             midpoint_defect(m, h)
             m.error = max(m.error, weighted_norm(m, m.at_error_vector))
+        if m.n_moves > 0 and m.adaptive == 1:
+            m.error = max(m.error, way_back(m, h))
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject(m, h, status)
     found = first_crossing(m, h)

@@ -144,7 +144,7 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
 
 
 def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
-    """Position or potential (x), rate (v), acceleration (a), prescribed acceleration (A), reaction (R)."""
+    """Position or potential (x), rate (v), acceleration (a), prescribed (A), as an unknown (U), reaction (R)."""
     return place_of_motion(flat, numbering, *flat.place(port), variable)
 
 
@@ -154,6 +154,8 @@ def place_of_motion(
     """Where in z the motion stands of what moves with ratio * group + offset: place, coefficient, offset."""
     group = flat.groups[index]
     rate = numbering.rate.get(index)
+    if group.free and variable == "U":
+        return numbering.accelerated[index], ratio, 0.0
     if group.free and (variable in "AR" or (variable != "x" and rate is None)):
         return numbering.zero, 0.0, 0.0
     if variable == "R":  # the group's, at a port that moves `ratio` times as far
@@ -167,7 +169,7 @@ def place_of_motion(
     if group.prescribed.outputs is None:
         return numbering.zero, 0.0, ratio * group.start[0] + offset if variable == "x" else 0.0
     _, own_ratio, own_offset = flat.place(group.prescribed.by)
-    output = group.prescribed.outputs["xva".index(variable.lower())]
+    output = group.prescribed.outputs["xva".index(variable.lower().replace("u", "a"))]
     signal = numbering.n + numbering.signals[PortRef(group.prescribed.by.instance, output)]
     scale = ratio / own_ratio
     return signal, scale, offset - scale * own_offset if variable == "x" else 0.0

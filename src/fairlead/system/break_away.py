@@ -97,6 +97,8 @@ def _ways(traced: Traced) -> Iterator[tuple[sympy.Symbol, _Way]]:
 
     for held in traced.zones.values():
         for unknown, row in held.holds.items():
+            if row.gap is not None:  # never lets go
+                continue
             u, (still, speed) = symbol(f"own:{unknown}"), _at_rest(row)
             for guard, limit in _guards(held, u):
                 next_ = traced.zones[guard.to]

@@ -22,6 +22,7 @@ from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.narrowing import Narrowing
 from fairlead.system.ranks import signal_ranks
 from fairlead.system.sizes import nominal_faults
+from fairlead.system.start_places import placed, unfit
 from fairlead.system.start_speeds import started
 from fairlead.system.system import System
 from fairlead.system.unknowns import number
@@ -32,6 +33,8 @@ def compile(flat: FlatModel) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
     kernels = _kernels(flat)
     structures = {path: made.structure for path, made in kernels.items()}
+    if faults := unfit(flat, structures):
+        raise ModelError(faults)
     numbering = number(flat, structures, energy=energy_counted(flat))
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
@@ -41,7 +44,8 @@ def compile(flat: FlatModel) -> System:
     if faults:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
-    return dataclasses.replace(started(system, initially), narrows=Narrowing)
+    system = started(placed(system, initially), initially)
+    return dataclasses.replace(system, narrows=None if system.kept_positions else Narrowing)
 
 
 def energy_counted(flat: FlatModel) -> bool:

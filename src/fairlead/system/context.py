@@ -24,6 +24,7 @@ ADDRESSES = (
     "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
+    "ACCELERATED", "ACCELERATED_MASS",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -31,7 +32,7 @@ COUNTED = {
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
     "N_HOLDS": "holds", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
-    "N_FIXED": "fixed", "N_MOVING": "moving",
+    "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
 }  # fmt: skip
 
 
@@ -48,6 +49,9 @@ def working_arrays(
         "counts": _counts(blocks), "schedule": _schedule(blocks, numbering),
         "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2),
         "inverse_mass": _inverse_mass(flat, numbering),
+        "accelerated": np.array([(numbering.rate[k], a) for k, a in numbering.accelerated.items()],
+                                dtype=np.int64).reshape(-1, 2),
+        "accelerated_mass": np.array([flat.groups[k].mass for k in numbering.accelerated], dtype=float),
         "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
         "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
         "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),

@@ -113,7 +113,10 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
     if index := max((_index(block, owners) for block in blocks), default=1) - 1:
         motion = ("speeds", "positions")[index - 1]
         what = f"{what[:-1]}: what must be zero reads {motion} and not the unknown, so the index is {index + 1}, not 1."
-        way_out = "Write hold(slip) for a sum of speeds that stays zero, or a stiff spring and a damper for the force."
+        way_out = (
+            "Write hold(slip) for a sum of speeds that stays zero, hold_position(gap) for a relation of positions that "
+            "does, or a stiff spring and a damper for the force."
+        )
         return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
     return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
@@ -196,6 +199,8 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
     for x, v in numbering.pairs:
         if algebraic[v]:
             rows_of[v].add(x)
+    for index, a in numbering.accelerated.items():
+        rows_of[a] |= {a, numbering.rate[index]}
     signals = _Signals(numbering, blocks, algebraic)
     for block in blocks:
         s = block.kernel.structure

@@ -32,6 +32,7 @@ SIGNATURES = {
     "switch": (("I8", "float", "F8", "I8", "int"), "int"),
     "slip": (("I8", "float", "F8", "F8"), "int"),
     "drift": (("I8", "float", "F8", "F8"), "None"),
+    "gap": (("I8", "float", "F8", "F8"), "None"),
     "next_time": (("I8", "float"), "float"),
     "at_time": (("I8", "float", "F8"), "int"),
     "outputs": (("I8", "float", "F8", "F8"), "None"),
@@ -78,6 +79,17 @@ def evaluate(ctx, t, y):
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
         w[pairs[2 * k]] = y[pairs[2 * k + 1]]
+    if ctx[N_ACCELERATED] > 0:
+        of_accelerations(ctx, y, w)
+
+
+def of_accelerations(ctx, y, w):
+    """Rows m v' = m a and 0 = forces - m a, where the acceleration is an unknown."""
+    rows, inertia = i8(ctx[ACCELERATED]), f8(ctx[ACCELERATED_MASS])
+    for k in range(0, ctx[N_ACCELERATED]):
+        v, a = rows[2 * k], rows[2 * k + 1]
+        w[v] = inertia[k] * y[a]
+        w[a] -= inertia[k] * y[a]
 
 
 def accelerate(ctx, t, y):
@@ -256,6 +268,11 @@ def drift(ctx, t, y, r):
     slips(ctx, t, y, DRIFT, r)
 
 
+def gap(ctx, t, y, r):
+    """-gap on the rows of relations of positions, zero elsewhere."""
+    slips(ctx, t, y, GAP, r)
+
+
 def next_time(ctx, t):
     """The end of the piece in force that comes first."""
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
@@ -350,7 +367,8 @@ def outputs(ctx, t, y, out):
 
 
 SHARED = (
-    unite, look_around, regroup, add_shares, guard_shares, look, ask, evaluate, accelerate, slips, take_samples,
+    unite, look_around, regroup, add_shares, guard_shares, look, ask, of_accelerations,
+    evaluate, accelerate, slips, take_samples,
     fix, assemble, expand, let_slip, show,
 )  # fmt: skip
 

@@ -73,7 +73,8 @@ def equations(zone: TracedZone, writing: Writing) -> list[str]:
     say = _Say(zone, writing)
     outputs = {name: say(value, leave_out=name) for name, value in zone.outputs.items()}
     lines = _together({name: text for name, text in outputs.items() if not _is_number(text)})
-    lines += [f"{say(row.slip)} is kept at 0 by {name}" for name, row in zone.holds.items()]
+    kept = {name: row.slip if row.gap is None else row.gap for name, row in zone.holds.items()}
+    lines += [f"{say(value)} is kept at 0 by {name}" for name, value in kept.items()]
     lines += [_own(name, value, say, writing) for name, value in zone.own.items() if name not in zone.holds]
     lines += _together(_balances(zone, writing, say) | {n: t for n, t in outputs.items() if _is_number(t)})
     lines += [*_prescribed(writing), *_tied(writing)]

@@ -97,6 +97,9 @@ def _fixed_entries(flat: FlatModel, numbering: Numbering, entries: Entries, m: i
     """Rows x' = v, and the inertia at prescribed nodes; their partial derivative is the constant 1."""
     pairs = np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2)
     entries.add(pairs[:, 0] + m, pairs[:, 1], _zeros(len(pairs)), np.ones(len(pairs)))
+    for index, a in numbering.accelerated.items():  # m v' = m a, 0 = forces - m a; (v, v): its speed is no position
+        v, inertia = numbering.rate[index], flat.groups[index].mass
+        entries.add(np.array([v, a, v]) + m, np.array([a, a, v]), _zeros(3), np.array([inertia, -inertia, 0.0]))
     for row, mass, a in reaction_masses(flat, numbering):
         entries.add(np.array([len(numbering.signals) + row]), np.array([a]), _zeros(1), np.array([mass]))
 

@@ -77,6 +77,7 @@ class KernelFacts:
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             rigid=sorted({u for z in self.zones for u, h in z.holds.items() if h.impulse == h.slip}),
+            positions={u: sorted(h.ratios) for z in self.zones for u, h in z.holds.items() if h.gap is not None},
             silent=self._silent(), rebounds={
                 u: self._restitution(h) for z in self.zones for u, h in z.holds.items() if h.restitution != 0
             },
@@ -165,7 +166,7 @@ class KernelFacts:
             found += [*z.flows.values(), *z.own.values(), *z.outputs.values(), *z.ledger.values()]
             found += [value for g in z.guards for value in g.values]
             for h in z.holds.values():
-                found += [h.slip, h.impulse, h.restitution, *h.rates.values()]
+                found += [h.slip, h.impulse, h.restitution, *h.rates.values(), *([] if h.gap is None else [h.gap])]
         return found
 
     def _pairs(self, values: Any) -> list[tuple[int, int]]:
@@ -192,7 +193,10 @@ class KernelFacts:
             domain = ports[name].domain
             if (domain.across[-1][1], domain.through[1]) in WATTS:
                 power += flow * symbol(f"port:{name}:{'v' if len(domain.across) > 1 else 'x'}")
-        for row in zone.holds.values():
+        for unknown, row in zone.holds.items():
+            if row.gap is not None:  # what it puts on its ports does no work, term by term
+                power += symbol(f"own:{unknown}") * row.slip
+                continue
             speed = symbol(next(iter(row.rates)))
             power = power.subs(speed, speed - row.slip / row.rates[speed.name])
         return sympy.expand(power)

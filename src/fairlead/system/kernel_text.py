@@ -74,6 +74,7 @@ class KernelText:
             layout.MASS: self._mass,
             layout.SLIP: lambda z: self._slip(z, "impulse"),
             layout.DRIFT: lambda z: self._slip(z, "slip"),
+            layout.GAP: lambda z: self._slip(z, "gap"),
             layout.GUARD: self._guards,
             layout.OUTPUT: self._all_outputs,
             layout.SAMPLE: self._sample,
@@ -124,6 +125,7 @@ class KernelText:
         return [
             (f"out[fi[i*{f}+{self.facts.targets.index('own:' + u)}]] = -({{}})", getattr(h, what))
             for u, h in zone.holds.items()
+            if getattr(h, what) is not None
         ]
 
     def _guards(self, zone: TracedZone) -> list[Statement]:

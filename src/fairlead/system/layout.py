@@ -42,7 +42,8 @@ BLOCK = 19
 SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
 FIXED_SIGNALS, FIXED_FLOWS, FIXED_LEDGER, DRIFT = range(11, 15)
 MEMBERS = 15  # of guards that are groups, one after another: (count, members) numbers from the beginning of `out`
-MODES = 16
+GAP = 16  # as SLIP, of relations of positions that are kept
+MODES = 17
 
 DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
 OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance
@@ -143,6 +144,9 @@ WHOLE_ZONES = 89  # those of the whole
 WHOLE_W = 90
 SLIP_SHOWN = 91  # 1 if an output may follow the slip of what is carried
 RATES_SHOWN = 92  # 1 if an output that is shown reads an acceleration or a reaction
-CONTEXT = 93
+N_ACCELERATED = 93  # bodies whose acceleration is an unknown
+ACCELERATED = 94  # int64 (accelerated, 2) their speed and their acceleration
+ACCELERATED_MASS = 95  # float64 (accelerated,)
+CONTEXT = 96
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

@@ -34,7 +34,7 @@ def named_unknowns(flat: FlatModel, numbering: Numbering) -> dict[str, Named]:
         if ref in flat.node_of:
             names |= _of_port(flat, numbering, ref, outer)
     for k, unknown in enumerate(numbering.unknowns):
-        if unknown.kind not in ("ledger", "share"):
+        if unknown.kind not in ("ledger", "share", "acceleration"):
             names[unknown.name] = Named(k, 1.0, 0.0, unknown.unit)
     return names
 

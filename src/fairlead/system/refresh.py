@@ -30,6 +30,7 @@ from fairlead.system.context import ADDRESSES
 from fairlead.system.initial import starts
 from fairlead.system.shares import rows, shares
 from fairlead.system.sizes import nominal_faults
+from fairlead.system.start_places import placed
 from fairlead.system.start_speeds import started
 from fairlead.system.switching import kinks, machine_owners, machine_zones
 from fairlead.system.system import System
@@ -60,7 +61,7 @@ def refreshed(old: System, flat: FlatModel) -> System:
         made = replace(build(flat, numbering, blocks, tables, old.machine_names, begin), narrows=old.narrows)
     else:
         made = _with_numbers(old, flat, numbering, blocks, tables, begin)
-    return started(made, initially)
+    return started(placed(made, initially), initially)
 
 
 def _with_numbers(

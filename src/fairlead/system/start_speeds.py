@@ -17,11 +17,14 @@ from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.asking import call, mass_of
 from fairlead.system.blocks import Block
+from fairlead.system.start_places import ratios_at
 from fairlead.system.system import Floats, Instance, System
 
 RIGID = 2
 AGREES = 1e-9
 """Share of the speeds in a row that its slip may be: numbers in a netlist are rounded."""
+LEVER = 1e-9
+"""Ratio [m, or 1] below which a motion is in its dead centre: its speed does not follow from others."""
 
 
 def started(system: System, initially: Collection[int]) -> System:
@@ -37,10 +40,10 @@ def started(system: System, initially: Collection[int]) -> System:
 
 def start_speeds(system: System, initially: Collection[int]) -> tuple[Floats, list[Fault]]:
     """The unknowns at the start (n,) with speeds that follow, and what contradicts."""
-    if not (system.takes_impulse == RIGID).any():
+    if not (system.takes_impulse >= RIGID).any():
         return system.initial, []
     here, y = system.instance(), system.initial.copy()
-    rows, missing = _rows(here), _missing(system, initially)
+    rows, missing = _rows(here) | _moving_rows(here, y), _missing(system, initially)
     left = dict.fromkeys(rows)
     while left:
         free = {k: [j for j in rows[k] if missing[j]] for k in left}
@@ -66,6 +69,16 @@ def _rows(here: Instance) -> dict[int, dict[int, float]]:
         if here.takes_impulse[k] == RIGID and value != 0.0:
             rows.setdefault(k, {})[j] = value
     return rows
+
+
+def _moving_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
+    """The same of the rows of relations of positions, whose ratios are those at the positions in y."""
+    if not here.kept_positions:
+        return {}
+    ratios = ratios_at(here, y)
+    speeds = [here.numbering.rate[index] for index in here.numbering.accelerated]
+    of_row = {k: zip(speeds, ratios[k].tolist(), strict=True) for k in np.flatnonzero(ratios.any(axis=1)).tolist()}
+    return {k: {j: ratio for j, ratio in pairs if abs(ratio) > LEVER} for k, pairs in of_row.items()}
 
 
 def _missing(system: System, initially: Collection[int]) -> list[bool]:
@@ -97,7 +110,8 @@ def _faults(system: System, block: Block, y: Floats, wrong: set[int]) -> list[Fa
             if k in wrong:
                 ends = " and ".join(_end(system.flat, PortRef(instance.path, port), y, system.numbering.rate)
                                     for port in s.pairs.get(unknown, instance.type.declaration.ports))  # fmt: skip
-                what = f"{instance.path} keeps its ends at one speed, but they start with {ends}."
+                kept = "relation of positions" if unknown in s.positions else "one speed"
+                what = f"{instance.path} keeps its ends at {kept}, but they start with {ends}."
                 faults.append(Fault(instance.where, what, "Give speeds that agree, or leave out all but one of them."))
     return faults
 

@@ -56,6 +56,7 @@ class Structure:
     sines: list[tuple[int, int]]  # places in parameters of (amplitude, angular frequency) of what swings in time
     shares_left: list[tuple[str, str]]  # of friction when a contact lets go, see `break_away`
     rebounds: dict[str, tuple[int, float]]  # unknown that rebounds -> place of its share in parameters or -1, number
+    positions: dict[str, list[str]]  # unknown that keeps a relation of positions -> the ports it reads
     silent: bool  # passes power at its ports and declares no energy
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 

@@ -86,12 +86,16 @@ def holders(blocks: Sequence[Block], n: int) -> Integers:
 
 
 def takes_impulse(blocks: Sequence[Block], n: int) -> Integers:
-    """For each of n rows what it takes where it holds: 0 it never holds, 1 an impulse of rounding, 2 any impulse."""
+    """For each of n rows what it takes where it holds: 0 it never holds, 1 an impulse of rounding, 2 any impulse.
+
+    3 for a relation of positions: any impulse, and it never meets what it keeps.
+    """
     takes = np.zeros(n, dtype=np.int64)
     for block in blocks:
         s = block.kernel.structure
         for unknown in s.holds:
-            takes[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = 2 if unknown in s.rigid else 1
+            most = 3 if unknown in s.positions else 2 if unknown in s.rigid else 1
+            takes[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = most
     return takes
 
 

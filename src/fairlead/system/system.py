@@ -142,8 +142,11 @@ class System:
 
     @property
     def gauge(self) -> NDArray[np.bool_]:
-        """[n]: unknowns that only differ by what is said of one of them, which is chance: how circles share a load."""
-        return np.array([unknown.kind == "share" for unknown in self.numbering.unknowns], dtype=bool)
+        """[n]: unknowns that only differ by what is said of one of them, which is chance: how circles share a load.
+
+        Accelerations too: the error of what they move counts, not their own.
+        """
+        return np.array([unknown.kind in ("share", "acceleration") for unknown in self.numbering.unknowns], dtype=bool)
 
     @property
     def uneven(self) -> list[str]:
@@ -161,6 +164,19 @@ class System:
     def rigid_stops(self) -> list[str]:
         """What is met at a place and then takes any impulse, by name."""
         return [i.path for block in self.blocks if _meets_rigidly(block.kernel.structure) for i in block.instances]
+
+    @property
+    def kept_positions(self) -> list[str]:
+        """What keeps a relation of positions, by name."""
+        return [i.path for block in self.blocks if block.kernel.structure.positions for i in block.instances]
+
+    @functools.cached_property
+    def moves(self) -> Integers:
+        """[k, 3]: position, speed, acceleration (-1: no unknown), where relations of positions are kept; else none."""
+        accelerations = {self.numbering.rate[k]: a for k, a in self.numbering.accelerated.items()}
+        pairs = self.numbering.pairs if accelerations else []
+        rows = [(x, v, accelerations.get(v, -1)) for x, v in pairs if self.differential[v]]
+        return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
     @functools.cached_property
     def rebound(self) -> Floats:

@@ -25,7 +25,7 @@ class Unknown:
     differential: bool
     mass: float  # its diagonal entry of M, 0 when algebraic
     start: float
-    kind: str  # position, rate, potential, state, multiplier, share, ledger
+    kind: str  # position, rate, acceleration, potential, state, multiplier, share, ledger
     nominal: float | None = None  # a size that matters, where its component says one
 
 
@@ -37,6 +37,7 @@ class Numbering:
     position: dict[int, int] = field(default_factory=dict)  # group -> unknown
     rate: dict[int, int] = field(default_factory=dict)
     balance: dict[int, int] = field(default_factory=dict)  # group -> row of its balance
+    accelerated: dict[int, int] = field(default_factory=dict)  # group -> its acceleration, where that is an unknown
     own: dict[tuple[str, str], int] = field(default_factory=dict)
     circles: list[HeldPair] = field(default_factory=list)
     share: dict[int, int] = field(default_factory=dict)  # group in a circle -> unknown, see sharing.py
@@ -90,10 +91,12 @@ class Numbering:
 def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool) -> Numbering:
     """Number all unknowns of the model: groups, own unknowns of components, ledger."""
     made = Numbering()
-    damped = _groups_with_rate_forces(flat, structures)
+    damped, kept = _groups_with_rate_forces(flat, structures), groups_kept(flat, structures)
     for index, group in enumerate(flat.groups):
         if group.free:
             _number_group(made, index, group, rate_matters=index in damped)
+            if index in kept:
+                _number_acceleration(made, index, group)
         else:
             made.reactions[index] = len(made.reactions)
     for instance in flat.instances:
@@ -129,6 +132,23 @@ def _number_group(made: Numbering, index: int, group: Group, *, rate_matters: bo
     )
     made.balance[index] = made.rate[index]
     made.pairs.append((made.position[index], made.rate[index]))
+
+
+def _number_acceleration(made: Numbering, index: int, group: Group) -> None:
+    """A body whose position a relation reads:  m v' = m a,  0 = forces - m a."""
+    unit = f"{group.domain.across[1][1]}^2"  # m/s^2
+    name = f"{group.name}.{group.domain.acceleration}"
+    made.accelerated[index] = made.balance[index] = made.add(Unknown(name, unit, False, 0.0, 0.0, "acceleration"))
+
+
+def groups_kept(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
+    """Groups of the ports that relations of positions read."""
+    return {
+        flat.place(PortRef(instance.path, port))[0]
+        for instance in flat.instances
+        for ports in structures[instance.path].positions.values()
+        for port in ports
+    }
 
 
 def _number_own(made: Numbering, instance: Instance) -> None:

@@ -98,6 +98,7 @@ def widths(s: Structure) -> dict[int, int]:
     """How many numbers an instance says in each mode; the ledger is one sum over all."""
     return {
         layout.SIGNALS: len(s.outputs), layout.FLOWS: len(s.targets), layout.LEDGER: 2, layout.SLIP: len(s.targets),
+        layout.GAP: len(s.targets),
         layout.PARTIALS_SIGNALS: len(s.d_signals), layout.PARTIALS_FLOWS: len(s.d_flows),
         layout.PARTIALS_LEDGER: len(s.d_ledger), layout.MASS: len(s.mass), layout.GUARD: s.slots,
         layout.OUTPUT: len(s.outputs) + 3,

@@ -83,9 +83,9 @@ class World:
         for name, port in has.ports.items():
             if port.domain.mechanical:
                 values |= {f"port:{name}:x": _around(rng, 0.3), f"port:{name}:v": _around(rng, 0.3)}
-                values |= {f"port:{name}:{k}": _around(rng, 10.0) if name in self.prescribed else 0.0 for k in "aA"}
+                values |= {f"port:{name}:{k}": _around(rng, 10.0) if name in self.prescribed else 0.0 for k in "aAU"}
                 if self.prescribed.get(name, "moves") is None:
-                    values |= {f"port:{name}:{k}": 0.0 for k in "vaA"}
+                    values |= {f"port:{name}:{k}": 0.0 for k in "vaAU"}
             else:
                 values[f"port:{name}:x"] = _around(rng, POTENTIAL.get(port.domain.name, 10.0))
             values[f"port:{name}:R"] = _around(rng, 10.0)
@@ -131,6 +131,9 @@ class World:
         for (unknown, j), coefficient in zip(s.mass, rows, strict=True):
             if unknown in found:
                 found[unknown][key(s.inputs[j]).name] = coefficient
+        for unknown, ports in s.positions.items():  # minus the slope of its row by an acceleration
+            stepped = {port: self.flows(at.shifted({f"port:{port}:U": 1.0}, STEP * 1j)) for port in ports}
+            found[unknown] = {port: -float(np.imag(flows[f"own:{unknown}"])) / STEP for port, flows in stepped.items()}
         return found
 
     def solve(self, at: Instant) -> Instant:
@@ -153,7 +156,7 @@ class World:
             if np.abs(change).max() <= 1e-12 * max(1.0, *(abs(values[key]) for key in unknowns)):
                 break
         here = replace(at, values=values)
-        return replace(here, values={**values, **self._accelerations(here)})
+        return replace(here, values={**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
 
     def settle(self, at: Instant, zone: str) -> Instant:
         """Follow the guards from `zone` until none has risen. Raises CircleError naming the circle."""
@@ -198,15 +201,19 @@ class World:
             give = sum(c**2 / self.masses[port] for port, c in rates.items() if port in self.bodies)
             for port, c in rates.items():
                 if port in self.bodies:
-                    values[f"port:{port}:v"] += slips[f"own:{unknown}"] * c / self.masses[port] / give
+                    values[f"port:{port}:v"] += np.real(slips[f"own:{unknown}"]) * c / self.masses[port] / give
         return replace(at, values=values)
 
     def _residual(self, at: Instant) -> list[Any]:
         flows, held = self.flows(at), self.held(at)
         accelerations = self._accelerations(at, flows)
+        moving = self.flows(replace(at, values={**at.values, **accelerations})) if self.structure.positions else {}
         found = []
         for name in self.kind.declaration.unknowns:
             rates = held.get(name)
+            if name in self.structure.positions:
+                found.append(moving[f"own:{name}"])
+                continue
             found.append(
                 flows[f"own:{name}"]
                 if rates is None
@@ -219,8 +226,8 @@ class World:
         given = {
             f"port:{port}:a": at.values[f"port:{port}:a"] for port in self.prescribed if f"port:{port}:a" in at.values
         }
-        free = {f"port:{p}:a": (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies}
-        return given | free
+        free = {p: (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies}
+        return given | {f"port:{p}:{k}": a for p, a in free.items() for k in "aU"}
 
 
 def _around(rng: np.random.Generator, most: float) -> float:
