@@ -78,8 +78,8 @@ def test_compare_shows_error_creep_and_cost_and_failures_with_their_reason(answe
     assert hold["error"] < 1e-4 < binding["error"] < 0.1
     assert hold["creep"] < 1e-12 < binding["creep"] <= 1e-4
     assert hold["steps"] > 0
-    assert (naive["status"], naive["error"]) == ("failed", None)
-    assert "pad (forward <-> backward)" in naive["reason"]
+    assert naive["status"] in ("failed", "budget")  # at one instant, or from instant to instant
+    assert naive["error"] is None
     assert "use method hold, or binding" in naive["reason"]
     assert (tmp_path / "c" / "compare.png").read_bytes().startswith(b"\x89PNG")
 

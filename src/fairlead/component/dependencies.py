@@ -34,7 +34,7 @@ def dependencies(variant: Variant) -> str:
 def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
-    tracing = "declare declaration answers base functions holding hold_rows keys symbols trace values piecewise"
+    tracing = "declare given declaration answers base functions holding hold_rows keys symbols trace values piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
     text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away"
     files += [here.parent / "system" / f"{name}.py" for name in text.split()]
