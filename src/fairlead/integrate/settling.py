@@ -291,8 +291,8 @@ def look_ahead(m):
 
     A contact held at its limit under a growing load and the same contact just sliding, under a load a hair
     below it, must not each send to the other. The slip of the one after a time d is the mean of the other's
-    load over that time; so forces are taken at d/2, where speeds move by d y' + d^2/2 y''. And d is the same
-    for all zones of a settlement.
+    load beyond its limit over that time; so forces are taken at d/2, and with them time and positions, which a limit
+    follows, where speeds move by d y' + d^2/2 y''. And d is the same for all zones of a settlement.
     """
     n = m.n
     y, slope, ahead = reals(m.at_y, n), reals(m.at_slope, n), reals(m.at_y_probe, n)
@@ -305,7 +305,11 @@ def look_ahead(m):
             ahead[k] = y[k] + d * (slope[k] + 0.5 * d * curvature[k])
         else:
             ahead[k] = y[k] + 0.5 * d * curvature[k]
-    evaluate_guards(m, m.t + d, m.at_y_probe, m.at_g_probe)
+    position = indices(m.at_position, m.n_positions)
+    for p in range(m.n_positions):
+        k = position[p]
+        ahead[k] = y[k] + 0.5 * d * (slope[k] + 0.25 * d * curvature[k])
+    evaluate_guards(m, m.t + 0.5 * d, m.at_y_probe, m.at_g_probe)
 
 
 @compiled
