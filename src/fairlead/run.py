@@ -17,12 +17,14 @@ from fairlead.analysis.counts import unreasonable
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger, judged
 from fairlead.analysis.event_rows import EventRows, Rows
+from fairlead.analysis.extremes import Extremes
 from fairlead.analysis.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.released_together import ReleasedTogether
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
+from fairlead.analysis.step_rows import Batches, Thinning, WholeSteps, on_grid
 from fairlead.analysis.strains import Strains
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
@@ -42,7 +44,7 @@ if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording
     from fairlead.system.system import System
 
-SIDES = np.array([0, -1, +1], dtype=np.int8)  # as the results do: ordinary, before an event, after it
+SIDES = np.array([0, -1, +1, 2], dtype=np.int8)  # as the results do: ordinary, before an event, after it, inside a step
 MOST_JUMPS_TOLD = 5
 CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none
 
@@ -63,11 +65,20 @@ class Watch:
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
     event_rows: EventRows | None  # what of events is kept; None: everything
+    accuracy: float
+    steps: WholeSteps = field(init=False)
+    batches: Batches = field(init=False)
+    begun: bool = field(init=False)
+    extremes: Extremes = field(init=False)
+    thinning: Thinning = field(init=False)
     creeping: NDArray[np.int64] = field(init=False)  # columns of what `creep` watches
     metered: NDArray[np.int64] | None = field(init=False, default=None)  # and of what `ledger` does
 
     def __post_init__(self) -> None:
         """Find the columns."""
+        self.steps, self.batches, self.begun = WholeSteps(), Batches(), False
+        self.extremes = Extremes(len(self.recording.recorded))
+        self.thinning = Thinning(self.accuracy, self.chosen)
         columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
         self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
         if "energy.supplied" in columns:
@@ -85,13 +96,16 @@ class Watch:
         self.interruption.due()
 
     def _take(self, block: Block) -> None:
-        rows = Rows(block.t, block.values[:, : self.chosen], block.side)
-        self._write(rows if self.event_rows is None else self.event_rows.take(rows))
+        rows = Rows(block.t, block.values, block.side)
+        for batch in self.batches.take(rows):
+            self.extremes.watch(batch)
+        whole = self.steps.take(rows._replace(values=rows.values[:, : self.chosen]))
+        if whole is not None:
+            self._take_steps(whole)
         self.sink.events(_named(self.system, row) for row in block.events)
         if self.together is not None:
             self.together.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
-        self.limits.watch(block.t, block.values)
         self.strains.watch(block.t, block.values)
         self.below.watch(block.values)
         if self.metered is not None:
@@ -99,11 +113,23 @@ class Watch:
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
 
+    def _take_steps(self, rows: Rows) -> None:
+        if self.event_rows is None:
+            self._write(self.thinning.take(rows, first=not self.begun))
+        else:
+            self._write(self.event_rows.take(on_grid(rows.where(slice(int(self.begun), None)))))
+        self.begun = True
+
     def _write(self, rows: Rows) -> None:
         self.sink.append(rows.t, rows.values, SIDES[rows.side])
 
     def finish(self) -> None:
         """Write what still waits; no block follows."""
+        if (rest := self.steps.rest()) is not None and len(rest.t):
+            self._take_steps(rest)
+        if (rest := self.batches.rest()) is not None:
+            self.extremes.watch(rest)
+        self.limits.take(self.extremes)
         if self.event_rows is not None and (rest := self.event_rows.rest()) is not None:
             self._write(rest)
 
@@ -152,14 +178,14 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system), "limits": limits.plain()}
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
-        on_grid = netlist.record.every is not None
-        event_rows = EventRows(least_jumps(system, recording.chosen, settings.accuracy)) if on_grid else None
+        least = least_jumps(system, recording.chosen, settings.accuracy)
+        event_rows = EventRows(least) if netlist.record.every is not None else None
         asked = _engine_settings(netlist, settings, system, patterns)
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       Strains.of(system, recording.recorded),
                       BelowWeight.of(system, recording.chosen, settings.accuracy), together, progress,
-                      interruption, event_rows)  # fmt: skip
+                      interruption, event_rows, settings.accuracy)  # fmt: skip
         outcome = integrate(system, asked, watch)
         watch.finish()
         interruption.between_blocks = False
@@ -269,7 +295,7 @@ def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, pa
     types = [instance.type for instance in system.flat.instances]
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
-        accuracy=settings.accuracy, record=patterns,
+        accuracy=settings.accuracy, record=patterns, between=True,
         engine=engine_of(settings, system)[0],
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
@@ -306,6 +332,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
         "worst_creep": watch.creep.summary(), "energy": judged(watch.ledger.summary(), watch.system.undeclared),
+        "extremes": watch.extremes.plain([one.name for one in watch.recording.chosen]),
         "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
         "projected": _projected(outcome, watch.system),

@@ -6,12 +6,13 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
-    "most_perturbed", "has_limits", "weighs_guards", "rebounds", "takes_impulses",
+    "most_perturbed", "most_inside", "has_limits", "weighs_guards", "rebounds", "takes_impulses",
     "falling", "dissipated_at", "supplied_at", "samples", "max_passes", "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
-    "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "on_chatter", "start", "stop",
-    "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "least_theta", "fixed_step",
+    "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
+    "start", "stop", "every", "least_gap", "max_step", "first_step", "step_floor", "progress_floor", "dwell",
+    "least_theta", "fixed_step",
 }  # fmt: skip
 OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
@@ -23,7 +24,8 @@ OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
     "core_kind",
     "core_valid", "core_scale", "factored_h", "factored_theta", "zones_differ", "rows_alone", "guessed", "distrusted",
-    "caught_by_row", "limits_vary", "searched", "midway", "replanned", "t_switch", "theta_now", "moved",
+    "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "moved",
+    "searched", "midway", "replanned", "t_switch", "theta_now",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""
 

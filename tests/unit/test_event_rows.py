@@ -9,7 +9,9 @@ import pytest
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger
 from fairlead.analysis.event_rows import AFTER, BEFORE, EventRows, Rows
+from fairlead.analysis.extremes import Extremes
 from fairlead.analysis.limits import Limit
+from fairlead.analysis.step_rows import Batches
 
 LEAST = np.array([1e-3, 1e-3, np.inf])
 
@@ -44,15 +46,19 @@ def told(blocks):
     """All that is kept and told of these blocks."""
     kept, creep, ledger = EventRows(LEAST), WorstCreep(["one", "two", "three"]), Ledger()
     limit = Limit("below 3", np.arange(3), ["one", "two", "three"], 1.0, 3.0, "m")
-    written = []
+    written, batches, extremes = [], Batches(), Extremes(3)
     for block in blocks:
         written.append(kept.take(block))
         creep.watch(block.t, block.values)
         ledger.watch(block.values)
-        limit.watch(block.t, block.values)
+        for batch in batches.take(block):
+            extremes.watch(batch)
+    extremes.watch(batches.rest())
+    limit.take(extremes)
     written += [rest] if (rest := kept.rest()) is not None else []
     rows = [np.concatenate(parts).tobytes() for parts in zip(*written, strict=True)]
-    return rows, kept.kept, kept.jumps.tolist(), repr((creep.summary(), ledger.summary(), limit.nearest))
+    figures = creep.summary(), ledger.summary(), limit.nearest, vars(extremes)
+    return rows, kept.kept, kept.jumps.tolist(), repr(figures)
 
 
 @pytest.mark.parametrize("seed", range(20))

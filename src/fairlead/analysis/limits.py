@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.analysis.extremes import Extremes
 from fairlead.analysis.suggestion import suggest
 from fairlead.errors import Fault, ModelError, did_you_mean, listing
 from fairlead.netlist.limits import MOST_FAULTS
@@ -44,16 +45,16 @@ class Limit:
         name, value, t = self.nearest
         return f"{name} = {value:.6g} {self.unit} at t = {t:.6g} s, allowed: {self.text}"
 
-    def watch(self, t: NDArray[np.float64], rows: NDArray[np.float64]) -> None:
-        """Take recorded rows (k, m)."""
-        if not len(rows):
-            return
-        beyond = self.sense * (rows[:, self.columns] - self.bound)
-        beyond[np.isnan(beyond)] = -np.inf  # says nothing, and must not hide the rows handed over with it
-        k, j = divmod(int(beyond.argmax()), beyond.shape[1])
-        if beyond[k, j] > self.worst:
-            self.worst = float(beyond[k, j])
-            self.nearest = self.names[j], float(rows[k, self.columns[j]]), float(t[k])
+    def take(self, extremes: Extremes) -> None:
+        """Take the extremes of all recorded signals."""
+        highest = self.sense > 0
+        values = (extremes.highest if highest else extremes.lowest)[self.columns]
+        times = (extremes.t_highest if highest else extremes.t_lowest)[self.columns]
+        beyond = self.sense * (values - self.bound)
+        j = int(beyond.argmax())
+        if np.isfinite(beyond[j]):
+            self.worst = float(beyond[j])
+            self.nearest = self.names[j], float(values[j]), float(times[j])
 
 
 @dataclass
@@ -62,10 +63,10 @@ class Limits:
 
     limits: list[Limit] = field(default_factory=list)
 
-    def watch(self, t: NDArray[np.float64], rows: NDArray[np.float64]) -> None:
-        """Take recorded rows."""
+    def take(self, extremes: Extremes) -> None:
+        """Take the extremes of all recorded signals, at the end of a run."""
         for limit in self.limits:
-            limit.watch(t, rows)
+            limit.take(extremes)
 
     def plain(self) -> list[dict[str, object]]:
         """As `run.json` keeps them, with what came nearest so far, so that `fairlead margins` can tell it."""

@@ -132,15 +132,41 @@ class _Judge(RecordedLine):
     def _tensions(self, inside: NDArray[np.bool_]) -> Iterator[tuple[str, Worst]]:
         if self.layers is None or self.total is None:
             return
-        yield "peak", self._worst(self.total, inside, self._element)
-        yield "lowest", self._worst(self.total, inside, self._element, least=True)
-        yield "hose", self._worst(self.layers[0], inside, self._element, least=True)
-        if len(self.layers) > 1:
+        alone = len(self.layers) == 1  # else the sum of two signals, of which no row is known but those recorded
+        yield "peak", self._worst(self.total, inside, self._element, recorded=alone)
+        yield "lowest", self._worst(self.total, inside, self._element, least=True, recorded=alone)
+        yield "hose", self._worst(self.layers[0], inside, self._element, least=True, recorded=True)
+        if not alone:
             inner = self.record["layers"][1]
-            yield "core", self._worst(self.layers[1], inside, lambda k: self.name(inner, k), least=True)
+            yield "core", self._worst(
+                self.layers[1], inside, lambda k: self.name(inner, k), least=True, recorded=True
+            )
 
-    def _worst(self, values: Floats, inside: NDArray[np.bool_], name: Any, *, least: bool = False) -> Worst:
-        """The extreme among what is inside, and where it was."""
+    def _worst(
+        self, values: Floats, inside: NDArray[np.bool_], name: Any, *, least: bool = False, recorded: bool = False
+    ) -> Worst:
+        """The extreme among what is inside, and where it was; of signals as recorded also between their rows."""
+        worst = self._worst_row(values, inside, name, least)
+        return self._between_rows(worst, values, inside, name, least) if recorded else worst
+
+    def _between_rows(self, worst: Worst, values: Floats, inside: NDArray[np.bool_], name: Any, least: bool) -> Worst:
+        """A worse extreme of a signal over the run, if what it belongs to was inside in the rows round it."""
+        for k in range(values.shape[1]):
+            one = self.result.extremes(f"{name(k)}.tension")
+            value, t = (one.lowest, one.t_lowest) if least else (one.highest, one.t_highest)
+            if not (value < worst.value if least else value > worst.value):
+                continue
+            row = int(np.searchsorted(self.result.t, t))
+            rows = [max(row - 1, 0), min(row, len(values) - 1)]
+            if inside[rows, k].all():
+                place = None
+                if self.places is not None and values.shape[1] == self.places.shape[1]:
+                    place = float(np.interp(t, self.result.t, self.places[:, k]))
+                worst = Worst(value, t, name(k), place)
+        return worst
+
+    def _worst_row(self, values: Floats, inside: NDArray[np.bool_], name: Any, least: bool) -> Worst:
+        """The extreme among rows of what is inside, and where it was."""
         masked = np.where(inside, values, math.inf if least else -math.inf)
         row, k = np.unravel_index(int(masked.argmin() if least else masked.argmax()), masked.shape)
         place = None

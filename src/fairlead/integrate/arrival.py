@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from fairlead.integrate.codes import (
+    AFTER,
+    BEFORE,
     BUFFER_FULL,
     CHATTER,
     GO_ON,
     INCONSISTENT,
+    ORDINARY,
+    PASSED,
     REBOUND_RUBS,
     REPLAN,
     SETTLE,
@@ -22,7 +26,7 @@ from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.impulse import RUBBED
 from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import INACCURATE, SINGULAR
-from fairlead.integrate.record import AFTER, BEFORE, ORDINARY, write_row
+from fairlead.integrate.record import shown_end, write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
 from fairlead.integrate.start import NOT_CONSISTENT, keep_positions
@@ -52,6 +56,8 @@ def start(m):
 @compiled
 def arrive(m):
     """Move to the end of the piece; settle there if guards fired or a time event changed anything."""
+    recorded = m.on_grid == 0 or (m.between == 1 and (m.inside > 0 or m.t_piece - m.t_row >= m.least_gap))
+    at_shown = shown_end(m) if recorded else m.at_y_piece
     m.t = m.t_piece
     m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
@@ -84,7 +90,9 @@ def arrive(m):
         # The stop is recorded even when it is no point of the grid.
         off_grid = m.t >= m.stop and m.start + (m.grid_next - 1) * m.every < m.stop - 1e-9 * m.every
         if m.on_grid == 0 or off_grid:
-            write_row(m, m.t, m.at_y, ORDINARY)
+            write_row(m, m.t, at_shown, ORDINARY)
+        elif recorded:
+            write_row(m, m.t, at_shown, PASSED)
     return GO_ON
 
 

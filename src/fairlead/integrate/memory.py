@@ -31,11 +31,12 @@ INTEGERS = (
     "stages",
     "row_capacity", "event_capacity", "max_passes", "max_steps", "max_events",
     # settings
-    "adaptive", "on_grid", "on_chatter", "dense",
+    "adaptive", "on_grid", "between", "most_inside", "on_chatter", "dense",
     # where the run is
     "phase", "crossed", "companion", "judged", "landing", "jacobian_fresh", "retried", "mended", "meters_off",
     "worst", "n_fired", "passes",
-    "one_by_one", "rows", "events", "total_events", "grid_next", "stalls", "culprit", "stop_asked",
+    "one_by_one", "rows", "events", "total_events", "grid_next", "inside", "inside_next",
+    "stalls", "culprit", "stop_asked",
     # the settlement: which violators change, since which pass, the fewest there were, passes since, whether
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
@@ -54,7 +55,7 @@ INTEGERS = (
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "massless", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting",
     "has_limits",
-    "n_quadratures", "rows_slip", "samples", "block_steps",
+    "n_quadratures", "rows_slip", "any_stiff", "samples", "block_steps",
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that
     "searched", "midway", "replanned",
@@ -79,10 +80,10 @@ CALLS = (
 
 NUMBERS = (
     # settings
-    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "gamma",
+    "start", "stop", "every", "least_gap", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "gamma",
     "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
-    "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next",
+    "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_row",
     "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
     "fastest", "moved", "most_moved",
     # stepping only: theta asked for, its rise when zones cycle, theta in force, the step asked for, distances of the
@@ -143,6 +144,7 @@ INDICES = {
     # stepping only: unknowns whose error sets the step, the position of each speed (-1: none), rows that hold now,
     # zones at the start of the step; machines that switched in the trial (missed_impulse.py)
     "controlled": "n", "position_of": "n", "holds": "n", "of_massless": "n", "caught": "n", "rested": "n",
+    "diagonal_slope": "n", "diagonal_mass": "n", "is_stiff": "n",
     "zones_at_start": "n_zones",
     "body_starts": "n_zones_plus_1", "body_speed": "n_body_speed", "body_position": "n_body_speed",
     "continuous": "n_guards", "limit_guard": "n_guards", "kink_guard": "n_guards",

@@ -40,8 +40,9 @@ NEVER = 1e300
 NUMBERS = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
     "total_events", "stop_asked", "failed", "seeking", "driven", "t", "h", "h_wanted", "h_next", "error", "last_error",
-    "theta", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_release", "t_last_switch", "theta_raise",
-    "gap", "gap_before", "t_jump", "t_bent", "growth", "t_growth", "allowed", "allowed_before", "block_steps",
+    "theta", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
+    "theta_raise", "gap", "gap_before", "t_jump", "t_bent", "growth", "t_growth", "allowed", "allowed_before",
+    "block_steps",
     *COUNTS,
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""

@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
-from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_PERTURBED
+from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_BETWEEN, MOST_PERTURBED, PARABOLA, QUARTIC
 from fairlead.integrate.condensing import columns_of, lay_out
 from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
 from fairlead.integrate.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
-from fairlead.integrate.protocol import CALLBACKS, Bytes, Instance, Integers, Problem, Run
+from fairlead.integrate.protocol import CALLBACKS, AnyPattern, Bytes, Instance, Integers, Problem, Run
 from fairlead.integrate.tableau import TABLEAUS, Tableau
 
 BLOCK_NUMBERS, LEAST_ROWS, MOST_ROWS = 1 << 17, 64, 1 << 16
@@ -94,6 +94,9 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
     if stepping:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
+        given |= {
+            "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n),
+        }  # fmt: skip
         given |= {"controlled": controlled(problem), "position_of": position_of(problem)}
         holds = given["hold_row"][problem.guard_machine[problem.guard_machine >= 0]] >= 0
         numbers |= {f"n_{name}": len(given[name]) for name in OF_STEPPING}
@@ -101,6 +104,14 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
     by_zone = {name: len(given.get(name, ())) for name in ("own_slopes", "own_masses")} | {"machines": nz}
     lengths |= {f"{name}_by_zone": KNOWN_ZONES * length if stepping else 0 for name, length in by_zone.items()}
     return Planned(lengths, given, numbers)
+
+
+def diagonal(pattern: AnyPattern, n: int) -> Integers:
+    """[n]: where the entry (k, k) of a matrix is, -1 for none."""
+    found = np.full(n, -1, dtype=np.int64)
+    on_it = np.flatnonzero(np.asarray(pattern.rows) == columns_of(pattern))
+    found[np.asarray(pattern.rows)[on_it]] = on_it
+    return found
 
 
 def _of_contacts(problem: Problem) -> Integers:
@@ -247,7 +258,9 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
         "max_events": most if run.max_events is None else run.max_events,
         "adaptive": int(run.fixed_step is None),
         "on_grid": int(run.every is not None),
-        "every": run.every or 0.0,
+        "every": run.every or 0.0, "between": int(run.between),
+        "least_gap": (run.stop - run.start) / MOST_BETWEEN, "t_row": -NEVER,
+        "most_inside": PARABOLA if run.engine == "stepping" else QUARTIC,
         "on_chatter": REACTIONS[run.on_chatter],
         "start": run.start, "t": run.start, "stop": run.stop,
         "first_step": run.first_step or 0.0,

@@ -200,6 +200,8 @@ class Run:
     """Names of the outputs to record, with * and ?, of a problem that has names for them; None: all."""
     every: float | None = None
     """Record on this grid (and both sides of each event); None: every accepted step."""
+    between: bool = False
+    """Hand over rows inside steps as well, and with a grid the ends of steps (`Block.side`)."""
     engine: Literal["rodas", "stepping", "ida"] = "rodas"
     """rodas: Rosenbrock, every switch located; stepping: zones found inside each step (theta_step.py); ida: BDF
     by SUNDIALS, every switch located (sundials.py), which needs scikit-sundae."""
@@ -260,7 +262,7 @@ class Block(NamedTuple):
     values: Floats
     """[k, n_outputs]."""
     side: NDArray[np.int8]
-    """[k]: 0 an ordinary point, 1 just before an event, 2 just after it."""
+    """[k]: 0 an ordinary point, 1 just before an event, 2 just after it; `between` adds those of record.py."""
     events: np.ndarray
     """Zone changes, dtype EVENT."""
     reached: float

@@ -12,15 +12,21 @@ their speed this is done once for the start of the step and once for its bend, e
 
 from __future__ import annotations
 
-from fairlead.integrate.foreign import compiled, field_at, indices, reals
-from fairlead.integrate.linear import solve
+from fairlead.integrate.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.linear import add_mass_times, solve
+
+STIFF = 100.0
+"""An unknown follows its law within a step when h |df/dy| is so many times its inertia."""
+FURTHEST = 10.0
+"""Times the move that the factors of a step ask for, where a law is less stiff at the point than in the step."""
 
 
 @compiled
 def prepare_rows(m):
-    """Of an accepted step with grid points inside: take slip out of its start and its bend; see `rows_slip`."""
+    """Of an accepted step with rows inside: take slip out of its start and its bend; see `rows_slip`."""
     m.rows_slip = 0
-    if m.start + m.grid_next * m.every >= m.t_piece - 1e-12 * max(abs(m.t_piece), m.every):
+    gridless = m.on_grid == 0 or m.start + m.grid_next * m.every >= m.t_piece - 1e-12 * max(abs(m.t_piece), m.every)
+    if gridless and m.inside == 0:
         return
     row, caught = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_caught, m.n)
     holds, any_holds, any_caught = indices(m.at_holds, m.n), False, False
@@ -94,3 +100,58 @@ def remove_slip(m, at_v):
     for e in range(m.n_hold_mass):
         v[speeds[e]] += b[speeds[e]]
         b[speeds[e]] = 0.0
+
+
+@compiled
+def find_stiff(m, h):
+    """Mark the unknowns that follow a stiff law within the step; 1 if there is any."""
+    slope, mass = indices(m.at_diagonal_slope, m.n), indices(m.at_diagonal_mass, m.n)
+    values, inertia = reals(m.at_jacobian, m.n_jacobian), reals(m.at_mass, m.n_mass)
+    stiff, differential, found = indices(m.at_is_stiff, m.n), indices(m.at_differential, m.n), 0
+    for k in range(m.n):
+        stiff[k] = 0
+        moved = differential[k] == 1 and slope[k] >= 0 and mass[k] >= 0
+        if moved and -values[slope[k]] * h > STIFF * inertia[mass[k]] > 0.0:
+            stiff[k] = 1
+            found = 1
+    return found
+
+
+@compiled
+def balance_stiff(m, t, theta, at_y):
+    """Give unknowns that follow a stiff law at theta, in y, the values at which it balances: f(y) = M y'.
+
+    The midpoint rule leaves a third of a difference ringing in them, and a parabola through both ends of a step knows
+    nothing of the law: nothing as a speed, and much as a force. y' is that of the parabola, and says little here. How
+    far to go along the move that the factors of the step give follows from the residuals before and after it.
+    """
+    n, per_step = m.n, 1.0 / m.h
+    start, end, bend, y = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, n), reals(at_y, n)
+    f, v, b, inert, before = (
+        reals(m.at_f, n), reals(m.at_v, n), reals(m.at_b, n), reals(m.at_x, n), reals(m.at_residual, n),
+    )  # fmt: skip
+    stiff, differential = indices(m.at_is_stiff, n), indices(m.at_differential, n)
+    for k in range(n):
+        v[k] = -(end[k] - start[k] + (1.0 - 2.0 * theta) * bend[k]) * per_step if differential[k] == 1 else 0.0
+        inert[k] = 0.0
+    add_mass_times(m, m.at_v, m.at_x)
+    field_at(m.call_forces, (m.context, t, at_y, m.at_f))
+    for k in range(n):
+        b[k] = f[k] + inert[k] if stiff[k] == 1 else 0.0
+    copy(b, before)
+    m.skip_meters = 1
+    solve(m, m.at_b)
+    m.skip_meters = 0
+    for k in range(n):
+        if stiff[k] == 1:
+            y[k] += b[k]
+    field_at(m.call_forces, (m.context, t, at_y, m.at_f))
+    m.rhs += 2
+    for k in range(n):
+        if stiff[k] == 1:
+            gone = before[k] - f[k] - inert[k]
+            if before[k] * gone > 0.0:
+                y[k] += (min(before[k] / gone, FURTHEST) - 1.0) * b[k]
+            else:
+                y[k] -= b[k]
+        b[k] = 0.0

@@ -17,6 +17,7 @@ from __future__ import annotations
 from math import inf, isfinite
 
 from fairlead.integrate.codes import (
+    BEFORE,
     GO_ON,
     REPLAN,
     SETTLE,
@@ -34,9 +35,9 @@ from fairlead.integrate.known_rows import forget_rows
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.missed_impulse import impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
-from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.record import rows_inside, write_row
 from fairlead.integrate.release import remember
-from fairlead.integrate.rows_between import end_massless, prepare_rows
+from fairlead.integrate.rows_between import end_massless, find_stiff, prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.steady_steps import forget_steps, keep_step, note_rejection
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
@@ -124,13 +125,15 @@ def over_kink(m, h):
 @compiled
 def accept_step(m, h):
     """To the end of the step; how long the next is."""
+    m.any_stiff = find_stiff(m, h)
     m.failed = max(m.failed - 1, 0)
     m.theta_raise = THETA_FALL * m.theta_raise if m.theta_raise > 1e-3 else 0.0
     repeated = m.retried > 0
     accept(m, h, False)
     if m.adaptive == 1:
         keep_step(m, h, repeated)
-    if m.on_grid == 1:
+    if m.on_grid == 1 or m.between == 1:
+        m.inside, m.inside_next = rows_inside(m), 1
         prepare_rows(m)
     if m.seeking > 0:
         m.crossed = 1

@@ -8,14 +8,14 @@ All take the address of the struct first (memory.py) and work on arrays at the a
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import RECORD, SETTLE, STEP_FLOOR
+from fairlead.integrate.codes import BEFORE, RECORD, SETTLE, STEP_FLOOR
 from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.crossing import COMPANION, CROSSING, NONE, first_crossing
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, memory_at, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
 from fairlead.integrate.linear import add_mass_times, factorise_step, solve
-from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.trial import not_finite_here

@@ -6,6 +6,7 @@ from math import inf, isfinite
 
 from fairlead.integrate.codes import (
     ARRIVE,
+    BEFORE,
     GO_ON,
     MAX_EVENTS,
     MAX_STEPS,
@@ -29,7 +30,7 @@ from fairlead.integrate.interpolant import interpolate, prepare_interpolant
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.meters import judge_meters, meter_piece
 from fairlead.integrate.position import way_back
-from fairlead.integrate.record import BEFORE, write_row
+from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
 from fairlead.integrate.settling import all_fall, begin_settling

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 MOST_IN_LEGEND = 8
 SCALES = ("viridis", "plasma", "cividis")
 MOST_POINTS = 8000  # some ten for each pixel column
+FEW_ROWS, PARTS = 1000, 6  # of so few rows the curve between two is drawn in so many straight lines
 MOST_TICKS = 1000
 # Okabe and Ito (2008), Color Universal Design: told apart by colour-blind readers as well.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B")
@@ -36,7 +37,7 @@ def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
     for number, names in enumerate(scaled.values()):
         _draw_family(ax, result, names, SCALES[number % len(SCALES)])
     for number, name in enumerate(single):
-        ax.plot(*thinned(result.t, result[name]), color=COLOURS[number % len(COLOURS)], label=name)
+        ax.plot(*thinned(*smooth(result, name)), color=COLOURS[number % len(COLOURS)], label=name)
     if single:
         # Above the axes: inside, it would sooner or later hide what the reader looks for.
         ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0.2, handlelength=1.4)
@@ -44,6 +45,17 @@ def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
     if len(result.t) > 1 and result.t[-1] > result.t[0]:
         ax.set_xlim(result.t[0], result.t[-1])
     _draw_ticks(ax, np.array([event.t for event in result.events]))
+
+
+def smooth(result: Result, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The rows of a signal, and where they are few the points between them that `Result.at` tells."""
+    t, y = result.t, result[name]
+    if not 1 < len(t) <= FEW_ROWS:
+        return t, y
+    share = np.arange(1, PARTS) / PARTS
+    between = (t[:-1, None] + share * np.diff(t)[:, None])[np.diff(t) > 0.0].ravel()
+    after = np.searchsorted(t, between)
+    return np.insert(t, after, between), np.insert(y, after, result.at(name, between))
 
 
 def thinned(t: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -79,7 +91,7 @@ def _draw_family(ax: Axes, result: Result, names: list[str], scale: str) -> None
     elements = [family(name)[1] for name in names]
     numbers = [index if element is None else element for index, element in enumerate(elements)]
     lines = LineCollection(
-        [np.column_stack(thinned(result.t, result[name])) for name in names], cmap=scale, linewidths=0.8
+        [np.column_stack(thinned(*smooth(result, name))) for name in names], cmap=scale, linewidths=0.8
     )
     lines.set_array(np.array(numbers, dtype=float))
     ax.add_collection(lines)

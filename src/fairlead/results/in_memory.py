@@ -31,7 +31,7 @@ class MemorySeries:
         return self._t
 
     def side(self) -> NDArray[np.int8]:
-        """Return -1 left of an event, +1 right of it, 0 elsewhere (n,)."""
+        """Return -1 left of an event, +1 right of it, 2 inside a step, 0 elsewhere (n,)."""
         return self._side
 
     def values(self, names: list[str]) -> NDArray[np.float64]:

@@ -31,7 +31,7 @@ MOST_VARIABLES = 500
 MOST_ROWS = 2**40
 TIME, SIDE, MATRIX = "time", "side", "values"
 TIME_SIGNAL = Signal(TIME, "s", "time; an event's time occurs twice")
-SIDE_SIGNAL = Signal(SIDE, "1", "-1 left of an event, +1 right of it, 0 elsewhere")
+SIDE_SIGNAL = Signal(SIDE, "1", "-1 left of an event, +1 right of it, 2 inside a step, 0 elsewhere")
 FORMAT = "fairlead-series-1"
 
 

@@ -82,6 +82,9 @@ class Limit(_Entry):
     nearest: Annotated[tuple[str, FiniteFloat, FiniteFloat], Field(strict=False)] | None = None
 
 
+FourNumbers = Annotated[tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat], Field(strict=False)]
+
+
 def check_head(file: Path, record: Mapping[str, Any]) -> None:
     """Refuse a run.json, `file`, whose head is damaged. Raises DamagedResultsError."""
     _valid(Head, file, record, ())
@@ -101,6 +104,11 @@ def routes(file: Path, record: Mapping[str, Any]) -> list[dict[str, Any]]:
 def limits(file: Path, record: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return the limits of a run from its run.json, `file`. Raises DamagedResultsError."""
     return [one.model_dump() for one in _valid(list[Limit], file, record.get("limits") or [], ("limits",))]
+
+
+def extremes(file: Path, record: Mapping[str, Any]) -> dict[str, tuple[float, float, float, float]]:
+    """Return lowest value, when, highest, when, by signal, of a run from its run.json, `file`. DamagedResultsError."""
+    return _valid(dict[str, FourNumbers], file, record.get("extremes") or {}, ("extremes",))
 
 
 def _valid(kind: type[T], file: Path, value: Any, above: tuple[str, ...]) -> T:

@@ -44,7 +44,8 @@ class Sink(abc.ABC):
         """Record rows: times `t` (k,) [s], `values` (k, m) in SI, `side` (k,).
 
         At an event the time occurs twice: with side -1 and the values on its left, then with side +1
-        and those on its right. Everywhere else side is 0. The arrays are copied.
+        and those on its right. A row inside a step, on the curve through the rows of the step, has side 2, every
+        other side 0. The arrays are copied.
         """
         rows = np.array(t, dtype="f8", ndmin=1)
         block = (

@@ -16,13 +16,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
+from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.kept import earlier
@@ -44,6 +45,15 @@ class UnknownSignalError(FairleadError, KeyError):
 
     def __str__(self) -> str:
         return str(self.args[0])  # KeyError would show the message in quotes.
+
+
+class Extremes(NamedTuple):
+    """The lowest and the highest value of a signal, in its unit, and when [s]."""
+
+    lowest: float
+    t_lowest: float
+    highest: float
+    t_highest: float
 
 
 class Series(Protocol):
@@ -112,8 +122,35 @@ class Result:
 
     @cached_property
     def side(self) -> NDArray[np.int8]:
-        """Return -1 in rows on the left of an event, +1 on its right, 0 elsewhere (n,)."""
+        """Return -1 in rows on the left of an event, +1 on its right, 2 inside a step, 0 elsewhere (n,)."""
         return self._mine(self._series.side)
+
+    @cached_property
+    def _curves(self) -> Curves:
+        switches = None
+        if self.run.get("record_every"):
+            switches = np.array([event.t for event in self.events], dtype="f8")
+        return Curves(self.t, self.side, switches)
+
+    @cached_property
+    def _extremes(self) -> Mapping[str, tuple[float, float, float, float]]:
+        from fairlead.results.run_schema import extremes
+
+        return extremes(self.named(run_file.RUN_FILE), self.run)
+
+    def extremes(self, name: str) -> Extremes:
+        """The lowest and the highest value of a signal over the run, and when: (lowest, t_lowest, highest, t_highest).
+
+        They come from the dense output of every step, whatever was recorded; of a run that was killed, from its rows.
+        """
+        self._signal(name)
+        if name in self._extremes:
+            return Extremes(*self._extremes[name])
+        values = self[name]
+        if not np.isfinite(values).any():
+            return Extremes(np.nan, np.nan, np.nan, np.nan)
+        low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+        return Extremes(float(values[low]), float(self.t[low]), float(values[high]), float(self.t[high]))
 
     @cached_property
     def events(self) -> list[Event]:
@@ -165,7 +202,9 @@ class Result:
     def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
         """Return the value of a signal at the times `t` [s] (a number or an array).
 
-        Between two recorded rows the value is interpolated linearly, but never across an event: the
+        Between two recorded rows the value is that of the dense output of the step, within the accuracy of the run,
+        where every step was recorded. On a grid (`record.every`) it is that of a cubic through four rows, where nothing
+        switches between them, or of a straight line (`results/curves.py`). Nothing goes across an event: the
         rows on both sides of it have the same time. At an event itself `side` chooses the value
         before it (`left`), after it (`right`) or both, as a last axis of length 2.
 
@@ -176,10 +215,10 @@ class Result:
             reached = f"from {self.t[0]:g} s to {self.t[-1]:g} s" if len(self.t) else "at no time"
             raise FairleadError(f"{name} was recorded {reached}; there is no value at t = {times} s.")
         if side == "both":
-            return np.stack([_before(self.t, values, times), _after(self.t, values, times)], axis=-1)
+            return np.stack([self._curves.before(values, times), self._curves.after(values, times)], axis=-1)
         if side not in ("left", "right"):
             raise FairleadError(f"side = {side!r} is none of left, right, both.")
-        found = _before(self.t, values, times) if side == "left" else _after(self.t, values, times)
+        found = self._curves.before(values, times) if side == "left" else self._curves.after(values, times)
         return found if found.ndim else float(found)
 
     def events_table(self) -> pandas.DataFrame:
@@ -287,28 +326,3 @@ def _unreadable(path: Path, status: str) -> str:
         f"The run in {path} was {status} before its first rows were written, within its first second; there is nothing "
         f"to read.\n    {way_out}"
     )
-
-
-def _before(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> Any:
-    """Return the values at `at`; where a recorded time is hit, its first row counts."""
-    right = np.searchsorted(t, at, side="left")
-    return _between(t, values, np.maximum(right - 1, 0), right, at)
-
-
-def _after(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> Any:
-    """Return the values at `at`; where a recorded time is hit, its last row counts."""
-    left = np.searchsorted(t, at, side="right") - 1
-    return _between(t, values, left, np.minimum(left + 1, len(t) - 1), at)
-
-
-def _between(
-    t: NDArray[np.float64],
-    values: NDArray[np.float64],
-    left: NDArray[np.intp],
-    right: NDArray[np.intp],
-    at: NDArray[np.float64],
-) -> Any:
-    """Return the straight line between rows `left` and `right`; a row that is hit gives its own value."""
-    width = np.where(t[right] > t[left], t[right] - t[left], 1.0)
-    share = np.clip((at - t[left]) / width, 0.0, 1.0)
-    return (1 - share) * values[left] + share * values[right]

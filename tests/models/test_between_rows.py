@@ -1,0 +1,119 @@
+"""Values between recorded rows, and extremes, against closed forms: a mass on a spring, x = cos(3 t)."""
+
+import numpy as np
+import pytest
+
+from fairlead.analysis import event_rows, step_rows
+from fairlead.analysis.event_rows import Rows
+from fairlead.analysis.extremes import Extremes
+from fairlead.integrate import codes
+
+SWING = """
+    components:
+      ground: {type: Ground}
+      block: {type: Mass, mass: 1 kg, position: 1 m}
+      spring: {type: Spring, stiffness: 9 N/m}
+      shaker: {type: MotionSource, velocity: {sine: {amplitude: 2 m/s, frequency: 0.5 Hz}}}
+      idle: {type: Mass, mass: 1 kg}
+    connections:
+      - [ground.flange, spring.a]
+      - [spring.b, block.flange]
+      - [shaker.flange, idle.flange]
+    run: {stop: 9.7 s}
+    record: {signals: [block.x, block.v, shaker.v]EVERY}
+"""
+ENGINES = ["rodas", "stepping", pytest.param("ida", marks=pytest.mark.slow)]
+ACCURACIES = [1e-3, pytest.param(1e-6, marks=pytest.mark.slow)]
+
+
+def swing(simulate, engine, accuracy, every=""):
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    return simulate(SWING.replace("EVERY", every), **{"run.engine": engine, "run.accuracy": accuracy})
+
+
+def wrong(result, times):
+    """Largest errors of position and speed, in those of the swing."""
+    x, v = result.at("block.x", times), result.at("block.v", times)
+    return max(np.abs(x - np.cos(3 * times)).max(), np.abs(v + 3 * np.sin(3 * times)).max() / 3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("accuracy", ACCURACIES)
+def test_values_between_rows_are_within_the_accuracy_and_that_of_the_rows(simulate, engine, accuracy):
+    result = swing(simulate, engine, accuracy)
+    at_rows = max(np.abs(result["block.x"] - np.cos(3 * result.t)).max(), 1e-9)
+    times = np.random.default_rng(1).uniform(0.0, 9.7, 3000)
+    assert wrong(result, times) < accuracy + 1.5 * at_rows
+    shaken = 2 * np.sin(np.pi * times)  # nothing that moves by itself follows it
+    np.testing.assert_allclose(result.at("shaker.v", times), shaken, atol=2 * accuracy)
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+def test_on_a_grid_values_between_rows_are_those_of_cubics(simulate, engine):
+    """Rows 0.06 rad apart: straight lines are off by 0.06^2/8 = 4.5e-4, cubics by (3/128) 0.06^4 = 3e-7."""
+    result = swing(simulate, engine, 1e-6, ", every: 20 ms")
+    times = np.random.default_rng(1).uniform(0.2, 9.5, 3000)
+    assert wrong(result, times) < 2e-5  # where a curve has no bend four rows may be taken for none
+    assert np.abs(np.interp(times, result.t, result["block.x"]) - np.cos(3 * times)).max() > 4e-4
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("every", ["", ", every: 0.25 s", ", every: 5 s"])
+def test_extremes_are_those_of_the_motion_whatever_is_recorded(simulate, engine, every):
+    result = swing(simulate, engine, 1e-4, every)
+    error = 1e-9 + np.abs(result["block.x"] - np.cos(3 * result.t)).max()
+    for name, size in (("block.x", 1.0), ("block.v", 3.0), ("shaker.v", 2.0)):
+        low, t_low, high, t_high = result.extremes(name)
+        assert low == pytest.approx(-size, abs=size * (1e-4 + 2 * error))
+        assert high == pytest.approx(size, abs=size * (1e-4 + 2 * error))
+        assert 0.0 <= min(t_low, t_high) <= max(t_low, t_high) <= 9.7
+    assert abs(np.sin(3 * result.extremes("block.x").t_lowest)) < 0.03
+
+
+def test_a_limit_is_broken_between_two_recorded_rows(simulate, scene):
+    """Rows at t = 0 and 5 s only; the speed passes 2.9 m/s meanwhile."""
+    text = SWING.replace("EVERY", ", every: 5 s") + "    limits: {block.v: {below: 2.9 m/s}}\n"
+    result = simulate(text)
+    assert np.abs(result["block.v"]).max() < 2.9
+    (said,) = result.run["limits_broken"]
+    assert "2.99" in said or "3" in said
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+def test_no_extreme_is_beyond_the_friction_there_is(simulate, engine):
+    """A contact that slips to and fro: its friction is +-2 N and jumps, and no curve goes over the jumps."""
+    result = simulate("""
+        components:
+          ground: {type: Ground}
+          block: {type: Mass, mass: 1 kg, position: 1 m}
+          spring: {type: Spring, stiffness: 9 N/m}
+          pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 0.2, coulomb: 0.2}}
+        connections:
+          - [ground.flange, spring.a, pad.a]
+          - [spring.b, block.flange, pad.b]
+        run: {stop: 4 s}
+        record: {signals: [pad.friction, block.x]}
+    """, **{"run.engine": engine})
+    low, _, high, _ = result.extremes("pad.friction")
+    assert low >= -2.0 * (1 + 1e-6)
+    assert high <= 2.0 * (1 + 1e-6)
+    times = np.linspace(0.0, 4.0, 5001)
+    assert np.abs(result.at("pad.friction", times)).max() <= 2.0 * (1 + 1e-6)
+
+
+def test_rows_are_numbered_as_the_engine_numbers_them():
+    names = ("ORDINARY", "INSIDE", "PASSED", "INSIDE_PASSED", "GRID")
+    assert [getattr(step_rows, name) for name in names] == [getattr(codes, name) for name in names]
+    assert (event_rows.BEFORE, event_rows.AFTER) == (codes.BEFORE, codes.AFTER)
+
+
+def test_the_extreme_of_a_quartic_is_found_between_the_rows_of_its_step():
+    t = np.linspace(0.0, 1.0, 5)
+    side = np.array([0, codes.INSIDE, codes.INSIDE, codes.INSIDE, 0], np.int8)
+    values = np.stack([t * (1 - t) ** 3, -t * (1 - t)], axis=1)
+    extremes = Extremes(2)
+    extremes.watch(Rows(t, values, side))
+    np.testing.assert_allclose(extremes.highest, [27 / 256, 0.0], atol=1e-6)
+    np.testing.assert_allclose(extremes.lowest, [0.0, -0.25], atol=1e-9)
+    np.testing.assert_allclose(extremes.t_highest[0], 0.25, atol=5e-3)
