@@ -121,18 +121,21 @@ def find_stiff(m, h):
 def balance_stiff(m, t, theta, at_y):
     """Give unknowns that follow a stiff law at theta, in y, the values at which it balances: f(y) = M y'.
 
-    The midpoint rule leaves a third of a difference ringing in them, and a parabola through both ends of a step knows
-    nothing of the law: nothing as a speed, and much as a force. y' is that of the parabola, and says little here. How
-    far to go along the move that the factors of the step give follows from the residuals before and after it.
+    The midpoint rule leaves a third of a difference ringing in them, and the dense output inside a step knows
+    nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and says little here.
+    How far to go along the move that the factors of the step give follows from the residuals before and after it.
     """
     n, per_step = m.n, 1.0 / m.h
-    start, end, bend, y = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, n), reals(at_y, n)
+    start, end, D, y = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, 3 * n), reals(at_y, n)
     f, v, b, inert, before = (
         reals(m.at_f, n), reals(m.at_v, n), reals(m.at_b, n), reals(m.at_x, n), reals(m.at_residual, n),
     )  # fmt: skip
     stiff, differential = indices(m.at_is_stiff, n), indices(m.at_differential, n)
     for k in range(n):
-        v[k] = -(end[k] - start[k] + (1.0 - 2.0 * theta) * bend[k]) * per_step if differential[k] == 1 else 0.0
+        bend = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
+        turn = theta * (1.0 - theta) * (D[n + k] + 2.0 * theta * D[2 * n + k])
+        slope = end[k] - start[k] + (1.0 - 2.0 * theta) * bend + turn
+        v[k] = -slope * per_step if differential[k] == 1 else 0.0
         inert[k] = 0.0
     add_mass_times(m, m.at_v, m.at_x)
     field_at(m.call_forces, (m.context, t, at_y, m.at_f))

@@ -33,6 +33,7 @@ from fairlead.integrate.position import way_back
 from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.rosenbrock import midpoint_defect, take_step
+from fairlead.integrate.rows_between import find_stiff
 from fairlead.integrate.settling import all_fall, begin_settling
 
 DOUBT = 0.1
@@ -88,6 +89,7 @@ def attempt(m):
         begin_settling(m)
         m.phase = SETTLE
         return GO_ON
+    m.any_stiff = find_stiff(m, h)
     accept(m, h, found == CROSSING)
     return GO_ON
 
