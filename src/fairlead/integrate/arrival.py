@@ -56,18 +56,19 @@ def start(m):
 @compiled
 def arrive(m):
     """Move to the end of the piece; settle there if guards fired or a time event changed anything."""
+    if m.rows + 4 > m.row_capacity:
+        return BUFFER_FULL
     recorded = m.on_grid == 0 or (m.between == 1 and (m.inside > 0 or m.t_piece - m.t_row >= m.least_gap))
     at_shown = shown_end(m) if recorded else m.at_y_piece
     m.t = m.t_piece
     m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
     m.jacobian_fresh = 0
-    if m.rows + 4 > m.row_capacity:
-        return BUFFER_FULL
     if m.n_moves > 0:
         if keep_positions(m) == INACCURATE:
             return REPLAN
         judge_again(m)
+        at_shown = m.at_y
     m.phase = TRY
     event_due = m.landing == 1 and (m.t < m.stop and m.t >= min(m.t_next, m.t_release))
     if m.crossed == 1:
