@@ -105,7 +105,7 @@ def test_what_moves_with_the_end_may_be_left_out(simulate, monkeypatch, line, en
     monkeypatch.setattr(parts, "LEAST", 10**9)
     whole = simulate(scene, **{"run.engine": engine})
     assert whole.run["counters"]["partial_steps"] == 0
-    assert part.run["counters"]["partial_steps"] > 0.7 * part.run["counters"]["steps"]
+    assert part.run["counters"]["partial_steps"] > 0.5 * part.run["counters"]["steps"]  # when it looks is by steps
     near = {"rodas": 1e-6, "stepping": 5e-5}[engine]
     for name in part.match("line.*node[*].x")[::9]:
         assert on_the_grid(part, name) == pytest.approx(on_the_grid(whole, name), abs=near), name

@@ -141,6 +141,7 @@ def _once(model: Any, cap: float) -> tuple[Any, float]:
             raise KeyboardInterrupt
         result.columns()
         assert result.t is not None
+        assert result.side is not None
         assert result.events is not None
         return result, min(share, 1.0)
 

@@ -290,26 +290,38 @@ def look_ahead(m):
     """Guards a little later, along (y', y''), into `g_probe`; algebraic unknowns move as the equations say.
 
     A contact held at its limit under a growing load and the same contact just sliding, under a load a hair
-    below it, must not each send to the other. The slip of the one after a time d is the mean of the other's
-    load beyond its limit over that time; so forces are taken at d/2, and with them time and positions, which a limit
-    follows, where speeds move by d y' + d^2/2 y''. And d is the same for all zones of a settlement.
+    below it, must not each send to the other. The slip of the one after a time d is the mean over that time of what
+    the other's load is beyond its limit; so guards of slips are taken at d, all others at d/2. And d is the same for
+    all zones of a settlement. Where no guard is known for a slip, forces alone are taken at d/2.
     """
+    if m.look == 0.0:
+        m.look = distance_to_look(m)
+    if m.weighs_guards == 0:
+        move_ahead(m, m.look, 0.5 * m.look)
+        evaluate_guards(m, m.t + m.look, m.at_y_probe, m.at_g_probe)
+        return
+    inertia, probe = reals(m.at_guard_inertia, m.n_guards), reals(m.at_g_probe, m.n_guards)
+    late = reals(m.at_g_ahead, m.n_guards)
+    move_ahead(m, m.look, m.look)
+    evaluate_guards(m, m.t + m.look, m.at_y_probe, m.at_g_ahead)
+    move_ahead(m, 0.5 * m.look, 0.5 * m.look)
+    evaluate_guards(m, m.t + 0.5 * m.look, m.at_y_probe, m.at_g_probe)
+    for i in range(m.n_guards):
+        if inertia[i] > 0.0:
+            probe[i] = late[i]
+
+
+@compiled
+def move_ahead(m, d, forces):
+    """Set `y_probe` to the point moved by the time d along (y', y''), algebraic unknowns by the time `forces`."""
     n = m.n
     y, slope, ahead = reals(m.at_y, n), reals(m.at_slope, n), reals(m.at_y_probe, n)
     curvature, differential = reals(m.at_curvature, n), indices(m.at_differential, n)
-    if m.look == 0.0:
-        m.look = distance_to_look(m)
-    d = m.look
     for k in range(n):
         if differential[k] == 1:
             ahead[k] = y[k] + d * (slope[k] + 0.5 * d * curvature[k])
         else:
-            ahead[k] = y[k] + 0.5 * d * curvature[k]
-    position = indices(m.at_position, m.n_positions)
-    for p in range(m.n_positions):
-        k = position[p]
-        ahead[k] = y[k] + 0.5 * d * (slope[k] + 0.25 * d * curvature[k])
-    evaluate_guards(m, m.t + 0.5 * d, m.at_y_probe, m.at_g_probe)
+            ahead[k] = y[k] + forces * curvature[k]
 
 
 @compiled
