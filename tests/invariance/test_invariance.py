@@ -22,7 +22,8 @@ from tests.invariance.settings import in_force, settings
 from tests.invariance.trials import PLAIN, Trial, differences, play, trials
 from tests.scenes.networks import network
 
-FEW = [one for one in bundled() if one.name == "belt"] + random_plays((1, 2, 3, 5, 6, 11, 60), (3, 8))
+FEW = [one for one in bundled() if one.name in ("belt", "weak_clamp")] + random_plays((1, 2, 3, 5, 6, 18, 60), (4, 8))
+"""Among them contacts in circles (network 18), stiff turns on a drum (route 4), fronts from two sides (weak_clamp)."""
 AT_ONCE = ("PYTHONHASHSEED", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES")
 """Settings that are tried together here: code for another processor would have to be compiled first."""
 

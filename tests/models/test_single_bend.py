@@ -15,6 +15,8 @@ import math
 import numpy as np
 import pytest
 
+import fairlead
+
 RUCK = -160.0  # N, 2 % strain of the hose
 CAPSTAN = {mu: 800.0 * math.exp(mu * math.pi / 2) for mu in (0.35, 0.60)}
 METHODS = pytest.mark.parametrize("method", ["hold", "binding"])
@@ -97,3 +99,10 @@ def test_at_low_friction_hose_and_core_have_one_speed_on_the_bend(bend) -> None:
     places = result.columns(result.match("line.hose_node[*].x"))[late][:, 1:-1]
     on_bend = (places > 3.25) & (places < 3.0 + math.pi / 2 - 0.25)
     assert np.median(np.abs(slip[on_bend])) < 1e-4
+
+
+def test_a_load_that_rises_at_its_limit_is_seen_to_rise() -> None:
+    """A contact at its limit, which follows a tension: taken for falling, steps were repeated to the floor."""
+    settings = {"mu": "0.6", "method": "hold", "run.stop": "5 s", "run.accuracy": "1e-6"}
+    counters = fairlead.load("single_bend", set=settings).run(out=None).run["counters"]
+    assert counters["rejected_companion"] < 0.01 * counters["steps"]
