@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.analysis.below_weight import BelowWeight
+from fairlead.analysis.beside_its_laws import WAY_OUT, beside_its_laws, few
 from fairlead.analysis.counts import unreasonable
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger, judged
@@ -215,7 +216,7 @@ def _explained(outcome: Outcome) -> Outcome:
         if controller.failure is not None:
             return dataclasses.replace(outcome, status=Status.NOT_FINITE, sentence=controller.complaint)
     if outcome.status == Status.NOT_FINITE and (beyond := beyond_their_tables(outcome.problem)):
-        said = f"t = {outcome.t:.6g} s: {_few(beyond)} moved beyond the range in which its law has values."
+        said = f"t = {outcome.t:.6g} s: {few(beyond)} moved beyond the range in which its law has values."
         return dataclasses.replace(outcome, sentence=said, culprits=tuple(beyond))
     return outcome
 
@@ -243,33 +244,31 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
     engine, reason = choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
     if engine == "stepping" and (names := timed_limits(system, settings.start, settings.stop)):
-        return "rodas", f"auto: it locates every switch, and the force limit of {_few(names)} varies in time"
+        return "rodas", f"auto: it locates every switch, and the force limit of {few(names)} varies in time"
     return engine, reason
 
 
 def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
     """What the engine that `run.engine` asks for cannot do well in this model."""
-    names = timed_limits(system, settings.start, settings.stop) if settings.engine == "stepping" else []
-    if not names:
+    if settings.engine != "stepping":
         return []
+    found = list(beside_its_laws(system, settings.accuracy))
+    names = timed_limits(system, settings.start, settings.stop)
+    if not names:
+        return found
     what = (
         f"run.engine: stepping rounds the instants at which contacts let go to its steps, and the force limit of "
-        f"{_few(names)} varies in time: an error of some percent may not follow the accuracy."
+        f"{few(names)} varies in time: an error of some percent may not follow the accuracy."
     )
     where = next(instance.where for instance in system.flat.instances if instance.path == names[0])
-    return [Fault(where, what, "Take run.engine: rodas (or auto).")]
-
-
-def _few(names: Sequence[str]) -> str:
-    """Three of them, and how many follow."""
-    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    return [*found, Fault(where, what, WAY_OUT)]
 
 
 def _uneven(contacts: list[str]) -> str:
     """Why `stepping` does not take these contacts."""
     return (
         "run.engine: stepping does not hold contacts between a node with mass and one without "
-        f"({_few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
+        f"({few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
         "rodas (or auto)."
     )
 
@@ -277,7 +276,7 @@ def _uneven(contacts: list[str]) -> str:
 def _kept(engine: str, parts: list[str]) -> str:
     """Why another engine than `rodas` does not take relations of positions."""
     return (
-        f"run.engine: {engine} does not bring positions back to what {_few(parts)} keeps after every step, so they "
+        f"run.engine: {engine} does not bring positions back to what {few(parts)} keeps after every step, so they "
         "would drift. Take run.engine: rodas (or auto)."
     )
 
@@ -285,7 +284,7 @@ def _kept(engine: str, parts: list[str]) -> str:
 def _met_rigidly(stops: list[str]) -> str:
     """Why `stepping` does not take these stops."""
     return (
-        f"run.engine: stepping rounds switches to its steps, and a rigid stop ({_few(stops)}) is met at an instant, "
+        f"run.engine: stepping rounds switches to its steps, and a rigid stop ({few(stops)}) is met at an instant, "
         "with an impulse. Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether)."
     )
 

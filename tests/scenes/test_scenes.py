@@ -12,8 +12,8 @@ FEW = [*((network, seed) for seed in range(len(KINDS))), *((route, seed) for see
 MANY = [*((network, seed) for seed in range(len(KINDS), 100)), *((route, seed) for seed in range(3, 40))]
 
 
-EXPECTED = "varies in time: an error of some percent"
-"""What is remarked on where a scene asks for `stepping` and the limit of a contact is given in time."""
+EXPECTED = "run.engine: stepping"
+"""What is remarked on where a scene asks for `stepping` and has laws that it is not made for."""
 
 
 def played(make, seed, folder):
