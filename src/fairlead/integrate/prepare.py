@@ -89,13 +89,13 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
         "mass_columns": columns_of(problem.mass_pattern),
         **{f"move_{name}": np.ascontiguousarray(problem.moves[:, k], np.int64) for k, name in enumerate(MOVES)},
-        "speed_of": speed_of(problem), "diagonal_slope": diagonal(problem.pattern, n),
-        "diagonal_mass": diagonal(problem.mass_pattern, n), **plan.arrays,
+        "speed_of": speed_of(problem), "position_of": position_of(problem),
+        "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n), **plan.arrays,
     }  # fmt: skip
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
     if stepping:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
-        given |= {"controlled": controlled(problem), "position_of": position_of(problem)}
+        given |= {"controlled": controlled(problem)}
         holds = given["hold_row"][problem.guard_machine[problem.guard_machine >= 0]] >= 0
         numbers |= {f"n_{name}": len(given[name]) for name in OF_STEPPING}
         numbers |= {"n_free_guards": int(np.count_nonzero(~holds)), "n_known": KNOWN_ZONES * nz}

@@ -104,13 +104,16 @@ def remove_slip(m, at_v):
 
 @compiled
 def find_stiff(m, h):
-    """Mark the unknowns that follow a stiff law within the step; 1 if there is any."""
+    """Mark the speeds that follow a stiff law within the step; 1 if there is any.
+
+    Speeds alone: what they hold of the energy is nothing. A pressure that is shown elsewhere has another energy.
+    """
     slope, mass = indices(m.at_diagonal_slope, m.n), indices(m.at_diagonal_mass, m.n)
     values, inertia = reals(m.at_jacobian, m.n_jacobian), reals(m.at_mass, m.n_mass)
-    stiff, differential, found = indices(m.at_is_stiff, m.n), indices(m.at_differential, m.n), 0
+    stiff, position, found = indices(m.at_is_stiff, m.n), indices(m.at_position_of, m.n), 0
     for k in range(m.n):
         stiff[k] = 0
-        moved = differential[k] == 1 and slope[k] >= 0 and mass[k] >= 0
+        moved = position[k] >= 0 and slope[k] >= 0 and mass[k] >= 0
         if moved and -values[slope[k]] * h > STIFF * inertia[mass[k]] > 0.0:
             stiff[k] = 1
             found = 1

@@ -3,7 +3,8 @@
 1. A step whose dense output is no straight line has rows inside it (side 2). The curve goes through all rows of the
    step, so that it is the dense output itself where a signal is an unknown, and close to it where it follows from some.
 2. A run on a grid (`record.every`) has no rows of steps. There the cubic through four neighbouring rows is taken where
-   nothing switches between them and their third difference is small against their second ones.
+   nothing switches between them and their third difference is small against their second ones; no further than the two
+   rows, where it does not turn between them.
 3. Else a straight line, and never anything across the two rows of an event.
 """
 
@@ -64,8 +65,27 @@ class Curves:
                 begin, length = t[rows[:, :1]], t[rows[:, -1:]] - t[rows[:, :1]]
                 nodes = (t[rows] - begin) / length
                 weights = basis((at[which] - begin[:, 0]) / length[:, 0], nodes)
-                found[inner[which]] = (weights * values[rows]).sum(axis=1)
+                curve = (weights * values[rows]).sum(axis=1)
+                low, high = self._bounds(values, rows, left[which])
+                found[inner[which]] = np.clip(curve, low, high)
         return found.reshape(np.shape(share))
+
+    def _bounds(self, values: Floats, rows: Places, left: Places) -> tuple[Floats, Floats]:
+        """What a curve through `rows` [k, n] does not go beyond right of row `left` [k].
+
+        Where all rows are equal, their value; on a grid the two rows there, unless those beside them say that the curve
+        turns between them: a corner that no row has met would be rounded off to beyond the limit it stands for.
+        """
+        least, most = values[rows].min(axis=1), values[rows].max(axis=1)
+        equal = least == most
+        low, high = np.where(equal, least, -np.inf), np.where(equal, most, np.inf)
+        if self.switches is not None:
+            last = len(values) - 1
+            before, one, other, after = (values[np.clip(left + k, 0, last)] for k in (-1, 0, 1, 2))
+            straight = (one - before) * (after - other) >= 0.0
+            low = np.where(straight, np.minimum(one, other), low)
+            high = np.where(straight, np.maximum(one, other), high)
+        return low, high
 
     def _curves(self, values: Floats, left: Places) -> list[tuple[Places, Places, int]]:
         """Which of the places right of rows `left` are on a curve, the first row of each, and how many rows it has."""
