@@ -90,7 +90,8 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "mass_columns": columns_of(problem.mass_pattern),
         **{f"move_{name}": np.ascontiguousarray(problem.moves[:, k], np.int64) for k, name in enumerate(MOVES)},
         "speed_of": speed_of(problem), "position_of": position_of(problem),
-        "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n), **plan.arrays,
+        "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n),
+        **plan.arrays,
     }  # fmt: skip
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
     if stepping:
