@@ -95,7 +95,7 @@ MENDED = {
     ("two blocks on a belt that are shaken, 1e-3", "rodas3p", "binding"),
     ("steep falling curve, tustin over 1e-05 m/s", "ida", "hold"),
 }
-"""Rows that docs/stability.md shows as failing at its commit, and that come through; none once the page is made anew."""
+"""Rows that docs/stability.md shows as failing at its commit, and that come through; none once it is made anew."""
 
 
 def known_failure(case: str, engine: str, treatment: str) -> str:
