@@ -6,9 +6,9 @@ of stiffness k between bodies at y is rounded by eps k y, so
     rounding of y'     eps |J| |y| / M
     rounding of y''    |J| (rounding of y') / M
 
-A turn of line that is lashed to its drum by 1e8 N/m and 1e4 N*s/m shows 1000 m/s^3 of this while it rests there. A
-step size that follows from it would hang on the order of sums, and be too short besides. What is no larger than its
-rounding counts as zero, and of what is larger the rest.
+Line that is bound to its drum shows 1000 m/s^3 of this while it goes along. A step size that follows from it would
+hang on the order of sums, and be too short besides. What is no larger than its rounding counts as zero, and of what
+is larger the rest.
 """
 
 from __future__ import annotations
