@@ -27,6 +27,7 @@ class Contact(Family, Component, abstract=True):
 
     key = "method"
     default_word = "hold"
+    pressed_by = "normal"
     offered = ("binding",)
     a = Translational("the surface")
     b = Translational("the body that slips on it")
@@ -69,6 +70,10 @@ class Contact(Family, Component, abstract=True):
     def lifts(p, normal):
         """Nothing presses any more; declared first, because it settles the matter."""
         return p.lift - normal
+
+    def breaks_away_at(p):
+        """As the curve."""
+        return p.curve.breakaway()
 
     def changes_over(p):
         """As the curve."""

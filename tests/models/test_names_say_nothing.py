@@ -5,6 +5,7 @@ import re
 
 import fairlead.components
 import pytest
+from typer.testing import CliRunner
 
 import fairlead
 from fairlead.analysis.characteristic import characteristic
@@ -15,6 +16,7 @@ from fairlead.analysis.statics import statics
 from fairlead.analysis.statics_record import record
 from fairlead.analysis.switches import switches
 from fairlead.analysis.treatments import contacts, creep, creep_of, kinds_of_treatment
+from fairlead.cli import app
 from fairlead.component.answers import METHODS
 from fairlead.integrate import Run, integrate
 
@@ -354,3 +356,16 @@ def test_a_water_says_how_it_flows_and_drags(scene, library):
     assert tensions[0] == tensions[1]
     (far,) = [one for one in switches(scene(other, files)) if "water" in one.name]
     assert dict(far.settings) == {"route.stations[4].shape": "rigid"}
+
+
+def test_a_contact_says_what_presses_it(library, tmp_path):
+    """Drawn from what its family declares, whatever ports, input, zone and curve are called."""
+    words = {"Contact": "Touch", "a": "floor", "b": "shoe", "normal": "press", "off": "apart", "curve": "grip_of"}
+    own = copied("friction/contact.py", "friction/one_formula.py", "friction/regularised.py", **words)
+    own = own.replace('word = "tanh"', 'word = "soft"').replace(".friction.grip_of", ".friction.curve")
+    told = [
+        CliRunner().invoke(app, ["friction", "0.4", "--method", method, "--out", str(tmp_path), *own_library]).output
+        for method, own_library in (("tanh", []), ("soft", ["--library", library(own)]))
+    ]
+    assert told[0] == told[1].replace("soft", "tanh")
+    assert "holding capacity  0.4 N" in told[0]

@@ -69,17 +69,15 @@ class Characteristic:
 
 
 def characteristic(values: Values, normal: float) -> Characteristic:
-    """Evaluate a contact (a member of the family `Contact`) at a normal force [N]."""
+    """Evaluate a contact (a component that says what it is `pressed_by`) at a normal force [N]."""
     has, p = values.type.declaration, values
     slips = _slips(p)
-    breakaway = normal * p.curve.breakaway()
+    breakaway = normal * p.type.answers.breaks_away_at(p)
     steady: dict[str, tuple[Floats, Floats]] = {}
     driven: dict[str, tuple[Floats, Floats]] = {}
     caught: dict[str, tuple[Floats, Floats]] = {}
     holds = False
     for zone in has.zones:
-        if zone == "off":
-            continue
         points = [(v, _force(p, zone, v, normal), v) for v in slips]
         if any(isinstance(force, Hold) for _, force, _ in points):
             holds = True
@@ -166,7 +164,12 @@ def _force(p: Values, zone: str, slip: float, normal: float) -> Any:
         if steady is None:
             return None
         terms = _terms(p, zone, slip, normal, {state: steady})
-    return float(terms["b"])
+    return float(terms[_body(p)])
+
+
+def _body(p: Values) -> str:
+    """The port of the body that slips on the surface: the second."""
+    return list(p.type.declaration.ports)[1]
 
 
 def _steady(p: Values, zone: str, slip: float, normal: float, state: str) -> float | None:
@@ -200,11 +203,12 @@ def _stays(p: Values, zone: str, slip: float, friction: float, normal: float, pu
 def _arguments(p: Values, zone: str, slip: float, normal: float, push: float, own: dict[str, float]) -> dict[str, Any]:
     """Arguments of a law: the surface at rest, the body of 1 kg at `slip` with acceleration `push`."""
     has = p.type.declaration
+    surface = SimpleNamespace(x=0.0, v=0.0, a=0.0, inverse_mass=0.0)
+    body = SimpleNamespace(x=0.0, v=slip, a=push, inverse_mass=1.0)
     given = {
-        **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0),
-        "p": p, "t": 0.0, "zone": zone, "direction": has.zones.direction(zone), "normal": normal,
-        "a": SimpleNamespace(x=0.0, v=0.0, a=0.0, inverse_mass=0.0),
-        "b": SimpleNamespace(x=0.0, v=slip, a=push, inverse_mass=1.0), **own,
+        **dict.fromkeys(has.inputs, 0.0), **dict.fromkeys(has.unknowns, 0.0), p.type.answers.pressed_by: normal,
+        "p": p, "t": 0.0, "zone": zone, "direction": has.zones.direction(zone),
+        **dict(zip(has.ports, (surface, body), strict=False)), **own,
     }  # fmt: skip
     return given | {name: _called(shared.function, given) for name, shared in has.shared.items()}
 

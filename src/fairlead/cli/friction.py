@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+from collections import ChainMap
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -10,6 +11,7 @@ from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, pa
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
+    from fairlead.component.base import Family
     from fairlead.component.values import Values
     from fairlead.errors import Fault
 
@@ -21,7 +23,7 @@ def friction(
     ],
     settings: Settings,
     libraries: Libraries,
-    method: Annotated[str, typer.Option(help="For a curve: the treatment.")] = "hold",
+    method: Annotated[str, typer.Option(help="For a curve: the treatment.", show_default="that of a new scene")] = "",
     normal: Annotated[str, typer.Option(help="Normal force where the scene gives none.")] = "1 N",
     out: Annotated[pathlib.Path, typer.Option(metavar="DIR", help="Leave the figures here.")] = pathlib.Path("results"),
     as_json: AsJson = False,
@@ -79,23 +81,32 @@ def _contacts(
 
 def _pressed(values: "Values") -> float | None:
     """The normal force that stands for the input where nothing is connected; None when there is none."""
-    stands = values.type.declaration.inputs["normal"].default
+    stands = values.type.declaration.inputs[values.type.answers.pressed_by].default
     return values.path(stands) if isinstance(stands, str) else stands
 
 
 def _of_curve(text: str, libraries: list[str], method: str) -> "Values":
+    from fairlead.component.given import Part
     from fairlead.component.parameters import make
     from fairlead.component.registry import known_types
+    from fairlead.component.scene import is_head
     from fairlead.errors import did_you_mean
     from fairlead.netlist.yaml12 import read_yaml
 
-    members = known_types(libraries)["Contact"].members  # type: ignore[attr-defined]
+    heads = [kind for kind in known_types(libraries).values() if is_head(kind) and _is_pressed(kind)]
+    members, method = dict(ChainMap(*(head.members for head in heads))), method or heads[0].default_word
     if method not in members:
         raise typer.BadParameter(f"there is no method {method!r}. {did_you_mean(method, members)}")
-    tree, faults = read_yaml(f"curve: {text}", "curve")
+    (part,) = (name for name, one in members[method].declaration.parameters.items() if isinstance(one, Part))
+    tree, faults = read_yaml(f"{part}: {text}", part)
     if tree is None or faults:
         raise typer.BadParameter(f"{text!r} is not a curve: {'; '.join(map(str, faults))}")
     try:
         return make(members[method], **tree.plain())
     except ValueError as error:
         raise typer.BadParameter(f"{text!r} is not a curve: {error}") from error
+
+
+def _is_pressed(head: "type[Family]") -> bool:
+    """True for a family of contacts."""
+    return any(member.answers.pressed_by for member in head.members.values())

@@ -194,6 +194,12 @@ class Answers:
         PARAMETER, "of a valve: flow per root of the drop over one land, fully open [m^3/s/Pa^0.5]", default=""
     )
     fed: tuple[str, str] | None = _asked(TWO_PORTS, "with `metered`: where oil comes in and where it goes back")
+    pressed_by: str = _asked(
+        INPUT, "of a contact: its normal force; its first port is the surface, its second the body", default=""
+    )
+    breaks_away_at: Callable[[Any], float] | None = _asked(
+        method("p"), "with `pressed_by`: friction over normal force at which it begins to slip"
+    )
     sticks_below: str = _asked(
         PARAMETER, "of a contact: the slip speed below which it counts as sticking", default=""
     )

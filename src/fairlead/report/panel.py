@@ -23,6 +23,7 @@ MOST_IN_LEGEND = 8
 SCALES = ("viridis", "plasma", "cividis")
 MOST_POINTS = 8000  # some ten for each pixel column
 FEW_ROWS, PARTS = 1000, 6  # of so few rows the curve between two is drawn in so many straight lines
+FEW_LINES = 20  # of more elements in one colour scale no eye follows one between its rows
 MOST_TICKS = 1000
 # Okabe and Ito (2008), Color Universal Design: told apart by colour-blind readers as well.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B")
@@ -90,9 +91,8 @@ def _draw_family(ax: Axes, result: Result, names: list[str], scale: str) -> None
 
     elements = [family(name)[1] for name in names]
     numbers = [index if element is None else element for index, element in enumerate(elements)]
-    lines = LineCollection(
-        [np.column_stack(thinned(*smooth(result, name))) for name in names], cmap=scale, linewidths=0.8
-    )
+    curves = [smooth(result, name) if len(names) <= FEW_LINES else (result.t, result[name]) for name in names]
+    lines = LineCollection([np.column_stack(thinned(*curve)) for curve in curves], cmap=scale, linewidths=0.8)
     lines.set_array(np.array(numbers, dtype=float))
     ax.add_collection(lines)
     ax.autoscale_view()
