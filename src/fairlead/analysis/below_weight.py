@@ -119,7 +119,9 @@ def _weights(system: System, accuracy: float) -> list[tuple[int, tuple[float, bo
     weight = np.minimum(given.absolute, given.cap)
     creeping = np.isfinite(system.scales.creep)
     creeping[[x for x, v in system.numbering.pairs if creeping[v]]] = True
-    unknowns, found = system.numbering.unknowns, list[tuple[int, tuple[float, bool]]]()
+    units = np.array([unknown.unit for unknown in system.numbering.unknowns])
+    position = np.array([unknown.kind == "position" for unknown in system.numbering.unknowns])
+    found = list[tuple[int, tuple[float, bool]]]()
     for block, share in zip(system.blocks, shares(system.blocks)[0], strict=True):
         s, declared = block.kernel.structure, block.kernel.variant.type.declaration.outputs
         fixed = set(s.fixed_signals)
@@ -128,12 +130,13 @@ def _weights(system: System, accuracy: float) -> list[tuple[int, tuple[float, bo
             if not mine or k in s.curved or any(place not in fixed for place, _ in mine):
                 continue
             inputs = [j for _, j in mine]
-            for i in range(block.count):
-                at = [(int(block.in_index[i, j]), abs(float(block.in_coef[i, j]))) for j in inputs]
-                at = [(z, ratio) for z, ratio in at if ratio and z < system.n]
-                if not at or any(creeping[z] or unknowns[z].unit != declared[name].unit for z, _ in at):
-                    continue
-                moves = all(unknowns[z].kind == "position" for z, _ in at)
-                place = share.outputs + i * len(s.all_outputs) + k
-                found.append((place, (max(weight[z] * ratio for z, ratio in at), moves)))
+            ratio = np.abs(block.in_coef[:, inputs])
+            counts = (ratio > 0.0) & (block.in_index[:, inputs] < system.n)
+            at = np.where(counts, block.in_index[:, inputs], 0)
+            other = creeping[at] | np.not_equal(units[at], declared[name].unit)
+            judged = counts.any(axis=1) & ~(counts & other).any(axis=1)
+            moves = np.atleast_1d(np.all(position[at] | ~counts, axis=1))
+            sizes = np.max(np.where(counts, weight[at] * ratio, 0.0), axis=1)
+            first, step = share.outputs + k, len(s.all_outputs)
+            found += [(int(first + i * step), (float(sizes[i]), bool(moves[i]))) for i in np.flatnonzero(judged)]
     return found

@@ -72,7 +72,8 @@ def characteristic(values: Values, normal: float) -> Characteristic:
     """Evaluate a contact (a component that says what it is `pressed_by`) at a normal force [N]."""
     has, p = values.type.declaration, values
     slips = _slips(p)
-    breakaway = normal * p.type.answers.breaks_away_at(p)
+    breaks_away_at = p.type.answers.breaks_away_at
+    breakaway = normal * breaks_away_at(p) if breaks_away_at is not None else 0.0
     steady: dict[str, tuple[Floats, Floats]] = {}
     driven: dict[str, tuple[Floats, Floats]] = {}
     caught: dict[str, tuple[Floats, Floats]] = {}

@@ -181,8 +181,10 @@ def elimination_order(problem: Problem, layout: Layout, entries: Entries) -> Int
             graph[j].add(i)
     accelerations = set(problem.moves[:, 2].tolist()) - {-1}  # a multiplier acts on these where they are unknowns
     differential = set(np.flatnonzero(problem.differential).tolist())
-    before = {k: differential if k in accelerations else differential | accelerations for k in graph}
-    waits_for = {k: set() if k in differential else graph[k] & before[k] for k in graph}
+    moving = differential | accelerations
+    waits_for = {
+        k: set() if k in differential else graph[k] & (differential if k in accelerations else moving) for k in graph
+    }
     for k, hub in hubs(problem).items():
         waits_for[k].discard(hub)
     return np.array(minimum_degree(graph, waits_for), dtype=np.int64)

@@ -154,7 +154,8 @@ class Partition:
     def hindered(self) -> set[int]:
         """Groups that cannot be entrained: a contact of a circle that stays holds them, or their ratio varies."""
         varying = {n.group for n in self.along.nodes if self.varies[list(n.read)].any()}  # as between layers of a drum
-        return varying | {group for group, _ in self._ends_of_circles(self.kept) if group in self.along.groups}
+        taken_along = self.along.groups
+        return varying | {group for group, _ in self._ends_of_circles(self.kept) if group in taken_along}
 
     def moving(self) -> Moving:
         """What stays, and whose change ends it."""
