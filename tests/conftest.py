@@ -16,8 +16,16 @@ from typing import Any
 import pytest
 
 import fairlead
+from tests.slow import is_left
 
 Scene = Callable[..., Any]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark as slow what `tests/slow.py` leaves to `make test-all`."""
+    for item in items:
+        if is_left(item.nodeid):
+            item.add_marker(pytest.mark.slow)
 
 
 @pytest.fixture(scope="session", autouse=True)

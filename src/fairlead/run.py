@@ -195,6 +195,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
+        summary["dwell"] = asked.dwell
         summary["remarks"] = [*header["remarks"], *watch.below.remarks()]
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
@@ -299,7 +300,7 @@ def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, pa
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
         max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,
-        dwell=settings.dwell, on_chatter=settings.chatter,
+        dwell=settings.shortest_zone, on_chatter=settings.chatter,
     )  # fmt: skip
 
 

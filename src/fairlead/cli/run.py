@@ -139,6 +139,7 @@ def _fewer(result: "Result") -> str:
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
     """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
+    from fairlead.analysis.chattering import remark as of_chatter
     from fairlead.analysis.energy import unjudged
     from fairlead.analysis.strains import remark
 
@@ -146,8 +147,8 @@ def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
         echo(f"warning: {said}", err=True)
     if outcome["status"] != "finished":
         echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
-    if chattering := outcome.get("chattering"):
-        echo(f"warning: toggled faster than their dwell: {', '.join(chattering)}", err=True)
+    if said := of_chatter(outcome.get("chattering", ()), outcome.get("dwell", 0.0), outcome["settings"]["chatter"]):
+        echo(f"warning: {said}", err=True)
     closure = (outcome.get("energy") or {}).get("closure")
     if outcome["status"] == "finished" and closure is not None and not closure <= OPEN:
         echo(

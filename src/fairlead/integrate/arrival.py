@@ -28,8 +28,8 @@ from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import INACCURATE, SINGULAR
 from fairlead.integrate.record import shown_end, write_row
 from fairlead.integrate.release import remember
-from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
-from fairlead.integrate.start import NOT_CONSISTENT, keep_positions
+from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, distance_to_look, move_ahead, settle
+from fairlead.integrate.start import NOT_CONSISTENT, correct_forces, keep_positions
 from fairlead.integrate.trial import not_finite_here, smallest_step
 
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
@@ -37,7 +37,12 @@ START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 
 
 MOST_DROPPED = 4
-"""Crossings in a row that the way back to relations of positions may undo: steps between them become short at once."""
+"""Crossings in a row that a better point may undo: steps between them become short at once."""
+
+EARLY = 4.0
+"""The look ahead, in the time by which a crossing is early: after twice that time the mean load is at its limit."""
+FARTHER = 100.0
+"""How much farther than else that may be: a tenth of an error weight, with the bend of the motion taken along."""
 
 
 @compiled
@@ -54,8 +59,11 @@ def start(m):
 
 
 @compiled
-def arrive(m):
-    """Move to the end of the piece; settle there if guards fired or a time event changed anything."""
+def arrive(m, located):
+    """Move to the end of the piece; settle there if guards fired or a time event changed anything.
+
+    `located`: crossings are places on the interpolant of the step.
+    """
     if m.rows + 4 > m.row_capacity:
         return BUFFER_FULL
     recorded = m.on_grid == 0 or (m.between == 1 and (m.inside > 0 or m.t_piece - m.t_row >= m.least_gap))
@@ -64,8 +72,9 @@ def arrive(m):
     m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
     m.jacobian_fresh = 0
-    if m.n_moves > 0:
-        if keep_positions(m) == INACCURATE:
+    better = m.n_moves > 0 or (located and m.crossed == 1 and asks_for_forces(m))
+    if better:
+        if (keep_positions(m) if m.n_moves > 0 else correct_forces(m)) == INACCURATE:
             return REPLAN
         judge_again(m)
         at_shown = m.at_y
@@ -86,7 +95,7 @@ def arrive(m):
         else:
             m.rows -= 1
     if m.phase == TRY:
-        if m.n_moves == 0:
+        if not better:
             copy(reals(m.at_g_end, m.n_guards), reals(m.at_g, m.n_guards))
         # The stop is recorded even when it is no point of the grid.
         off_grid = m.t >= m.stop and m.start + (m.grid_next - 1) * m.every < m.stop - 1e-9 * m.every
@@ -98,26 +107,56 @@ def arrive(m):
 
 
 @compiled
-def judge_again(m):
-    """Guards at the point that was brought back to relations of positions, into `g`; drop the fired that are below.
+def asks_for_forces(m):
+    """True if a guard that fired may follow what the equations give at an instant, as the force of a held contact.
 
-    The interpolant is off what is kept by the error of a step, more than a guard is known to. What is dropped fires in
-    the next step, which begins on what is kept and is as short as its guard is near.
+    Not the slip of a contact, nor the place in a table: those are unknowns with a past.
     """
+    if m.n_algebraic == 0:
+        return False
+    fired, kink = indices(m.at_fired, m.n_guards), indices(m.at_kink_guard, m.n_guards)
+    inertia = reals(m.at_guard_inertia, m.n_guards)
+    asks = False
+    for k in range(m.n_fired):
+        asks = asks or (inertia[fired[k]] == 0.0 and kink[fired[k]] == 0)
+    return asks
+
+
+@compiled
+def judge_again(m):
+    """Guards at the point as the equations have it, into `g`; drop the fired that are below.
+
+    The interpolant is off what is kept, and off the forces of what holds, by the error of a step, more than a guard is
+    known to. A contact that lets go by that too early, by a time tau, would be caught at once: its load is below its
+    limit until then. So the settlement looks ahead by `EARLY` times tau, as far as it goes, and what is farther off is
+    dropped: it fires in the next step, which begins at the better point and is as short as its guard is near.
+    """
+    m.least_look = 0.0
     evaluate_guards(m, m.t, m.at_y, m.at_g)
     if m.crossed == 0 or m.dropped >= MOST_DROPPED:
         m.dropped = 0
         return
     g, tolerance = reals(m.at_g, m.n_guards), reals(m.at_guard_tolerance, m.n_guards)
-    fired, kept = indices(m.at_fired, m.n_guards), 0
+    fired, kept, ahead = indices(m.at_fired, m.n_guards), 0, reals(m.at_g_probe, m.n_guards)
+    d = 0.0
+    if m.n_moves == 0:
+        d = distance_to_look(m)
+        move_ahead(m, d, d)
+    evaluate_guards(m, m.t + d, m.at_y_probe if d > 0.0 else m.at_y, m.at_g_probe)
     for k in range(m.n_fired):
-        if g[fired[k]] >= -ROUNDING * tolerance[fired[k]]:
-            fired[kept] = fired[k]
+        i = fired[k]
+        near = g[i] >= -ROUNDING * tolerance[i]
+        if not near and FARTHER * (ahead[i] - g[i]) >= EARLY * -g[i]:
+            near = True
+            m.least_look = max(m.least_look, d * EARLY * -g[i] / (ahead[i] - g[i]))
+        if near:
+            fired[kept] = i
             kept += 1
     if kept > 0:
         m.n_fired, m.dropped = kept, 0
     else:
         m.n_fired, m.crossed, m.dropped = 0, 0, m.dropped + 1
+        m.last_error = 0.0  # the point has moved: nothing is known of the step before
 
 
 @compiled
@@ -190,6 +229,7 @@ def finish_settling(m, starting):
         m.h_next = max(min(m.h_next, 0.1 * (m.stop - m.start)), 4.0 * smallest_step(m))
         watch_growth(m)
     m.last_error = 0.0
+    m.least_look = 0.0
     m.retried = 0
     m.nothing_before = 0
     m.jacobian_fresh = 0

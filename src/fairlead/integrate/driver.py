@@ -19,7 +19,8 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
 
     The problem is not changed: it may be run again, and by several threads at once.
     Never raises for what happens in the run: the outcome says how it ended and keeps all that was
-    computed, after Ctrl-C too. Raises ValueError for settings or arrays that do not fit together.
+    computed, after Ctrl-C too. Raises ValueError for settings or arrays that do not fit together, and what a plain
+    Python function of a textbook problem raised.
     """
     begun = time.perf_counter()
     check(problem, run)
@@ -34,6 +35,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     except KeyboardInterrupt:
         going.status = Status.INTERRUPTED
         going.flush()
+    going.scope.problem.raise_if_failed()
     scope, status = going.scope, going.status
     culprits = culprits_of(status, scope.memory, scope.problem)
     sentence = sentence_of(status, scope.memory, scope.problem, run, culprits)

@@ -56,7 +56,7 @@ def advance(address, attempts):
         elif m.phase == RECORD:
             status = record(m)
         elif m.phase == ARRIVE:
-            status = arrive(m)
+            status = arrive(m, True)
         elif m.phase == SETTLE:
             status = settle_here(m)
         elif m.phase == WAKE:

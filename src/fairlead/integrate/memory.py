@@ -84,7 +84,7 @@ NUMBERS = (
     "error_exponent",
     # where the run is: the settled point at t, the trial step [t, t + h], the piece of it that is accepted
     "t", "h", "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_row",
-    "t_release", "t_last_switch", "factored_h", "look", "nearness", "core_scale", "growth", "t_growth",
+    "t_release", "t_last_switch", "factored_h", "look", "least_look", "nearness", "core_scale", "growth", "t_growth",
     "fastest", "moved", "most_moved",
     # stepping only: theta asked for, its rise when zones cycle, theta in force, the step asked for, distances of the
     # slopes remembered, what was allowed in the last steps (steady_steps.py)

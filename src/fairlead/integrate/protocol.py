@@ -187,6 +187,9 @@ class Instance(Problem, Narrowed, Protocol):
     def remind(self, known: Any) -> None:
         """Give callbacks in plain Python back what they knew."""
 
+    def raise_if_failed(self) -> None:
+        """Raise what a callback in plain Python ended with, unless the problem tells that by itself."""
+
 
 @dataclass(frozen=True)
 class Run:

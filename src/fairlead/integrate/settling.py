@@ -295,7 +295,7 @@ def look_ahead(m):
     all zones of a settlement. Where no guard is known for a slip, forces alone are taken at d/2.
     """
     if m.look == 0.0:
-        m.look = distance_to_look(m)
+        m.look = max(distance_to_look(m), m.least_look)
     if m.weighs_guards == 0:
         move_ahead(m, m.look, 0.5 * m.look)
         evaluate_guards(m, m.t + m.look, m.at_y_probe, m.at_g_probe)

@@ -116,6 +116,23 @@ def keep_positions(m):
 
 
 @compiled
+def correct_forces(m):
+    """Give a point of the interpolant the algebraic unknowns and y' that the equations say; DONE or INACCURATE.
+
+    One Newton update: what is left is of second order in the error of the interpolant.
+    """
+    status = prepare_consistent(m)
+    if status == SINGULAR:
+        return DONE
+    if status == DONE:
+        residual_here(m, m.at_x)
+        solve(m, m.at_x)
+        update(m, 1.0)
+        slope_change(m)
+    return status
+
+
+@compiled
 def residual_here(m, at_r):
     """Set r = f(t, y) - M y' at the point."""
     n = m.n

@@ -66,7 +66,7 @@ def arrive_with_zones(m):
     if m.samples == 1 and m.landing == 1 and m.t_piece >= m.t_next and m.t_piece < m.stop:
         m.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then
         m.n_fired = 0
-    status = arrive(m)
+    status = arrive(m, False)
     if m.phase == TRY:
         remember_slope(m)
     return status

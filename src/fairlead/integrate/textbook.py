@@ -13,7 +13,7 @@ The functions write into their last argument(s):
 
 `switch` changes `zones` (and y, for a jump) in place. With compile=True numba compiles them, and a
 step costs what it costs in a real model; without, they are called back in Python: any object may be
-used, slowly, and an exception in one of them is raised by `TextbookProblem.raise_if_failed`.
+used, slowly, and an exception in one of them ends the run and is raised.
 """
 
 from __future__ import annotations

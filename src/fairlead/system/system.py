@@ -297,6 +297,9 @@ class Instance(System):
         """Copies of what the controllers in plain Python know."""
         return [controller.known() for controller in self.controllers]
 
+    def raise_if_failed(self) -> None:
+        """Nothing: a controller that failed is told with the run."""
+
     def remind(self, known: list[Known]) -> None:
         """Let the controllers go on from there."""
         for controller, what in zip(self.controllers, known, strict=True):

@@ -1,0 +1,32 @@
+"""A sentence on contacts that switched to and fro within their dwell: which, how many, and what to do.
+
+Contacts are told by family (`line.outer[*]`), those of which most did so first; a list of all would say nothing.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from fairlead.results.signal import family
+
+MOST_NAMED = 3
+
+
+def remark(names: Sequence[str], dwell: float, reaction: str) -> str:
+    """What to tell of these contacts, parts of a run with this dwell [s] and `run.chatter`; "" for none."""
+    if not names:
+        return ""
+    counts = Counter(family(name)[0] for name in names)
+    first = {family(name)[0]: name for name in reversed(names)}
+    told = [f"{count} of {one}" if count > 1 else first[one] for one, count in counts.most_common(MOST_NAMED)]
+    rest = len(names) - sum(count for _, count in counts.most_common(MOST_NAMED))
+    more = f" and {rest} more" if rest else ""
+    done = (
+        "Each was held for that long." if reaction == "hold" else
+        "Usually a load stays at its limit, and the motion is right; run.chatter: hold keeps such a contact a dwell."
+    )  # fmt: skip
+    return (
+        f"switched to and fro, each time within run.dwell ({dwell:.2g} s): {', '.join(told)}{more}. {done} Two laws "
+        "that contradict each other do the same: compare with a finer run.accuracy."
+    )
