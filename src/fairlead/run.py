@@ -30,7 +30,7 @@ from fairlead.analysis.strains import Strains
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
 from fairlead.errors import Fault, ModelError, UsageError
-from fairlead.integrate import Block, Outcome, Run, integrate
+from fairlead.integrate import Block, End, Outcome, Run, integrate
 from fairlead.integrate.protocol import Status
 from fairlead.integrate.sundials_solver import require_package
 from fairlead.interruption import Interruption
@@ -90,11 +90,16 @@ class Watch:
         """How many of the recorded signals were asked for: the first ones."""
         return len(self.recording.chosen)
 
-    def __call__(self, block: Block) -> None:
-        """Take one block. Raises KeyboardInterrupt when it is written, if that was asked for meanwhile."""
+    def __call__(self, block: Block) -> End | None:
+        """Take one block, up to where its rows mean something, which ends the run.
+
+        Raises KeyboardInterrupt when it is written, if that was asked for meanwhile.
+        """
         self.interruption.between_blocks = True
-        self._take(block)
+        found = self.strains.end(block.t, block.values)
+        self._take(block if found is None else up_to(block, found[0]))
         self.interruption.due()
+        return None if found is None else found[1]
 
     def _take(self, block: Block) -> None:
         rows = Rows(block.t, block.values, block.side)
@@ -141,6 +146,13 @@ class Watch:
         counts = self.event_rows.jumps
         most = [k for k in np.argsort(-counts, kind="stable")[:MOST_JUMPS_TOLD].tolist() if counts[k]]
         return {"kept": self.event_rows.kept, "most": {self.recording.recorded[k].name: int(counts[k]) for k in most}}
+
+
+def up_to(block: Block, row: int) -> Block:
+    """The block with this row as its last."""
+    rows, t = slice(row + 1), float(block.t[row])
+    events = block.events[block.events["t"] <= t]
+    return block._replace(t=block.t[rows], values=block.values[rows], side=block.side[rows], events=events, reached=t)
 
 
 def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float) -> NDArray[np.float64]:

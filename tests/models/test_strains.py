@@ -10,14 +10,14 @@ components:
   line: {{type: {kind}, axial_stiffness: 100 N, length: 2 m}}
   hand: {{type: MotionSource, position: {{table: [[0, 2], [1, {end}]]}}}}
 connections: [[wall.flange, line.a], [hand.flange, line.b]]
-run: {{stop: 1 s}}
+run: {{stop: 1 s, max_step: 2 ms}}
 """
 
 
 @pytest.mark.parametrize(
     ("kind", "end", "says"),
     [
-        ("Hose", -0.2, "line: inside out, the ends have passed each other; the least strain is -110 % in line"),
+        ("Hose", -0.2, "line: inside out, the ends have passed each other; the least strain is -100 % in line"),
         ("Hose", 0.8, "line: pressed together; the least strain is -60 % in line"),
         ("Hose", 1.2, ""),
         ("Hose", 3.0, ""),
@@ -27,7 +27,8 @@ run: {{stop: 1 s}}
 )
 def test_an_element_beyond_what_it_bears_is_told(kind, end, says, scene):
     run = scene(SCENE.format(kind=kind, end=end)).run(out=None).run
-    assert run["strains"]["least"] == pytest.approx(min(0.0, end / 2 - 1), abs=1e-9)  # it begins without load
+    assert run["strains"]["least"] == pytest.approx(min(0.0, max(end / 2, 0.0) - 1), abs=1e-2)  # it begins without load
+    assert run["status"] == ("failed" if end < 0 else "finished")
     assert says in remark(run["strains"])
     assert bool(says) == bool(remark(run["strains"]))
 
@@ -41,16 +42,18 @@ def test_a_scene_without_elements_has_none(scene):
     assert scene(text).run(out=None).run["strains"] is None
 
 
-def test_an_element_that_turned_over_and_came_back_is_told_with_the_instants(scene):
+def test_a_run_ends_where_an_element_turns_inside_out(scene):
+    """Rows, events and figures go up to there, whatever is recorded and wherever the engine had got to."""
     text = SCENE.format(kind="Hose", end=2).replace("[1, 2]", "[0.5, -0.2], [1, 2]")
-    run = scene(text.replace("stop: 1 s", "stop: 1 s, max_step: 1 ms")).run(out=None).run
-    found = run["strains"]
-    assert found["least"] == pytest.approx(-1.1, abs=5e-3)  # a step of 1 ms before the turn
-    assert found["t"] == pytest.approx(0.5, abs=2e-3)
-    assert found["inside_out_from"] == pytest.approx(2.0 / 4.4, abs=2e-3)  # it goes at 4.4 m/s
-    assert found["too_short_from"] == pytest.approx(1.0 / 4.4, abs=2e-3)
-    assert "from t = 0.45" in remark(found)
-    assert "line: inside out" in remark(found)
+    result = scene(text).run(out=None)
+    found, t = result.run["strains"], 2.0 / 4.4  # the hand goes at 4.4 m/s
+    assert result.status == "failed"
+    assert result.run["end_time"] == result.t[-1] == found["inside_out_from"] == pytest.approx(t, abs=2e-3)
+    assert found["too_short_from"] == pytest.approx(t / 2, abs=2e-3)
+    assert found["least"] == pytest.approx(-1.0, abs=5e-3)
+    assert result.extremes("hand.x").lowest == pytest.approx(0.0, abs=1e-2)
+    assert "line: inside out" in result.run["sentence"]
+    assert "Give the line less friction" in result.run["sentence"]
 
 
 LOOPED = """
@@ -78,7 +81,8 @@ STEP = "{x: [0 m, 0.8 m, 1 m, 3 m], y: [0, 0, 1, 1]}"
 def test_an_element_with_a_loop_counts_its_way(kind, y, says, scene):
     """Its ends are 1.2 m apart in the end, and the loop of 2 y comes on top."""
     run = scene(LOOPED.format(kind=kind, y=y, step=STEP)).run(out=None).run
-    assert run["strains"]["least"] == pytest.approx((1.2 + 2 * y) / 2 - 1, abs=1e-9)
+    ends = max((1.2 + 2 * y) / 2, 0.0) - 1  # the run goes no further
+    assert run["strains"]["least"] == pytest.approx(ends, abs=1e-9 if ends > -1 else 0.03)
     assert says in remark(run["strains"])
     assert bool(says) == bool(remark(run["strains"]))
 
@@ -86,4 +90,5 @@ def test_an_element_with_a_loop_counts_its_way(kind, y, says, scene):
 @pytest.mark.parametrize("record", ["{signals: []}", "{signals: [hand.force], every: 0.1 s}"])
 def test_strains_are_watched_whatever_is_recorded(record, scene):
     run = scene(SCENE.format(kind="Hose", end=-0.2) + f"record: {record}\n").run(out=None).run
-    assert run["strains"]["least"] == pytest.approx(-1.1, abs=1e-9)
+    assert run["end_time"] == pytest.approx(2.0 / 2.2, abs=3e-3)
+    assert run["strains"]["least"] == pytest.approx(-1.0, abs=1e-2)

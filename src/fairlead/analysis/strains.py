@@ -2,8 +2,7 @@
 
 An output of role `strain` is the stretch of an element over its length without load, and `compressible` is the share
 of that length by which it may get shorter. At a strain of -1 its ends are at one place; below, it is inside out, and
-no law of a line means that. Every row that a run records is looked at, whichever signals are asked for; with
-`record.every` an element may turn over and back between two rows of the grid.
+no law of a line means that: the run ends at that row. The end of every step is looked at, whatever is recorded.
 """
 
 from __future__ import annotations
@@ -15,12 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.analysis.beside_its_laws import few
 from fairlead.component.declare import STRAIN
+from fairlead.integrate import End
 from fairlead.system.recording import OutputSignal
 from fairlead.system.system import System
 
 MOST_NAMED = 10
 INSIDE_OUT = -1.0
+PASSED = "inside out, the ends have passed each other"
+CURE = "Give the line less friction or push, more stiffness, or a shorter run."
 Floats = NDArray[np.float64]
 
 
@@ -56,6 +59,17 @@ class Strains:
             if signal.role == STRAIN and path in allowed:
                 found[path] = column
         return cls(list(found), np.array([*found.values()], dtype=np.int64), np.array([allowed[p] for p in found]))
+
+    def end(self, t: Floats, rows: Floats) -> tuple[int, End] | None:
+        """The first recorded row in which an element is inside out, and the end of the run there; None if in none."""
+        inside_out = rows[:, self.columns] <= INSIDE_OUT
+        if not inside_out.any():
+            return None
+        row = int(inside_out.any(axis=1).argmax())
+        names = tuple(self.names[k] for k in np.flatnonzero(inside_out[row]).tolist())
+        return row, End(
+            float(t[row]), f"t = {t[row]:.6g} s: {few(names)}: {PASSED}, and no law of a line means that. {CURE}", names
+        )
 
     def watch(self, t: Floats, rows: Floats) -> None:
         """Take recorded rows, shape (k, recorded)."""
@@ -96,9 +110,9 @@ def remark(found: Mapping[str, Any] | None) -> str:
     if not found or not (found["n_inside_out"] or found["n_too_short"]):
         return ""
     word = "inside_out" if found["n_inside_out"] else "too_short"
-    what = "inside out, the ends have passed each other" if found["n_inside_out"] else "pressed together"
+    what = PASSED if found["n_inside_out"] else "pressed together"
     names, count = found[word], found[f"n_{word}"]
     named = ", ".join(names[:3]) + (f" and {count - 3} more" if count > 3 else "")
     worst = f"the least strain is {100 * found['least']:.3g} % in {found['component']} at t = {found['t']:.6g} s"
-    cure = "Do not use what follows from them; give the line less friction or push, more stiffness, or a shorter run."
-    return f"from t = {found[f'{word}_from']:.6g} s: {named}: {what}; {worst}. {cure}"
+    since = f"from t = {found[f'{word}_from']:.6g} s"
+    return f"{since}: {named}: {what}; {worst}. Do not use what follows from them. {CURE}"

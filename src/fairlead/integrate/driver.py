@@ -9,13 +9,15 @@ import numpy as np
 from fairlead.integrate.counters import COUNTS, Counters
 from fairlead.integrate.memory import Memory
 from fairlead.integrate.prepare import check_lengths
-from fairlead.integrate.protocol import CALLBACKS, Block, OnBlock, Outcome, Problem, Run, Status
+from fairlead.integrate.protocol import CALLBACKS, Block, End, OnBlock, Outcome, Problem, Run, Status
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Underway
 
 
 def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Outcome:
     """Integrate `problem` over `run`; hand each `Block` to `on_block`, or keep them in the outcome.
+
+    `on_block` may return an `End`: the run has failed then.
 
     The problem is not changed: it may be run again, and by several threads at once.
     Never raises for what happens in the run: the outcome says how it ended and keeps all that was
@@ -25,9 +27,17 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     begun = time.perf_counter()
     check(problem, run)
     blocks: list[Block] = []
-    going = Underway(problem, run, on_block if on_block is not None else blocks.append)
+    ends: list[End] = []
+
+    def take(block: Block) -> None:
+        if on_block is None:
+            blocks.append(block)
+        elif isinstance(said := on_block(block), End):
+            ends.append(said)
+
+    going = Underway(problem, run, take)
     try:
-        while going.served:
+        while going.served and not ends:
             going.go_on()
             over = run.max_wall is not None and time.perf_counter() - begun > run.max_wall
             if over and going.served:
@@ -37,13 +47,16 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         going.flush()
     going.scope.problem.raise_if_failed()
     scope, status = going.scope, going.status
-    culprits = culprits_of(status, scope.memory, scope.problem)
-    sentence = sentence_of(status, scope.memory, scope.problem, run, culprits)
+    if ends:
+        status, (t, sentence, culprits) = Status.ENDED, ends[0]
+    else:
+        t, culprits = float(scope.memory.number["t"]), culprits_of(status, scope.memory, scope.problem)
+        sentence = sentence_of(status, scope.memory, scope.problem, run, culprits)
     memory, own = scope.finish(), scope.whole_problem
     return Outcome(
         status=status,
         sentence=sentence,
-        t=float(memory.number["t"]),
+        t=t,
         y=memory.array["y"].copy(),
         culprits=culprits,
         chattering=tuple(own.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),

@@ -250,6 +250,7 @@ class Status(IntEnum):
     MAX_WALL = 9
     INTERRUPTED = 10
     REBOUND_RUBS = 11
+    ENDED = 12
 
     @property
     def is_budget(self) -> bool:
@@ -274,6 +275,14 @@ class Block(NamedTuple):
     """The same as a fraction of the span, for a progress display."""
 
 
+class End(NamedTuple):
+    """What `on_block` returns to end a run at a recorded time, since what follows means nothing."""
+
+    t: float
+    sentence: str
+    culprits: tuple[str, ...] = ()
+
+
 OnBlock = Callable[[Block], object]
 
 
@@ -287,7 +296,7 @@ class Outcome:
     t: float
     """The last good time."""
     y: Floats
-    """The unknowns there."""
+    """The unknowns there; of a run that `on_block` ended, where the engine had got to."""
     culprits: tuple[str, ...]
     """Unknowns or machines to look at first."""
     chattering: tuple[str, ...]
