@@ -16,7 +16,7 @@ import os
 import pathlib
 import time
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from fairlead.errors import Fault, ModelError, UsageError
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from fairlead.component.instantiate import Assembly
     from fairlead.flatten.flat_model import FlatModel
     from fairlead.netlist.includes import Sources
+    from fairlead.netlist.keywords import RunKeywords
     from fairlead.netlist.netlist import Netlist
     from fairlead.results import Result
     from fairlead.system.system import System
@@ -172,16 +173,20 @@ class Model:
         return found
 
     def run(self, out: str | os.PathLike[str] | Place | None = Place.RESULTS, force: bool = False,
-            progress: Progress | None = None, profile: bool = False, **settings: Any) -> Result:  # fmt: skip
+            progress: Progress | None = None, profile: bool = False,
+            **settings: Unpack[RunKeywords]) -> Result:  # fmt: skip
         """Simulate; results go to the directory `out` (results/NAME when it is not given) as the run goes.
 
         `out=None` touches no disk: the result stays in memory. `settings` replace those of the netlist's `run`
-        block (stop, accuracy, ...), in SI. The model is compiled once, whatever they are and however often it is run.
+        block (`stop="5 s"`, `accuracy=1e-6`, ...): quantities, or numbers in SI. The model is compiled once, whatever
+        they are and however often it is run. Raises ModelError for settings that a netlist could not have, and for
+        those that the model cannot be run with; UsageError where the results may not go.
         """
+        from fairlead.netlist.keywords import with_keywords
         from fairlead.run import run
 
         begun = time.perf_counter()
-        netlist = self.netlist.run.model_copy(update=settings)
+        netlist = with_keywords(self.netlist.run, settings)
         system = self.system
         path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
         return run(

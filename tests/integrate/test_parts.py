@@ -17,8 +17,8 @@ OF_THE_RUN = {
 OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
 OF_A_SETTLEMENT = {
-    "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "least_look", "nearness", "culprit",
-    "worst", "ordered", "levels", "level_due", "nothing_before", "fastest",
+    "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "least_look", "nearness",
+    "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest",
 }  # fmt: skip
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",

@@ -1,0 +1,59 @@
+"""Settings of a run as keyword arguments of Python: the same names, quantities and refusals as in a netlist.
+
+    model.run(stop="5 s", accuracy=1e-6)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, TypedDict
+
+import numpy as np
+
+from fairlead.errors import Location, ModelError
+from fairlead.netlist.netlist import Value
+from fairlead.netlist.settings import RunSettings, Strict
+from fairlead.netlist.translate import validate
+
+PLACE = Location("Model.run")
+Quantity = float | str
+"""A number in SI, or a text with its unit: `5.0` or `"5 s"`."""
+
+
+class RunKeywords(TypedDict, total=False):
+    """What `Model.run` takes beside its own arguments; each is documented in `RunSettings`."""
+
+    stop: Quantity
+    start: Quantity
+    accuracy: Quantity
+    engine: Literal["auto", "rodas", "stepping", "ida"]
+    method: Literal["auto", "rodas5p", "rodas3p"]
+    max_step: Quantity | None
+    first_step: Quantity | None
+    step_floor: Quantity | None
+    max_wall: Quantity | None
+    max_steps: int | None
+    max_events: int | None
+    chatter: Literal["warn", "hold", "stop"]
+    dwell: Quantity | None
+
+
+class _Block(Strict):
+    run: RunSettings
+
+
+def with_keywords(settings: RunSettings, given: Mapping[str, Any]) -> RunSettings:
+    """The settings of a netlist with those that are given. Raises ModelError with every mistake in them."""
+    made, faults = validate(_Block, _written({"run": settings.model_dump() | {**given}}))
+    if made is None:
+        raise ModelError(faults)
+    return made.run
+
+
+def _written(value: Any) -> Value:
+    """A value as if it stood in a netlist; numbers of numpy as Python's own."""
+    if isinstance(value, dict):
+        return Value({str(name): _written(one) for name, one in value.items()}, PLACE, PLACE)
+    if isinstance(value, list | tuple):
+        return Value([_written(one) for one in value], PLACE, PLACE)
+    return Value(value.item() if isinstance(value, np.generic) else value, PLACE, PLACE)

@@ -1,0 +1,52 @@
+"""Settings as keyword arguments of `Model.run`: quantities, and the refusals of a netlist."""
+
+import typing
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.errors import ModelError
+from fairlead.netlist.keywords import RunKeywords
+from fairlead.netlist.settings import RunSettings
+
+
+@pytest.fixture(scope="module")
+def model():
+    return fairlead.load("belt", set={"run.stop": "0.2 s"})
+
+
+def test_keywords_are_those_of_a_netlist():
+    assert list(typing.get_type_hints(RunKeywords)) == list(RunSettings.model_fields)
+
+
+@pytest.mark.parametrize("stop", ["100 ms", 0.1, "0.1", np.float64(0.1)])
+def test_quantities_and_numbers_are_taken(model, stop):
+    assert model.run(out=None, stop=stop).t[-1] == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("settings", "says"),
+    [
+        ({"acuracy": 1e-2}, "Model.run: run has no key acuracy\n    Did you mean accuracy?"),
+        ({"engine": "foo"}, "Model.run: run.engine = foo is not known\n    Allowed are auto, rodas, stepping, ida."),
+        ({"accuracy": 0}, "Model.run: run.accuracy = 0 is below 1e-12"),
+        ({"accuracy": float("nan")}, "run.accuracy = nan"),
+        ({"stop": "5 m"}, "run.stop = 5 m"),
+        ({"stop": "soon"}, "run.stop = soon"),
+        ({"stop": None}, "run.stop"),
+        ({"stop": -1}, "run.stop = -1 s is not after start = 0 s"),
+        ({"max_steps": 1.5}, "run.max_steps = 1.5"),
+        ({"max_step": [1]}, "run.max_step"),
+    ],
+)
+def test_what_a_netlist_could_not_have_is_refused(model, settings, says):
+    with pytest.raises(ModelError) as caught:
+        model.run(out=None, **settings)
+    assert says in str(caught.value)
+
+
+def test_all_mistakes_are_told_at_once(model):
+    with pytest.raises(ModelError) as caught:
+        model.run(out=None, acuracy=1e-2, engine="foo", stop="soon")
+    assert len(caught.value.faults) == 3
