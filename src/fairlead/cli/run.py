@@ -147,7 +147,8 @@ def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
         echo(f"warning: {said}", err=True)
     if outcome["status"] != "finished":
         echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
-    if said := of_chatter(outcome.get("chattering", ()), outcome.get("dwell", 0.0), outcome["settings"]["chatter"]):
+    reaction = outcome.get("settings", {}).get("chatter", "")
+    if said := of_chatter(outcome.get("chattering", ()), outcome.get("dwell", 0.0), reaction):
         echo(f"warning: {said}", err=True)
     closure = (outcome.get("energy") or {}).get("closure")
     if outcome["status"] == "finished" and closure is not None and not closure <= OPEN:

@@ -67,7 +67,11 @@ def arrive(m, located):
     if m.rows + 4 > m.row_capacity:
         return BUFFER_FULL
     recorded = m.on_grid == 0 or (m.between == 1 and (m.inside > 0 or m.t_piece - m.t_row >= m.least_gap))
-    at_shown = shown_end(m) if recorded else m.at_y_piece
+    at_shown = shown_end(m) if recorded or m.crossed == 1 else m.at_y_piece
+    if m.crossed == 1 and m.any_stiff == 1:
+        # Speeds that follow a stiff law are off by the error of the interpolant, and that law would show it as a force.
+        copy(reals(at_shown, m.n), reals(m.at_y_piece, m.n))
+        at_shown = m.at_y_piece
     m.t = m.t_piece
     m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
