@@ -24,7 +24,7 @@ OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
     "core_kind",
     "core_valid", "core_scale", "factored_h", "factored_theta", "zones_differ", "rows_alone", "guessed", "distrusted",
-    "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "moved",
+    "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
     "searched", "midway", "replanned", "t_switch", "theta_now",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""

@@ -67,11 +67,10 @@ def arrive(m, located):
     if m.rows + 4 > m.row_capacity:
         return BUFFER_FULL
     recorded = m.on_grid == 0 or (m.between == 1 and (m.inside > 0 or m.t_piece - m.t_row >= m.least_gap))
-    at_shown = shown_end(m) if recorded or m.crossed == 1 else m.at_y_piece
-    if m.crossed == 1 and m.any_stiff == 1:
-        # Speeds that follow a stiff law are off by the error of the interpolant, and that law would show it as a force.
-        copy(reals(at_shown, m.n), reals(m.at_y_piece, m.n))
-        at_shown = m.at_y_piece
+    entered_again = m.t == m.t_piece  # for other pivots; the start of the step is gone
+    at_shown = shown_end(m) if (recorded or m.crossed == 1) and not entered_again else m.at_y_piece
+    if m.crossed == 1 and not entered_again:
+        remember_shown(m, at_shown)
     m.t = m.t_piece
     m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
@@ -81,13 +80,13 @@ def arrive(m, located):
         if (keep_positions(m) if m.n_moves > 0 else correct_forces(m)) == INACCURATE:
             return REPLAN
         judge_again(m)
-        at_shown = m.at_y
+        at_shown = as_shown(m, m.at_y)
     m.phase = TRY
     event_due = m.landing == 1 and (m.t < m.stop and m.t >= min(m.t_next, m.t_release))
     if m.crossed == 1:
         m.located += 1
         # On the interpolant a force is at its limit; the equations have it beyond by the error of the instant.
-        write_row(m, m.t, m.at_y if m.n_moves > 0 else m.at_y_piece, BEFORE)
+        write_row(m, m.t, as_shown(m, m.at_y if m.n_moves > 0 else m.at_y_piece), BEFORE)
         remember(m)
         begin_settling(m)
         m.phase = SETTLE
@@ -108,7 +107,33 @@ def arrive(m, located):
             write_row(m, m.t, at_shown, ORDINARY)
         elif recorded:
             write_row(m, m.t, at_shown, PASSED)
+        m.shown_apart = 0
     return GO_ON
+
+
+@compiled
+def remember_shown(m, at_shown):
+    """Keep how far speeds that follow a stiff law are shown from where the interpolant has them: see balance_stiff.
+
+    Both rows of an event are moved by it, not the motion: a speed that balances to rounding has a y'' of rounding.
+    """
+    m.shown_apart = m.any_stiff
+    if m.any_stiff == 0:
+        return
+    shown, piece, apart = reals(at_shown, m.n), reals(m.at_y_piece, m.n), reals(m.at_apart, m.n)
+    for k in range(m.n):
+        apart[k] = shown[k] - piece[k]
+
+
+@compiled
+def as_shown(m, at_y):
+    """Address of y as it is recorded at an event."""
+    if m.shown_apart == 0:
+        return at_y
+    y, shown, apart = reals(at_y, m.n), reals(m.at_y_probe, m.n), reals(m.at_apart, m.n)
+    for k in range(m.n):
+        shown[k] = y[k] + apart[k]
+    return m.at_y_probe
 
 
 @compiled
@@ -243,7 +268,8 @@ def finish_settling(m, starting):
     m.judged = 1
     m.crossed = 0
     if not starting or m.on_grid == 0 or m.grid_next == 0:
-        write_row(m, m.t, m.at_y, ORDINARY if starting else AFTER)
+        write_row(m, m.t, as_shown(m, m.at_y), ORDINARY if starting else AFTER)
+    m.shown_apart = 0
     if starting:
         m.grid_next = 1
         copy(reals(m.at_y, m.n), reals(m.at_begun, m.n))

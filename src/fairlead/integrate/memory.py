@@ -55,7 +55,7 @@ INTEGERS = (
     # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
     "linearised", "driven", "massless", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting",
     "has_limits",
-    "n_quadratures", "rows_slip", "any_stiff", "samples", "block_steps",
+    "n_quadratures", "rows_slip", "any_stiff", "shown_apart", "samples", "block_steps",
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that
     "searched", "midway", "replanned",
@@ -126,8 +126,8 @@ VECTORS = {
     "rate": "n_guards", "rate_end": "n_guards", "fast_slip": "n_guards",
     # energy lost in impacts, by the row that held
     "lost": "n", "rebound": "n",
-    # the point as it was settled at the start
-    "begun": "n",
+    # the point as it was settled at the start; of an event, how far from y it is shown
+    "begun": "n", "apart": "n",
     # what was recorded
     "row_t": "row_capacity", "row_values": "rows_outputs", "event_t": "event_capacity",
 }  # fmt: skip
