@@ -45,7 +45,8 @@ class Counters:
     rejected_companion: int
     """Steps given up because a guard turned out positive without having crossed."""
     rejected_switch: int
-    """Steps of `stepping` taken again to end at a switch: a law jumps there, or an impulse was missed."""
+    """Steps taken again to end at a switch: of `stepping` where a law jumps there, or an impulse was missed; of `rodas`
+    where the piece up to the switch does not satisfy the equations (trial.py)."""
     rejected_cycling: int
     """Steps of `stepping` whose zones went in a circle."""
     rejected_diverged: int

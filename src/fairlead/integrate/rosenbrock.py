@@ -121,22 +121,30 @@ def midpoint_defect(m, h):
     and anything in between. The residual of the interpolant, r = f - M y', through the factors of W, is the missing
     estimate (as in Rodas5Pr, Steinebach 2024); it behaves as the error of the dense output.
     """
+    defect(m, h, 0.5)
+    error, watched = reals(m.at_error_vector, m.n), indices(m.at_watched, m.n)
+    for k in range(m.n):
+        if watched[k] == 0:
+            error[k] = 0.0
+
+
+@compiled
+def defect(m, h, theta):
+    """Into `error_vector`: r = f - M y' of the dense output at theta, through the factors of W."""
     n = m.n
     y, y_end, D = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, 3 * n)
     u, v, f, error = reals(m.at_u, n), reals(m.at_v, n), reals(m.at_f, n), reals(m.at_error_vector, n)
-    watched = indices(m.at_watched, n)
+    both = theta * (1.0 - theta)
     for k in range(n):
         change = y_end[k] - y[k]
-        u[k] = y[k] + 0.5 * change + 0.25 * (D[k] + 0.5 * D[n + k] + 0.25 * D[2 * n + k])
-        v[k] = -(change + 0.25 * (D[n + k] + D[2 * n + k])) / h
-    field_at(m.call_rhs, (m.context, m.t + 0.5 * h, m.at_u, m.at_f))
+        inner = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
+        u[k] = y[k] + theta * change + both * inner
+        v[k] = -(change + (1.0 - 2.0 * theta) * inner + both * (D[n + k] + 2.0 * theta * D[2 * n + k])) / h
+    field_at(m.call_rhs, (m.context, m.t + theta * h, m.at_u, m.at_f))
     m.rhs += 1
     copy(f, error)
     add_mass_times(m, m.at_v, m.at_error_vector)
     solve(m, m.at_error_vector)
-    for k in range(n):
-        if watched[k] == 0:
-            error[k] = 0.0
 
 
 @compiled

@@ -47,6 +47,8 @@ START_ERROR = 0.1
 """Error of the first step after a restart, in weights: it is of order one and has no estimate to correct it."""
 RETREAT = 1e-3
 """After a failure IDA is started again from the last good point, with this share of the step that failed."""
+AGAIN = 0.5
+"""A step that is cut at a switch where it does not satisfy the equations is taken again with this share of it."""
 LEAST_STEP = 1e-14
 """First step of a restart over the span, at least."""
 
@@ -102,7 +104,8 @@ class SundialsLoop:
         self.fresh = False
         self.last_step = step.t - float(number["t"])
         at = [each.ctypes.data for each in (step.y, step.rate, step.rooted)]
-        self.kernels["judge_step"](address, step.t, *at, len(step.rooted))
+        if self.kernels["judge_step"](address, step.t, *at, len(step.rooted)):
+            return self.taken_again(address)
         return None
 
     def restart(self, first_step: float) -> None:
@@ -132,15 +135,27 @@ class SundialsLoop:
         least = max(LEAST_STEP * (self.run.stop - self.run.start), 4e-15 * abs(number["t"]))
         return float(min(max(min(h, 0.1 * (self.run.stop - self.run.start)), least), rest))
 
+    def taken_again(self, address: int) -> Status | None:
+        """A step missed what happens shortly before a switch: start again at the point with a part of it."""
+        if self.last_step > self.floor:
+            self.restart(max(AGAIN * self.last_step, self.floor))
+            return None
+        return self.failed(address)
+
+    @property
+    def floor(self) -> float:
+        """The shortest step at the point."""
+        span = self.run.stop - self.run.start
+        return max(LEAST_STEP * span, 4e-15 * abs(float(self.memory.number["t"])), self.least_step)
+
     def failed(self, address: int) -> Status | None:
         """IDA made no step: start it again from here with a much shorter one, until there is none."""
         number = self.memory.number
         tried = self.started_with if self.fresh else self.last_step
-        floor = max(LEAST_STEP * (self.run.stop - self.run.start), 4e-15 * abs(number["t"]), self.least_step)
-        if tried > floor:
-            self.restart(max(RETREAT * tried, floor))
+        if tried > self.floor:
+            self.restart(max(RETREAT * tried, self.floor))
             return None
-        number["h"] = floor
+        number["h"] = self.floor
         return Status(self.kernels["find_culprit"](address))
 
 

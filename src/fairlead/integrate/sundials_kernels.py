@@ -18,7 +18,7 @@ from fairlead.integrate.linear import add_mass_times, factorise_step, solve
 from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import begin_settling
-from fairlead.integrate.trial import not_finite_here
+from fairlead.integrate.trial import not_finite_here, rough
 
 
 def residual(address, t, at_y, at_rate, at_r):
@@ -70,6 +70,7 @@ def guards(address, t, at_y, at_g):
 def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted):
     """Judge the step from the point to (t_end, y_end, y'_end) by the trigger and companion rules; set its piece.
 
+    1 if it is to be taken again, shorter: it is cut at a crossing where it does not satisfy the equations. Else 0.
     `rooted` are guards whose rise through zero at t_end was located by the integrator; what the rules of
     crossing.py see earlier in the step (a double crossing, a guard that begins at zero) comes first.
     """
@@ -86,13 +87,20 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted):
         remember(m)
         begin_settling(m)
         m.phase = SETTLE
-        return
+        return 0
     if found == NONE and n_rooted > 0:
         copy(indices(at_rooted, n_rooted), indices(m.at_fired, n_rooted))
         m.n_fired = n_rooted
         m.theta = 1.0
-    accept(m, h, found == CROSSING or n_rooted > 0)
+    crossed = found == CROSSING or n_rooted > 0
+    if crossed:
+        weigh(m, m.at_y_end)
+        if rough(m, h):
+            m.n_fired = 0
+            return 1
+    accept(m, h, crossed)
     copy(reals(at_rate_end, m.n), reals(m.at_slope, m.n))
+    return 0
 
 
 @compiled

@@ -32,7 +32,7 @@ from fairlead.integrate.meters import judge_meters, meter_piece
 from fairlead.integrate.position import way_back
 from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
-from fairlead.integrate.rosenbrock import midpoint_defect, take_step
+from fairlead.integrate.rosenbrock import defect, midpoint_defect, take_step
 from fairlead.integrate.rows_between import find_stiff
 from fairlead.integrate.settling import all_fall, begin_settling
 
@@ -43,6 +43,11 @@ would change nothing, and the next step be as long."""
 
 INSTANT = 1e-13
 """Share of the time, or of the span, below which two time events are one: in a step as short matrices are rounding."""
+
+ROUGH = 10.0
+"""Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
+MOST_KEPT = 0.8
+"""Share of a step that is taken again at most."""
 
 STUBBORN = 6
 """Rejections in a row that call for `mend_point`."""
@@ -89,9 +94,37 @@ def attempt(m):
         begin_settling(m)
         m.phase = SETTLE
         return GO_ON
+    if found == CROSSING and m.theta < 1.0 and m.adaptive == 1 and cut_too_rough(m, h):
+        return GO_ON
     m.any_stiff = find_stiff(m, h)
     accept(m, h, found == CROSSING)
     return GO_ON
+
+
+@compiled
+def cut_too_rough(m, h):
+    """True if the piece up to a crossing is to be taken as a step of its own, which `h_next` then is."""
+    if min(m.theta, MOST_KEPT) * h < smallest_step(m) or not rough(m, h):
+        return False
+    m.n_fired = 0
+    m.h_next = min(m.theta, MOST_KEPT) * h
+    return True
+
+
+@compiled
+def rough(m, h):
+    """True if the dense output does not satisfy the equations at `theta`, where the step is to be cut.
+
+    The error of a step is that of its end. A law may change much between the last stage before a crossing and the one
+    after it, as friction does that rises while a contact comes to rest: beyond rest the law in force is mirrored, so
+    all stages may lie beside the rise, and the piece of the step up to rest misses it.
+    """
+    defect(m, h, m.theta)
+    if weighted_norm(m, m.at_error_vector) <= ROUGH:
+        return False
+    m.rejected_switch += 1
+    m.retried += 1
+    return True
 
 
 @compiled
