@@ -5,6 +5,7 @@ the speed it begins with. Beyond rest the law in force is mirrored, so a long st
 rise, which is a thousandth of the speed wide.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -41,7 +42,7 @@ def test_a_block_comes_to_rest_when_its_friction_says(scene, curve, width, speed
     text, coefficient = CURVES[curve]
     edges = [0.0, *(k * width for k in (1, 3, 10, 40) if k * width < abs(speed)), abs(speed)]
     rest = sum(scipy.integrate.quad(lambda v: MASS / (NORMAL * coefficient(v, width)), a, b, epsabs=1e-13)[0]
-               for a, b in zip(edges, edges[1:], strict=False))  # fmt: skip
+               for a, b in itertools.pairwise(edges))  # fmt: skip
     for accuracy in (1e-3, 1e-4, 1e-6):
         given = text.format(w=width)
         model = scene(SCENE.format(speed=speed, curve=given, accuracy=accuracy, engine=engine))
@@ -55,5 +56,5 @@ def test_a_block_comes_to_rest_when_its_friction_says(scene, curve, width, speed
 def _way(coefficient, width, speed, edges):
     """Integral of m v/(N mu(v)) dv, with the sign of the speed."""
     parts = [scipy.integrate.quad(lambda v: MASS * v / (NORMAL * coefficient(v, width)), a, b, epsabs=1e-13)[0]
-             for a, b in zip(edges, edges[1:], strict=False)]  # fmt: skip
+             for a, b in itertools.pairwise(edges)]  # fmt: skip
     return float(np.sign(speed)) * sum(parts)

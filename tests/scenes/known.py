@@ -1,0 +1,9 @@
+"""Scenes that are not right, by class and seed, and why; a scene leaves the list when it becomes right.
+
+Each is wrong by an oracle of ours, so none of these is silent: the page docs/random_scenes.md counts them.
+"""
+
+from __future__ import annotations
+
+KNOWN: dict[str, dict[int, str]] = {}
+"""Class -> seed -> why."""
