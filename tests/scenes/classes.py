@@ -38,6 +38,8 @@ class Scene:
     restitution: float = 0.0
     accuracies: tuple[float, float, float] = (1e-4, 1e-6, 1e-7)
     """What it is played at: loosely, as most netlists are; to be judged; and to see whether that is enough."""
+    engines: bool = True
+    """Whether another engine is asked; it would take minutes of a line on a route."""
     ramps: tuple[str, ...] = ()
     """The same with loads that go over in a short time instead of jumping, the slower first."""
 
@@ -73,7 +75,7 @@ CLASSES: dict[str, Callable[[int], Scene]] = {
     "ties": _ties,
     "limits": lambda seed: Scene("limits", seed, varying(seed)),
     "ratios": lambda seed: Scene("ratios", seed, ratio(seed), libraries=(LIBRARY,)),
-    "routes": lambda seed: Scene("routes", seed, route(seed), accuracies=(1e-3, 1e-5, 1e-6)),
+    "routes": lambda seed: Scene("routes", seed, route(seed), accuracies=(1e-3, 1e-5, 1e-6), engines=False),
     "jumps": _jumps,
     "starts": lambda seed: Scene("starts", seed, start(seed)),
 }

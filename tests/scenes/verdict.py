@@ -20,7 +20,7 @@ from tests.scenes.classes import Scene
 from tests.scenes.machine import Machine
 from tests.scenes.mirrored import SHOWN, mirrored
 from tests.scenes.observed import Observed, every_step, loaded, observed
-from tests.scenes.oracles.agreement import Compared, agreement
+from tests.scenes.oracles.agreement import FACTOR, Compared, agreement, away
 from tests.scenes.oracles.beginning import beginning
 from tests.scenes.oracles.energy import energy
 from tests.scenes.oracles.impulses import impulses
@@ -34,9 +34,13 @@ Word = Literal["right", "aside", "refused", "ended", "wrong"]
 SOON = 0.1
 """Share of its time for which a scene must be foretold."""
 OTHER = "rodas3p"
+METHOD: dict[str, Any] = {"method": OTHER}
 """The method of `rodas` that stands in where the rival refuses a scene: other stages, other order."""
-RIVAL_WALL = 5.0
+RIVAL_WALL = 3.0
 """Time [s] after which a rival takes no part."""
+FINER = (1.0, 0.1, 0.01)
+"""A rival that does not agree is asked for more of its accuracy: what counts is the best that it has to say, and how
+far that is from what it said before, which is its own estimate of its error."""
 RIVALS = {"rodas": "ida", "ida": "rodas", "stepping": "rodas"}
 
 
@@ -74,31 +78,44 @@ def _judged(scene: Scene, engine: str) -> Verdict:
     if said := shown_wrong(scene, main) or _unlike_ramps(scene, main, engine):
         return Verdict("wrong", said)
     comparison = _Comparison(model, Compared(main), engine)
-    rival = ""
-    for what, run, accuracy in (
-        (f"accuracy {loose:g}", lambda: observed(model, loose, engine), loose),
-        (f"accuracy {fine:g}", lambda: observed(model, fine, engine), judged),
-        (f"engine {RIVALS[engine]}", lambda: observed(model, judged, RIVALS[engine], max_wall=RIVAL_WALL), judged),
-    ):
-        try:
-            other = run()
-        except FairleadError:
-            rival = f"{what}: refused"
-            if what.startswith("engine") and engine == "rodas":
-                comparison.ask(Compared(_finished(observed(model, judged, method=OTHER))), f"method {OTHER}", judged)
-            continue
-        if other.status != "finished":
-            if not what.startswith("engine"):
-                _finished(other)
-            rival = f"{what}: {other.said}"
-            continue
-        if accuracy == loose and (said := energy(other)):
-            return Verdict("wrong", f"{what}: {said}")
-        comparison.ask(Compared(other), what, accuracy)
+    for accuracy, estimate in ((loose, loose), (fine, judged)):
+        other = _finished(observed(model, accuracy, engine))
+        if said := energy(other):
+            return Verdict("wrong", f"accuracy {accuracy:g}: {said}")
+        comparison.ask(Compared(other), f"accuracy {accuracy:g}", estimate)
+    rival = _beside_rival(scene, comparison, engine)
     if image := mirrored(every_step(scene.text)):
         other = _finished(observed(loaded(scene, image), judged, engine))
         comparison.ask(Compared(other, -1.0, SHOWN), "mirrored", judged)
     return Verdict("right", "", comparison.horizon, rival)
+
+
+def _beside_rival(scene: Scene, comparison: _Comparison, engine: str) -> str:
+    """Compare with another engine, and with another method where that does not; why no rival took part, if none did."""
+    model, judged, why = comparison.model, scene.accuracies[1], ""
+    for what, settings in ((f"engine {RIVALS[engine]}", {"engine": RIVALS[engine]}), (f"method {OTHER}", METHOD)):
+        if not scene.engines and engine == "rodas" and settings is not METHOD:
+            continue
+        last, own = None, None
+        try:
+            for finer in FINER:
+                other = observed(model, finer * judged, max_wall=RIVAL_WALL, **settings)
+                if other.status != "finished":
+                    why = f"{what}: {other.said}"
+                    break
+                before, last = last, Compared(other)
+                own = None if before is None else np.maximum.accumulate(away(last, before)) / FACTOR
+                if not agreement(comparison.main, last, what, own):
+                    return ""
+        except FairleadError:
+            why = f"{what}: refused"
+            continue
+        if last is not None:
+            comparison.ask(last, what, judged, own)
+            return ""
+        if engine != "rodas":
+            break
+    return why
 
 
 def shown_wrong(scene: Scene, run: Observed) -> str:
@@ -138,14 +155,18 @@ class _Comparison:
     engine: str
     horizon: float = np.inf
 
-    def ask(self, other: Compared, what: str, accuracy: float) -> None:
-        """Compare. Raises _Left where the runs differ by more than their errors."""
-        if not agreement(self.main, other, what):
+    def ask(self, other: Compared, what: str, accuracy: float, own: np.ndarray | None = None) -> None:
+        """Compare. `own` is the error that the other run is known to have. Raises _Left where they differ by more."""
+        if not agreement(self.main, other, what, own):
             return
         grown, horizon = sensitivity(self.model, self.main, accuracy)
         stop = float(self.main.grid[-1])
+        if horizon < SOON * stop and accuracy > self.main.run.accuracy:
+            return  # so loose an accuracy foretells nothing of it
         if horizon < SOON * stop:
             raise _Left("aside", f"{what}: moved by {accuracy:g} at the start it parts from itself at {horizon:.3g} s")
+        if own is not None:
+            grown = grown + own
         if said := agreement(self.main, other, what, grown, horizon):
             raise _Left("wrong", said)
         self.horizon = min(self.horizon, horizon)

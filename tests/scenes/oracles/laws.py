@@ -7,8 +7,11 @@
 
 written here once more, from docs/physics.md. It sees a wrong law, sign, coefficient or limit, friction that drives,
 contacts that hold more than they can, stops that pull. Friction is judged at the ends of steps: inside a step it is
-shown by the dense output, not by its curve. It cannot see whether the motion follows from the forces
-(momentum.py), nor judge treatments of sticking that bend or creep: of those only that friction does not drive.
+shown by the dense output, not by its curve. What a contact holds beyond its limit, or a stop pulls, counts by its
+impulse, since one that toggles is kept in its zone for a dwell of a millionth of the span.
+
+It cannot see whether the motion follows from the forces (momentum.py), nor judge treatments of sticking that bend or
+creep, nor lines on routes.
 """
 
 from __future__ import annotations
@@ -102,7 +105,6 @@ def _rigid(name: str, part: Any, machine: Machine, run: Observed) -> str:
     force, gap = run.columns[f"{name}.force"], run.columns[f"{name}.gap"]
     least = PER_ACCURACY * run.accuracy * max(NOMINAL["N"], float(np.abs(force).max(initial=0.0)))
     into = TOUCHES + PER_ACCURACY * run.accuracy * NOMINAL["m"]
-    # one that opens and meets again at once is kept for a dwell, a millionth of the span
     pulled = float(np.sum(integrals(np.maximum(0.0, -force - least), run.t, run.side)))
     if pulled > PER_ACCURACY * run.accuracy * NOMINAL["m/s"]:
         return f"{name} pulls with {-force.min():.2g} N, {pulled:.2g} N s in all"
@@ -185,11 +187,14 @@ def _friction(signal: str, slip_of: str, lever: float, part: Any, machine: Machi
     normal = np.maximum(0.0, normal)
     rest, sliding = curve(part["curve"], np.abs(slip))
     most = np.maximum(rest, sliding)
-    off = np.where(slides, np.abs(shown - normal * sliding * np.sign(slip)), np.abs(shown) - normal * most)
-    off = np.where(normal > OPEN, off, np.abs(shown) - OPEN * most)
-    off = np.where(run.side == INSIDE, 0.0, off)
+    off = np.abs(shown - normal * sliding * np.sign(slip))
+    off = np.where(slides & (normal > OPEN) & (run.side != INSIDE), off, 0.0)
     if (k := int(np.argmax(off))) is not None and off[k] > least:
-        return f"{signal} is {shown[k]:.6g} N at {run.t[k]:.6g} s, off its curve or above its limit by {off[k]:.2g} N"
+        return f"{signal} is {shown[k]:.6g} N at {run.t[k]:.6g} s, off its curve by {off[k]:.2g} N"
+    over = np.abs(shown) - np.maximum(normal, OPEN) * most - least
+    held = float(np.sum(integrals(np.where(slides, 0.0, np.maximum(0.0, over)), run.t, run.side)))
+    if held > PER_ACCURACY * run.accuracy * NOMINAL["m/s"]:
+        return f"{signal} is above its limit at rest by {over.max() + least:.2g} N, {held:.2g} N s in all"
     return ""
 
 
