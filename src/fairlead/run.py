@@ -178,6 +178,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()
+    if settings.engine == "stepping" and system.without_inertia:
+        raise UsageError(_light(system.without_inertia))
     if settings.engine == "stepping" and system.uneven:
         raise UsageError(_uneven(system.uneven))
     if settings.engine != "rodas" and settings.engine != "auto" and (kept := system.kept_positions):
@@ -248,6 +250,8 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     """The engine of a run and why, as run.json tells them."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
+    if system.without_inertia:
+        return "rodas", "auto: a contact or a gear holds a node without inertia, whose forces do not tell its speed"
     if system.uneven:
         return "rodas", "auto: a contact holds between a node with mass and one without"
     if system.kept_positions:
@@ -283,6 +287,15 @@ def _uneven(contacts: list[str]) -> str:
         "run.engine: stepping does not hold contacts between a node with mass and one without "
         f"({few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
         "rodas (or auto)."
+    )
+
+
+def _light(parts: list[str]) -> str:
+    """Why `stepping` does not take these contacts and gears."""
+    return (
+        "run.engine: stepping does not take what holds nodes without inertia between springs or at gears "
+        f"({few(parts)}): it knows the mean over a step of their speeds, and no jumps. Give the node an inertia, or "
+        "take run.engine: rodas (or auto, or ida)."
     )
 
 

@@ -127,7 +127,7 @@ def _weights(system: System, accuracy: float) -> list[tuple[int, tuple[float, bo
         fixed = set(s.fixed_signals)
         for k, name in enumerate(s.outputs):
             mine = [(place, j) for place, (output, j) in enumerate(s.d_signals) if output == k]
-            if not mine or k in s.curved or any(place not in fixed for place, _ in mine):
+            if name not in declared or not mine or k in s.curved or any(place not in fixed for place, _ in mine):
                 continue
             inputs = [j for _, j in mine]
             ratio = np.abs(block.in_coef[:, inputs])

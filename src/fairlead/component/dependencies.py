@@ -36,7 +36,8 @@ def _framework() -> str:
     here = pathlib.Path(__file__).parent
     tracing = "declare given declaration answers base functions holding hold_rows keys symbols trace values piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
-    text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away"
+    text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away "
+    text += "flow_rates"
     files += [here.parent / "system" / f"{name}.py" for name in text.split()]
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 

@@ -3,11 +3,12 @@
     port:a:v           of the port a: x position or potential, v rate, a acceleration, A prescribed one, R reaction,
                        U acceleration as an unknown (or the prescribed one)
     own:force          a state or unknown of the component's own
-    in:normal          an input
+    in:normal          an input; in:normal:rate how fast it changes
     p:stiffness        a parameter, also of a part (p:curve.coulomb); p:#held a discrete variable
     p:velocity:omega   what a quantity in time swings with
     T:curve:0          of the table `curve`, the piece in force: 0 where it begins, k its coefficient number k - 1
     t                  time
+    rate:a             of what a kernel adds up: the rate of what the port a takes in
 
 Names are those of Python and dots, so a colon always parts. Nothing else takes a key apart.
 """
@@ -17,7 +18,12 @@ from __future__ import annotations
 import functools
 from typing import NamedTuple
 
-PORT, OWN, INPUT, PARAMETER, TABLE, TIME = "port", "own", "in", "p", "T", "t"
+PORT, OWN, INPUT, PARAMETER, TABLE, TIME, RATE = "port", "own", "in", "p", "T", "t", "rate"
+
+
+def rate_of(output: str) -> str:
+    """The name of the signal that tells how fast an output changes."""
+    return f"{output}@{RATE}"
 
 
 class Key(NamedTuple):

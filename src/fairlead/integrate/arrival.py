@@ -30,7 +30,7 @@ from fairlead.integrate.record import shown_end, write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, distance_to_look, move_ahead, settle
 from fairlead.integrate.start import NOT_CONSISTENT, correct_forces, keep_positions
-from fairlead.integrate.trial import not_finite_here, smallest_step
+from fairlead.integrate.trial import DOUBT, not_finite_here, smallest_step
 
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 """Newton iterations allowed from the guess of a user, and from a point consistent before a switch."""
@@ -75,9 +75,10 @@ def arrive(m, located):
     m.judged = 0
     copy(reals(m.at_y_piece, m.n), reals(m.at_y, m.n))
     m.jacobian_fresh = 0
-    better = m.n_moves > 0 or (located and m.crossed == 1 and asks_for_forces(m))
+    kept = m.n_moves > 0 or (m.n_balanced > 0 and m.crossed == 1)
+    better = kept or (located and m.crossed == 1 and asks_for_forces(m))
     if better:
-        if (keep_positions(m) if m.n_moves > 0 else correct_forces(m)) == INACCURATE:
+        if (keep_positions(m) if kept else correct_forces(m)) == INACCURATE:
             return REPLAN
         judge_again(m)
         at_shown = as_shown(m, m.at_y)
@@ -187,6 +188,8 @@ def judge_again(m):
     else:
         m.n_fired, m.crossed, m.dropped = 0, 0, m.dropped + 1
         m.last_error = 0.0  # the point has moved: nothing is known of the step before
+        if m.n_balanced > 0 and m.adaptive == 1:
+            m.h_next = min(m.h_next, DOUBT * m.h)  # a load that turns at its limit leaves it with no slope
 
 
 @compiled

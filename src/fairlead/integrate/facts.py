@@ -63,6 +63,13 @@ class Facts(Protocol):
         """
 
     @property
+    def balanced(self) -> Integers:
+        """[k, 2]: position and (algebraic) speed of nodes without inertia whose row may be  0 = g + tau dg/dt.
+
+        Where it is, `gap` gives tau g in the row of the speed, else zero (balance.py).
+        """
+
+    @property
     def ledger(self) -> tuple[int, int]:
         """Unknowns in which what is dissipated and what is supplied adds up, -1 for none (impulse.py)."""
 
@@ -169,6 +176,11 @@ class Plain:
     def moves(self) -> Integers:
         """None are kept."""
         return np.zeros((0, 3), dtype=np.int64)
+
+    @property
+    def balanced(self) -> Integers:
+        """None are."""
+        return np.zeros((0, 2), dtype=np.int64)
 
     @property
     def holder(self) -> Integers:

@@ -126,11 +126,10 @@ def slip_to_stop(m):
 
 @compiled
 def change_of_speed(m):
-    """Set u = dV and tell its weighted norm; the ledger has its own account of an impact."""
-    b, u, differential = reals(m.at_b, m.n), reals(m.at_u, m.n), indices(m.at_differential, m.n)
-    quadrature = indices(m.at_quadrature, m.n)
+    """Set u = dV and tell its weighted norm; the ledger has its own account of an impact, and positions stand still."""
+    b, u, is_speed = reals(m.at_b, m.n), reals(m.at_u, m.n), indices(m.at_is_speed, m.n)
     for k in range(m.n):
-        u[k] = b[k] if differential[k] == 1 and quadrature[k] == 0 else 0.0
+        u[k] = b[k] if is_speed[k] == 1 else 0.0
     return weighted_norm(m, m.at_u)
 
 

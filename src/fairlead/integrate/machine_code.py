@@ -18,8 +18,8 @@ SOURCES = (
     "memory.py", "foreign.py", "condensing.py", "condensed.py", "linear.py", "sparse.py", "perturbed_pivots.py",
     "rosenbrock.py", "interpolant.py", "meters.py", "even_steps.py", "controller.py", "curvature.py", "guards.py",
     "limits.py", "least_index.py",
-    "position.py", "crossing.py", "rows_between.py", "record.py", "rebound.py", "impulse.py", "start.py", "release.py",
-    "settling.py", "growth.py", "codes.py", "trial.py", "arrival.py", "loop.py",
+    "balance.py", "position.py", "crossing.py", "rows_between.py", "record.py", "rebound.py", "impulse.py", "start.py",
+    "release.py", "settling.py", "growth.py", "codes.py", "trial.py", "arrival.py", "loop.py",
 )  # fmt: skip
 """Every file of this folder whose text the machine code depends on."""
 

@@ -41,7 +41,7 @@ INTEGERS = (
     # guards have inertias
     "stage", "stage_from", "fewest", "waited", "weighs_guards",
     # impacts: whether any row takes impulses, and the unknowns of the energy ledger (-1: there is none)
-    "takes_impulses", "rebounds", "n_moves", "dropped", "dissipated_at", "supplied_at",
+    "takes_impulses", "rebounds", "n_moves", "n_balanced", "dropped", "dissipated_at", "supplied_at",
     # the order of release (release.py): whether friction of a contact falls as it lets go, whether the order was
     # asked for in this settlement, levels of load that are still out, whether zones have changed since the last of
     # them, whether there was nothing before
@@ -138,6 +138,8 @@ INDICES = {
     "mass_starts": "n_plus_1", "mass_rows": "n_mass", "mass_columns": "n_mass", "mass_place": "n_mass",
     # relations of positions (position.py): a position, its speed, and its acceleration where that is an unknown
     "move_position": "n_moves", "move_speed": "n_moves", "move_acceleration": "n_moves",
+    # nodes without inertia (balance.py): their positions and speeds
+    "balanced_position": "n_balanced", "balanced_speed": "n_balanced",
     # the speed of an acceleration that is an unknown; of others they themselves
     "speed_of": "n",
     "differential": "n", "quadrature": "n", "unweighed": "n", "watched": "n", "takes_impulse": "n",

@@ -65,11 +65,13 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
         **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
         "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
+        "n_balanced": len(problem.balanced),
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
-        "n_moves": len(problem.moves), "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
+        "n_moves": len(problem.moves), "n_balanced": len(problem.balanced),
+        "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
@@ -89,6 +91,8 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         "mass_starts": problem.mass_pattern.starts, "mass_rows": problem.mass_pattern.rows,
         "mass_columns": columns_of(problem.mass_pattern),
         **{f"move_{name}": np.ascontiguousarray(problem.moves[:, k], np.int64) for k, name in enumerate(MOVES)},
+        "balanced_position": np.ascontiguousarray(problem.balanced[:, 0], np.int64),
+        "balanced_speed": np.ascontiguousarray(problem.balanced[:, 1], np.int64),
         "speed_of": speed_of(problem), "position_of": position_of(problem),
         "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n),
         **plan.arrays,

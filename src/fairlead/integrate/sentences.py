@@ -85,7 +85,18 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.MAX_WALL: f"{when}: the budget of {run.max_wall} s is used up; {kept}",
         Status.INTERRUPTED: f"{when}: interrupted; {kept}",
     }
-    return texts[status]
+    return texts[status] + _without_inertia(status, memory, problem)
+
+
+def _without_inertia(status: Status, memory: Memory, problem: Problem) -> str:
+    """What to do where the speed of a node without inertia ends a run: no force tells it any more."""
+    at = {Status.STEP_FLOOR: "worst", Status.SINGULAR: "culprit"}.get(status)
+    if at is None or int(memory.number[at]) not in np.asarray(problem.balanced):
+        return ""
+    return (
+        " That node has no inertia, and the force of what slides there tells its speed no more. Add a mass there, or a "
+        "damper beside the spring, or take method: hold, binding or dahl for the contact."
+    )
 
 
 def _floor(memory: Memory, run: Run) -> str:

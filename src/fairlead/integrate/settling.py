@@ -18,6 +18,7 @@ all that must break, as many as the least index).
 
 from __future__ import annotations
 
+from fairlead.integrate.balance import MOVES, jump_to_balance
 from fairlead.integrate.controller import weighted_norm
 from fairlead.integrate.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.guards import evaluate_guards
@@ -54,7 +55,8 @@ def settle(m, iterations):
 
     After INACCURATE (new pivots) and NO_ROOM (emptied buffers) it is called again and goes on.
     """
-    while True:
+    moves = 0
+    while moves <= MOVES:
         if m.n_fired > 0:
             if m.passes >= m.max_passes:
                 return NOT_SETTLED
@@ -63,9 +65,7 @@ def settle(m, iterations):
             if m.falling == 1 and m.passes == 0:
                 add_ties(m)
             change_zones(m)
-        if m.passes >= m.max_passes // 2:
-            m.levels, m.level_due = 0, 0  # an order that goes in a circle
-        status = release(m) if m.levels + m.level_due > 0 else DONE
+        status = release_in_order(m)
         if status == DONE and m.n_fired > 0:
             continue
         if status == DONE:
@@ -79,11 +79,28 @@ def settle(m, iterations):
             status = begin_release(m)
             if status != DONE:
                 return status
-            continue
-        if m.n_fired == 0 or (m.stage > LEAST_INDEX and all_at_limits(m)):
+        elif still_wrong(m):
+            choose(m)
+        else:
             m.n_fired = 0
-            return DONE
-        choose(m)
+            moves += 1
+            if not jump_to_balance(m):
+                return DONE
+    return DONE
+
+
+@compiled
+def release_in_order(m):
+    """Go on with the order of release, if there is one that does not go in a circle."""
+    if m.passes >= m.max_passes // 2:
+        m.levels, m.level_due = 0, 0
+    return release(m) if m.levels + m.level_due > 0 else DONE
+
+
+@compiled
+def still_wrong(m):
+    """True if a zone must change; not where single switches go in a circle and all are at their limits."""
+    return m.n_fired > 0 and not (m.stage > LEAST_INDEX and all_at_limits(m))
 
 
 @compiled

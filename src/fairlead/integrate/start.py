@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from math import isfinite
 
+from fairlead.integrate.balance import ROUNDS, close_balance
 from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
 from fairlead.integrate.impulse import ROUNDED as ROUNDED_IMPULSE
@@ -69,8 +70,9 @@ def project(m):
     y, differential = reals(m.at_y, n), indices(m.at_differential, n)
     if m.n_moves > 0 and (change_of_speed(m) > ROUNDED_IMPULSE or hands_slip_on(m)):
         return
+    is_speed, quadrature = indices(m.at_is_speed, n), indices(m.at_quadrature, n)
     for k in range(n):
-        if differential[k] == 1:
+        if differential[k] == 1 and is_speed[k] + quadrature[k] > 0:  # for a place that would be the change of its rate
             y[k] += r[k]
 
 
@@ -97,21 +99,27 @@ def hands_slip_on(m):
 def keep_positions(m):
     """Bring the end of a step back to the relations of positions: positions, speeds, and what follows from them.
 
+    Nodes without inertia are brought to where their forces balance, from where the dense output has put them.
     DONE or INACCURATE. Where relations are not independent of what holds, the end stays as it is.
     """
     status = prepare_consistent(m)
     if status == SINGULAR:
         return DONE
-    if status == DONE:
+    if status == DONE and m.n_moves > 0:
         status = project_positions(m)
     if status != DONE:
         return status
+    if m.n_balanced > 0:
+        close_balance(m)
     project(m)
     residual_here(m, m.at_x)
     solve(m, m.at_x)
     update(m, 1.0)
-    m.projections += 1
-    m.most_moved = max(m.most_moved, m.moved)
+    if m.n_moves > 0:
+        m.projections += 1
+        m.most_moved = max(m.most_moved, m.moved)
+    else:
+        slope_change(m)
     return DONE
 
 
@@ -152,6 +160,17 @@ def consistent(m, iterations):
 
     Returns DONE, SINGULAR, INACCURATE, NOT_CONSISTENT or RELEASED (impulse.py).
     """
+    status = solve_point(m, iterations)
+    for _ in range(ROUNDS):
+        if status != DONE or m.n_balanced == 0 or not close_balance(m):
+            break
+        status = solve_point(m, iterations)
+    return status
+
+
+@compiled
+def solve_point(m, iterations):
+    """As `consistent`, with nodes without inertia where they are."""
     mass_at(m.call_mass, (m.context, m.at_mass))
     status = prepare_consistent(m)
     if status == DONE and m.n_moves > 0:

@@ -81,6 +81,11 @@ def attempt(m):
     if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
         return reject(m, h, status)
     found = first_crossing(m, h)
+    if m.n_balanced > 0 and m.judged == 1 and turns_at_limit(m, h):
+        m.n_fired = 0
+        m.h_next = DOUBT * h
+        m.retried += 1
+        return GO_ON
     if found == COMPANION:
         m.rejected_companion += 1
         if m.judged == 1 and m.adaptive == 1 and DOUBT * h >= smallest_step(m) and all_fall(m):
@@ -125,6 +130,22 @@ def rough(m, h):
     m.rejected_switch += 1
     m.retried += 1
     return True
+
+
+@compiled
+def turns_at_limit(m, h):
+    """True if guards fired that were at their limits where zones were settled, and all are below at the end.
+
+    The load of a spring that turns in the hand at the limit of its contact leaves it with no slope, and the interpolant
+    of a long step is rougher than that. Of a shorter one it is not: the load goes with the square of the step.
+    """
+    ng = m.n_guards
+    g, end, tolerance = reals(m.at_g, ng), reals(m.at_g_end, ng), reals(m.at_guard_tolerance, ng)
+    fired, turns = indices(m.at_fired, ng), m.n_fired > 0 and m.adaptive == 1 and DOUBT * h >= m.dwell
+    for k in range(m.n_fired):
+        i = fired[k]
+        turns = turns and abs(g[i]) <= tolerance[i] and end[i] < 0.0
+    return turns
 
 
 @compiled

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.instantiate import Instance, PortRef
-from fairlead.component.keys import INPUT, OWN, TIME, key
+from fairlead.component.keys import INPUT, OWN, RATE, TIME, key, rate_of
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
 from fairlead.component.values import number_given, parameter, polynomial
 from fairlead.flatten.flat_model import FlatModel
@@ -92,7 +92,7 @@ def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering
            tables: Tables, machines: list[tuple[str, int]], tau: float) -> Block:  # fmt: skip
     s = kernel.structure
     inputs = [[place_of_input(flat, numbering, instance, one) for one in s.inputs] for instance in instances]
-    flows = [[_target(flat, numbering, instance, target) for target in s.targets] for instance in instances]
+    flows = [[_target(flat, numbering, instance, target, tau) for target in s.targets] for instance in instances]
     slots = []
     for instance in instances:
         slots.append([len(machines) + k for k in range(s.machines)])
@@ -130,6 +130,10 @@ def place_of_input(flat: FlatModel, numbering: Numbering, instance: Instance, te
         return numbering.time, 1.0, 0.0
     if one.kind == OWN:
         return numbering.own[instance.path, one.name], 1.0, 0.0
+    if one.kind == INPUT and one.part == RATE:
+        source = flat.sources.get(PortRef(instance.path, one.name))
+        at = numbering.signals.get(PortRef(source.instance, rate_of(source.port))) if source else None
+        return (numbering.zero, 0.0, 0.0) if at is None else (numbering.n + at, 1.0, 0.0)
     if one.kind == INPUT:
         return _signal_input(flat, numbering, instance, one.name)
     return _port_input(flat, numbering, PortRef(instance.path, one.name), one.part)
@@ -175,12 +179,17 @@ def place_of_motion(
     return signal, scale, offset - scale * own_offset if variable == "x" else 0.0
 
 
-def _target(flat: FlatModel, numbering: Numbering, instance: Instance, target: str) -> tuple[int, float]:
+def _target(
+    flat: FlatModel, numbering: Numbering, instance: Instance, target: str, tau: float
+) -> tuple[int, float]:
     """Row of w and coefficient of a flow, rate or balance. A balance is written  M v' = -sum of flows."""
     kind, name, _ = key(target)
     if kind == OWN:
         return numbering.own[instance.path, name], 1.0
     index, ratio, _ = flat.place(PortRef(instance.path, name))
+    if kind == RATE:
+        at = numbering.rated.get(index)
+        return (numbering.w_dump, 0.0) if at is None else (numbering.n + len(numbering.reactions) + at, -ratio * tau)
     if flat.groups[index].free:
         return numbering.balance[index], -ratio
     return numbering.n + numbering.reactions[index], ratio

@@ -59,6 +59,16 @@ def least_left(shares: Sequence[Sequence[str]], values: Values) -> float:
     return least
 
 
+def number_of(text: str, values: Values) -> float:
+    """The number of an expression of parameters, as `parameters_as_text` wrote it, for an instance."""
+    return float(eval(_compiled(text), {"p": _Parameters(values), **{name: getattr(math, name) for name in FUNCTIONS}}))
+
+
+def parameters_as_text(expression: sympy.Expr) -> str:
+    """An expression of parameters alone as text that `number_of` reads."""
+    return _written(expression, {})
+
+
 class _Parameters:
     """Parameters of an instance by their keys."""
 

@@ -16,6 +16,7 @@ from fairlead.system.driver import SPREAD, callbacks
 from fairlead.system.jacobian import jacobian
 from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
+from fairlead.system.rated_nodes import rated_rows
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
 from fairlead.system.switching import (
@@ -52,12 +53,14 @@ def build(
     A part of a model (not `whole`) has its weights and its samples from the whole, and no outputs of its own.
     """
     shared, end = shares(blocks)
-    program = jacobian(flat, blocks, shared, numbering, end.mass)
+    rated = rated_rows(flat, numbering, blocks)
+    program = jacobian(flat, blocks, shared, numbering, rated, end.mass)
     mass_pattern, memory = mass(blocks, shared, numbering)
     slots, switches = guards(blocks)
     memory |= switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
-    memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])}
+    memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
+    memory["partials"] = np.concatenate([memory["partials"], np.zeros(len(rated["rated_terms"]))])
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
     memory["context"] = context(blocks, numbering, program, memory, end.mass)
     timed = first_pieces(blocks, memory["zones"])

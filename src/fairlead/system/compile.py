@@ -10,6 +10,8 @@ from __future__ import annotations
 import dataclasses
 
 from fairlead.component.effects import switch
+from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import rate_of
 from fairlead.component.values import Variant
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.collection import collected_later
@@ -21,11 +23,19 @@ from fairlead.system.initial import starts
 from fairlead.system.kernels import Kernel, kernel
 from fairlead.system.narrowing import Narrowing
 from fairlead.system.ranks import signal_ranks
+from fairlead.system.rated_nodes import (
+    geared_groups,
+    rated_groups,
+    rates_read,
+    still_supports,
+    touching,
+    unfit_nodes,
+)
 from fairlead.system.sizes import nominal_faults
 from fairlead.system.start_places import placed, unfit
 from fairlead.system.start_speeds import started
 from fairlead.system.system import System
-from fairlead.system.unknowns import number
+from fairlead.system.unknowns import groups_with_rate_forces, number
 
 
 @collected_later
@@ -35,9 +45,14 @@ def compile(flat: FlatModel) -> System:
     structures = {path: made.structure for path, made in kernels.items()}
     if faults := unfit(flat, structures):
         raise ModelError(faults)
-    numbering = number(flat, structures, energy=energy_counted(flat))
+    rated, rates, faults = _rate(flat, kernels)
+    if faults:
+        raise ModelError(faults)
+    geared = geared_groups(flat, structures) - rated - groups_with_rate_forces(flat, structures)
+    numbering = number(flat, structures, energy=energy_counted(flat), rated=rated, geared=geared, rates=rates)
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
+    still_supports(blocks, numbering)
     begin, initially, faults = starts(flat, numbering)
     faults += nominal_faults(flat, numbering)
     faults += undetermined(flat, numbering, blocks)
@@ -45,7 +60,41 @@ def compile(flat: FlatModel) -> System:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
     system = started(placed(system, initially), initially)
-    return dataclasses.replace(system, narrows=None if system.kept_positions else Narrowing)
+    return dataclasses.replace(system, narrows=None if system.kept_positions or rated else Narrowing)
+
+
+def _rate(flat: FlatModel, kernels: dict[str, Kernel]) -> tuple[set[int], list[PortRef], list[Fault]]:
+    """Groups whose balances have their rates beside them, signals they need for it, and what cannot be.
+
+    Puts kernels that know rates in place of those that do not.
+    """
+    rated = rated_groups(flat, {path: made.structure for path, made in kernels.items()})
+    while rated:
+        told, signals = _told(flat, touching(flat, rated))
+        structures = {path: made.structure for path, made in (kernels | told).items()}
+        dropped, faults = unfit_nodes(flat, structures, rated)
+        if not dropped or faults:
+            kernels |= told
+            return rated, signals, faults
+        rated -= dropped
+    return set(), [], []
+
+
+def _told(flat: FlatModel, paths: set[str]) -> tuple[dict[str, Kernel], list[PortRef]]:
+    """Kernels with rates of these instances, and of those whose signals they read; the rates that are signals."""
+    instances = flat.assembly.instances
+    told = {path: kernel(instances[path].variant, 1) for path in sorted(paths)}
+    waiting = [source for path, made in told.items() for source in rates_read(flat, instances[path], made.structure)]
+    signals: dict[PortRef, None] = {}
+    while waiting:
+        source = waiting.pop()
+        path = source.instance
+        told[path] = kernel(instances[path].variant, 2)
+        s, name = told[path].structure, rate_of(source.port)
+        if name in s.outputs and PortRef(path, name) not in signals:
+            signals[PortRef(path, name)] = None
+            waiting += rates_read(flat, instances[path], s, name)
+    return told, list(signals)
 
 
 def energy_counted(flat: FlatModel) -> bool:

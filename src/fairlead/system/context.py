@@ -24,7 +24,7 @@ ADDRESSES = (
     "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
-    "ACCELERATED", "ACCELERATED_MASS",
+    "ACCELERATED", "ACCELERATED_MASS", "RATED", "RATED_JOINS", "RATED_MEMBERS", "RATED_WEIGHTS", "RATED_TERMS",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -33,6 +33,7 @@ COUNTED = {
     "N_HOLDS": "holds", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
     "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
+    "N_RATED": "rated", "N_RATED_JOINS": "rated_joins", "N_RATED_TERMS": "rated_terms",
 }  # fmt: skip
 
 
@@ -71,7 +72,7 @@ def context(
         "N_WORK": program.length, "N_PROGRAM_FORCES": program.forces[0],
         "N_MOVING_FORCES": program.forces[1], "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
-        "CIRCLE_AT": circle_at,
+        "CIRCLE_AT": circle_at, "RATED_AT": circle_at + len(numbering.circles) + len(numbering.share),
         "REACTIONS_READ": int(bool(len(memory["circle_pairs"])) or any(_reads_reactions(b, numbering) for b in blocks)),
         "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),
     }  # fmt: skip

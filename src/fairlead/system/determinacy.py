@@ -23,6 +23,7 @@ from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.system.blocks import Block
+from fairlead.system.rated_nodes import rows_without_rates
 from fairlead.system.unknowns import Numbering
 
 MOST_NAMED = 4  # nodes or components in one message
@@ -196,12 +197,14 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
     n = numbering.n
     rows_of: list[set[int]] = [{j} if u.differential else set() for j, u in enumerate(numbering.unknowns)]
     algebraic = np.array([not u.differential for u in numbering.unknowns])
+    rated = {numbering.rate[index] for index in numbering.rated}
     for x, v in numbering.pairs:
         if algebraic[v]:
-            rows_of[v].add(x)
+            rows_of[v] |= {x, v} if v in rated else {x}
     for index, a in numbering.accelerated.items():
         rows_of[a] |= {a, numbering.rate[index]}
     signals = _Signals(numbering, blocks, algebraic)
+    without = rows_without_rates(blocks, numbering)
     for block in blocks:
         s = block.kernel.structure
         for zone in s.zones[:1] if start else s.zones:
@@ -211,8 +214,9 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
         for unknown, j in s.mass:
             if s.zones[0] in s.holds[unknown] or not start:
                 row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]
-                for r, c in zip(row.tolist(), column.tolist(), strict=True):
-                    if c < n and not algebraic[c]:
+                in_mass = (column < n) & ~np.isin(row, without)
+                for r, c in zip(row[in_mass].tolist(), column[in_mass].tolist(), strict=True):
+                    if not algebraic[c]:
                         rows_of[c].add(r)
     for pair in numbering.circles:
         force = numbering.own[pair.path, pair.unknown]

@@ -9,6 +9,7 @@ code; compiled once, not once per model. Names in capitals are positions, see `l
                of either is done once
     slopes     as jacobian, without the rows of the ledger, which stand last in that list
     shares     of held contacts that close a circle: see sharing.py
+    rates      of the balances of nodes without inertia: see joined.py
     spread     of a part, what the whole is that it stands for: see cutting.py
 """
 
@@ -18,6 +19,7 @@ import functools
 from pathlib import Path
 
 from fairlead.native import Build, Native, digest, load_or_compile
+from fairlead.system.joined import add_rates, find_known, find_roots, off_balance, share_rates
 from fairlead.system.unions import add_shares, guard_shares, look_around, regroup, unite
 
 SPREAD = "spread"
@@ -76,6 +78,9 @@ def evaluate(ctx, t, y):
     mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
     for r in range(0, ctx[N_REACTIONS]):
         z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
+    if ctx[N_RATED] > 0:
+        share_rates(ctx)
+        add_rates(ctx, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
         w[pairs[2 * k]] = y[pairs[2 * k + 1]]
@@ -146,6 +151,8 @@ def assemble(ctx, t, y, ledger, values, ft):
         evaluate(ctx, t, y)
     z, zones, tables, partials = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES]), f8(ctx[PARTIALS])
     kernels, blocks = i8(ctx[KERNELS]), ctx[BLOCKS]
+    if ctx[N_RATED] > 0:
+        share_rates(ctx)
     done = i8(ctx[FIXED_DONE])
     if done[0] == 0:
         fix(ctx, t, y)
@@ -269,8 +276,11 @@ def drift(ctx, t, y, r):
 
 
 def gap(ctx, t, y, r):
-    """-gap on the rows of relations of positions, zero elsewhere."""
+    """-gap on the rows of relations of positions, zero elsewhere; of nodes without inertia what is off balance."""
     slips(ctx, t, y, GAP, r)
+    if ctx[N_RATED] > 0:
+        evaluate(ctx, t, y)
+        off_balance(ctx, r)
 
 
 def next_time(ctx, t):
@@ -367,8 +377,8 @@ def outputs(ctx, t, y, out):
 
 
 SHARED = (
-    unite, look_around, regroup, add_shares, guard_shares, look, ask, of_accelerations,
-    evaluate, accelerate, slips, take_samples,
+    unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
+    look, ask, of_accelerations, evaluate, accelerate, slips, take_samples,
     fix, assemble, expand, let_slip, show,
 )  # fmt: skip
 
@@ -376,7 +386,7 @@ SHARED = (
 @functools.cache
 def callbacks() -> Native:
     """The compiled driver; `address` holds the C address of every callback."""
-    files = ("driver.py", "unions.py", "lowering.py", "lowered_values.py", "layout.py")
+    files = ("driver.py", "unions.py", "joined.py", "lowering.py", "lowered_values.py", "layout.py")
     sources = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
     return load_or_compile(digest(*sources), _build)
 

@@ -11,25 +11,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.flatten.flat_model import FlatModel
-from fairlead.system.blocks import Block, Floats, Integers
+from fairlead.system.blocks import Block, Floats, Integers, Memory
 from fairlead.system.program import Entries, Program, plan
+from fairlead.system.rated_nodes import add_rated_entries
 from fairlead.system.shares import Share
 from fairlead.system.sharing import circle_entries
 from fairlead.system.unknowns import LEDGER, Numbering, reaction_masses
 
 
 def jacobian(
-    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, more: int
+    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, rated: Memory, more: int
 ) -> Program:
-    """Plan of the assembly of df/dy and df/dt, signals eliminated; at `more` follow the partials of the circles."""
-    m = len(numbering.signals) + len(numbering.reactions)
+    """Plan of the assembly of df/dy and df/dt, signals eliminated.
+
+    At `more` follow the partials of the circles, then those of the nodes in `rated` (rated_nodes.py).
+    """
+    m = numbering.zero - numbering.n
     entries = circle_entries(numbering, m, more)
+    partials = more + len(numbering.circles) + len(numbering.share)
+    add_rated_entries(entries, rated, m, partials)
     for block, share in zip(blocks, shares, strict=True):
         if block.acts:
             _entries(block, share, numbering, entries, m)
     _fixed_entries(flat, numbering, entries, m)
-    partials = more + len(numbering.circles) + len(numbering.share)
-    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials)
+    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials + len(rated["rated_terms"]))
     return plan(entries, numbering.n, m, level, fixed, list(numbering.ledger.values()))
 
 

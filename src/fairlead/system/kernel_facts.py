@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy
 
-from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TIME, key
+from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, RATE, TIME, key
 from fairlead.component.trace import (
     HoldRow,
     Traced,
@@ -23,8 +23,9 @@ from fairlead.component.trace import (
     symbol,
 )
 from fairlead.system import layout
-from fairlead.system.break_away import shares_left
+from fairlead.system.break_away import parameters_as_text, shares_left
 from fairlead.system.dependence import carried_ratio, reads
+from fairlead.system.flow_rates import flow_rates, joins, output_rates, yields
 from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
 
@@ -35,23 +36,35 @@ WATTS = {("m/s", "N"), ("rad/s", "N*m"), ("Pa", "m^3/s"), ("V", "A")}
 class KernelFacts:
     """The numbers of one class variant."""
 
-    def __init__(self, traced: Traced) -> None:
-        """Number the inputs, parameters, tables and outputs of the class once, for all zones."""
+    def __init__(self, traced: Traced, *, rated: int = 0) -> None:
+        """Number the inputs, parameters, tables and outputs of the class once, for all zones.
+
+        A `rated` kernel also knows at what rate its flows change, one rated 2 its outputs too (flow_rates.py).
+        """
         self.traced = traced
         has = traced.variant.type.declaration
         self.zones = list(traced.zones.values())
+        told = [flow_rates(zone, has) if rated else ({}, {}) for zone in self.zones]
+        self.rates = {id(zone): rates for zone, (rates, _) in zip(self.zones, told, strict=True)}
+        self.unrated = {port: why for _, hindered in told for port, why in hindered.items()}
+        self.yields = sorted({port for zone in self.zones for port in yields(zone, has)}) if rated else []
+        self.joins = {name: joins(zone, has) if rated else [] for name, zone in traced.zones.items()}
+        fit = [name for name in has.outputs if rated > 1 and not self._unfit(name)]
+        of_outputs = output_rates(self.zones, fit, has)
+        self.output_values = {id(z): {**z.outputs, **more} for z, more in zip(self.zones, of_outputs, strict=True)}
         self.ledger = [
             line for line in (layout.DISSIPATED, layout.SUPPLIED) if any(line in z.ledger for z in self.zones)
         ]
         self.targets = [f"port:{name}" for name in self._flowing()] + [f"own:{n}" for n in (*has.states, *has.unknowns)]
-        self.outputs = list(has.outputs)
+        self.targets += [f"{RATE}:{name}" for name in (self._flowing() if rated else [])]
+        self.outputs = [*has.outputs, *(of_outputs[0] if of_outputs else ())]
         symbols = sorted({s.name for e in self._everything() for s in e.free_symbols} | set(read_in_python(has)))
         self.inputs = [text for text in symbols if key(text).kind in (PORT, OWN, INPUT, TIME)]
         discrete = {f"p:#{name}" for name in has.discrete}
         numbers = {text for text in symbols if key(text).kind == PARAMETER} | discrete
         self.parameters = [key(text).number for text in sorted(numbers)]
         self.machines = (1 if len(traced.zones) > 1 else 0) + len(traced.tables)
-        self.unfit = {name: why for name in self.outputs if (why := self._unfit(name))}
+        self.unfit = {name: why for name in has.outputs if (why := self._unfit(name))}
         self.d_signals = self._pairs(self.fit_outputs)
         self.d_flows = self._pairs(self.target_values)
         self.d_ledger = self._pairs(self.ledger_values)
@@ -94,17 +107,19 @@ class KernelFacts:
                 mass: port for port in has.ports if (mass := key(inverse_mass(port)).number) in self.parameters
             },
             flow_inputs={name: self._dependence(zone) for name, zone in t.zones.items()},
-            period=next(iter(has.periods), ""),
+            period=next(iter(has.periods), ""), dampings=self._dampings(), joins=self.joins, unrated=self.unrated,
+            yields=self.yields,
             reaches={name: {path: str(at) for path, at in zone.tables.items()} for name, zone in t.zones.items()},
         )  # fmt: skip
 
     def fit_outputs(self, zone: TracedZone) -> list[Any]:
         """By output what it is in a zone; None for those that can be recorded only."""
-        return [None if n in self.unfit else zone.outputs.get(n) for n in self.outputs]
+        return [None if n in self.unfit else self.output_values[id(zone)].get(n) for n in self.outputs]
 
     def target_values(self, zone: TracedZone) -> list[Any]:
         """By target what goes there in a zone."""
-        return [(zone.flows if one.kind == PORT else zone.own).get(one.name) for one in map(key, self.targets)]
+        by_kind = {PORT: zone.flows, OWN: zone.own, RATE: self.rates[id(zone)]}
+        return [by_kind[one.kind].get(one.name) for one in map(key, self.targets)]
 
     def ledger_values(self, zone: TracedZone) -> list[Any]:
         """By line of the ledger its power or energy in a zone."""
@@ -136,6 +151,16 @@ class KernelFacts:
         }
         return sorted(found)
 
+    def _dampings(self) -> dict[str, str]:
+        """By port what it takes in more for every speed of its own, where that is made of parameters in all zones."""
+        found = {}
+        for e in self.fixed[1]:
+            k, j = self.d_flows[e]
+            target, speed = key(self.targets[k]), key(self.inputs[j])
+            if target.kind == PORT and speed.is_speed and speed.name == target.name:
+                found[target.name] = parameters_as_text(self.partial(self.target_values(self.zones[0]), (k, j)))
+        return found
+
     def _guards_read(self) -> bool:
         """True if a guard reads what is known only after the forces."""
         return any(_is_late(value) for z in self.zones for g in z.guards for value in g.values)
@@ -164,6 +189,7 @@ class KernelFacts:
         found: list[sympy.Expr] = list(self.traced.sample.values())
         for z in self.zones:
             found += [*z.flows.values(), *z.own.values(), *z.outputs.values(), *z.ledger.values()]
+            found += [*self.rates[id(z)].values(), *self.output_values[id(z)].values()]
             found += [value for g in z.guards for value in g.values]
             for h in z.holds.values():
                 found += [h.slip, h.impulse, h.restitution, *h.rates.values(), *([] if h.gap is None else [h.gap])]

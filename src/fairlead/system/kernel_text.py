@@ -57,9 +57,9 @@ class _Printer(PythonCodePrinter):
 class KernelText:
     """Builds the text of one kernel and the structure that goes with it."""
 
-    def __init__(self, traced: Traced) -> None:
-        """Number what the class reads and writes."""
-        self.facts = KernelFacts(traced)
+    def __init__(self, traced: Traced, *, rated: int = 0) -> None:
+        """Number what the class reads and writes, if `rated` with the rates of its flows."""
+        self.facts = KernelFacts(traced, rated=rated)
 
     def write(self) -> tuple[str, Structure]:
         """The text and the structure."""
@@ -87,8 +87,8 @@ class KernelText:
         return HEAD.format(**fields) + "".join(loops.values()), self.facts.structure(answered)
 
     def _signals(self, zone: TracedZone) -> list[Statement]:
-        place = f"out[si[i*{len(self.facts.outputs)}+{{k}}]] = {{{{}}}}"
-        return [(place.format(k=k), zone.outputs.get(n, sympy.S.Zero)) for k, n in enumerate(self.facts.outputs)]
+        place, given = f"out[si[i*{len(self.facts.outputs)}+{{k}}]] = {{{{}}}}", self.facts.output_values[id(zone)]
+        return [(place.format(k=k), given.get(n, sympy.S.Zero)) for k, n in enumerate(self.facts.outputs)]
 
     def _flows(self, zone: TracedZone) -> list[Statement]:
         f = len(self.facts.targets)
@@ -143,7 +143,7 @@ class KernelText:
     def _all_outputs(self, zone: TracedZone) -> list[Statement]:
         names = [*self.facts.outputs, *layout.OUTPUT_LINES]
         place = f"out[block[{layout.OUTPUTS}] + i*{len(names)} + {{k}}] = {{{{}}}}"
-        values = {**zone.outputs, **zone.ledger}
+        values = {**self.facts.output_values[id(zone)], **zone.ledger}
         return [(place.format(k=k), values.get(n, sympy.S.Zero)) for k, n in enumerate(names)]
 
     def _sample(self, zone: TracedZone) -> list[Statement]:

@@ -36,27 +36,32 @@ class Kernel:
 
 
 @functools.cache
-def kernel(variant: Variant) -> Kernel:
-    """The kernel of a class variant, from the cache or traced and compiled. Raises TraceError."""
+def kernel(variant: Variant, rated: int = 0) -> Kernel:
+    """The kernel of a class variant, from the cache or traced and compiled. Raises TraceError.
+
+    A `rated` one adds up the rates of its flows too, for nodes without inertia; one rated 2 tells those of its outputs
+    (rated_nodes.py).
+    """
     facts = " ".join(field.name for field in fields(Structure))  # of this process, whatever the files say by now
-    native = load_or_compile(digest(dependencies(variant), facts), lambda: _build(variant))
+    marked = f"{facts} rated {rated}" if rated else facts
+    native = load_or_compile(digest(dependencies(variant), marked), lambda: _build(variant, rated))
     return Kernel(variant, Structure(**native.meta), native)
 
 
-def _build(variant: Variant) -> Build:
+def _build(variant: Variant, rated: int) -> Build:
     from fairlead.system.lowering import lower
 
-    source, structure = write_source(variant)
+    source, structure = write_source(variant, rated)
     return Build(asdict(structure), {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
 
 
 @functools.lru_cache(maxsize=8)  # the machine code and the Python function of a class are asked for together
-def write_source(variant: Variant) -> tuple[str, Structure]:
+def write_source(variant: Variant, rated: int = 0) -> tuple[str, Structure]:
     """Python text of the kernel, in the subset that `lowering.py` understands, and its structure."""
     from fairlead.component.trace import trace
     from fairlead.system.kernel_text import KernelText
 
-    return KernelText(trace(variant)).write()
+    return KernelText(trace(variant), rated=rated).write()
 
 
 @functools.cache

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.system.blocks import Block, Floats, Integers, Memory
+from fairlead.system.rated_nodes import rows_without_rates
 from fairlead.system.shares import Share
 from fairlead.system.system import Pattern
 from fairlead.system.unknowns import Numbering
@@ -37,6 +38,7 @@ def _held(
     """Row, column, partial and coefficient of every unknown speed in a hold row.
 
     Not of a row in which one has inertia and one has none: that one follows at once, and the slip is zero as it stands.
+    Nor of one that holds a node whose speed a row gives at once (rated_nodes.py).
     """
     row, column, partial, coef = ([np.zeros(0, np.int64)] for _ in range(4))
     inert = np.array([not u.differential for u in numbering.unknowns], dtype=bool)
@@ -49,5 +51,6 @@ def _held(
             partial.append((share.mass + count * len(s.mass) + e)[used])
             coef.append(block.in_coef[used, j])
     rows, columns = np.concatenate(row), np.concatenate(column)
-    kept = ~np.isin(rows, np.intersect1d(rows[inert[columns]], rows[~inert[columns]]))
+    without = np.intersect1d(rows[inert[columns]], rows[~inert[columns]])
+    kept = ~np.isin(rows, np.union1d(without, rows_without_rates(blocks, numbering)))
     return rows[kept], columns[kept], np.concatenate(partial)[kept], np.concatenate(coef).astype(float)[kept]

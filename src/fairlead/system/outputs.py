@@ -50,4 +50,5 @@ def _of_block(block: Block, share: Share) -> list[OutputSignal]:
         )
         for i, instance in enumerate(block.instances)
         for k, name in enumerate(s.outputs)
+        if name in has.outputs
     ]  # fmt: skip

@@ -57,6 +57,10 @@ class Structure:
     shares_left: list[tuple[str, str]]  # of friction when a contact lets go, see `break_away`
     rebounds: dict[str, tuple[int, float]]  # unknown that rebounds -> place of its share in parameters or -1, number
     positions: dict[str, list[str]]  # unknown that keeps a relation of positions -> the ports it reads
+    dampings: dict[str, str]  # port -> text of what it takes in more for a speed of its own, where that is fixed
+    joins: dict[str, list[dict[str, Any]]]  # zone -> what joins speeds in it, of a kernel with rates (flow_rates.py)
+    yields: list[str]  # ports at which a state yields to the motion, so that a jump there is not one of positions alone
+    unrated: dict[str, str]  # port -> what hinders knowing the rate of what it takes in
     silent: bool  # passes power at its ports and declares no energy
     period: str = ""  # the parameter that gives the sample period; empty without sampling
 

@@ -20,6 +20,7 @@ from fairlead.system import layout
 from fairlead.system.blocks import Block, Memory, Tables
 from fairlead.system.break_away import least_left
 from fairlead.system.plain_python import CalledController, Known, called_controllers
+from fairlead.system.rated_nodes import rows_without_rates
 from fairlead.system.recording import OutputSignal, Recording, choose
 from fairlead.system.structure import Structure
 from fairlead.system.timing import PlacedTable
@@ -177,6 +178,23 @@ class System:
         pairs = self.numbering.pairs if accelerations else []
         rows = [(x, v, accelerations.get(v, -1)) for x, v in pairs if self.differential[v]]
         return np.array(rows, dtype=np.int64).reshape(-1, 3)
+
+    @functools.cached_property
+    def balanced(self) -> Integers:
+        """[k, 2]: position and speed of nodes without inertia whose balances have their rates beside them."""
+        rows = [(self.numbering.position[k], self.numbering.rate[k]) for k in self.numbering.rated]
+        return np.array(rows, dtype=np.int64).reshape(-1, 2)
+
+    @property
+    def without_inertia(self) -> list[str]:
+        """Parts that hold such nodes, by name."""
+        rows, found = rows_without_rates(self.blocks, self.numbering), []
+        for block in self.blocks:
+            s = block.kernel.structure
+            for unknown in s.holds:
+                own = block.flow_index[:, s.targets.index(f"own:{unknown}")]
+                found += [i.path for i, row in zip(block.instances, own, strict=True) if row in rows]
+        return found
 
     @functools.cached_property
     def rebound(self) -> Floats:

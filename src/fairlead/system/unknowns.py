@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from fairlead.component.declare import State
@@ -45,6 +45,8 @@ class Numbering:
     pairs: list[tuple[int, int]] = field(default_factory=list)
     signals: dict[PortRef, int] = field(default_factory=dict)  # output -> position among signals
     reactions: dict[int, int] = field(default_factory=dict)  # prescribed group -> position among reactions
+    rated: dict[int, int] = field(default_factory=dict)  # group -> position of the rate of its balance, rated_nodes.py
+    geared: frozenset[int] = frozenset()  # groups without inertia whose speeds rows give that always hold
     resting: int = 0  # numbers behind `dump` that stand for what rests, see narrowing.py
 
     @property
@@ -60,6 +62,11 @@ class Numbering:
     @property
     def zero(self) -> int:
         """Where z holds 0."""
+        return self.first_rate + len(self.rated)
+
+    @property
+    def first_rate(self) -> int:
+        """Where the rates of balances begin in z, behind the reactions."""
         return self.first_reaction + len(self.reactions)
 
     @property
@@ -80,7 +87,7 @@ class Numbering:
     @property
     def w_dump(self) -> int:
         """Last position of w."""
-        return self.n + len(self.reactions)
+        return self.n + len(self.reactions) + len(self.rated)
 
     def add(self, unknown: Unknown) -> int:
         """Append an unknown and say where it is."""
@@ -88,10 +95,15 @@ class Numbering:
         return self.n - 1
 
 
-def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool) -> Numbering:
-    """Number all unknowns of the model: groups, own unknowns of components, ledger."""
-    made = Numbering()
-    damped, kept = _groups_with_rate_forces(flat, structures), groups_kept(flat, structures)
+def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool, rated: Collection[int] = (),
+           geared: Collection[int] = (), rates: Collection[PortRef] = ()) -> Numbering:  # fmt: skip
+    """Number all unknowns of the model: groups, own unknowns of components, ledger.
+
+    Nodes without inertia that are `rated` or `geared` have a speed, and `rates` are signals (rated_nodes.py).
+    """
+    made = Numbering(rated={k: place for place, k in enumerate(sorted(rated))}, geared=frozenset(geared))
+    kept = groups_kept(flat, structures)
+    damped = groups_with_rate_forces(flat, structures) | set(rated) | set(geared)
     for index, group in enumerate(flat.groups):
         if group.free:
             _number_group(made, index, group, rate_matters=index in damped)
@@ -110,7 +122,7 @@ def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool
     if energy:
         for line in LEDGER:
             made.ledger[line] = made.add(Unknown(f"energy.{line}", "J", True, 1.0, 0.0, "ledger"))
-    for output in _connected_outputs(flat):
+    for output in (*_connected_outputs(flat), *rates):
         made.signals[output] = len(made.signals)
     return made
 
@@ -169,7 +181,7 @@ def nominal_given(instance: Instance, state: State) -> float | None:
     return None if state.nominal is None else number_given(instance.values, state.nominal)
 
 
-def _groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
+def groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
     """Groups on which some law's flow depends on the rate: a node without mass keeps its rate then."""
     distinct = {id(s): s for s in structures.values()}  # instances of a class share theirs
     ports = {key: _ports_with_rate_forces(s) for key, s in distinct.items()}
@@ -187,7 +199,7 @@ def _ports_with_rate_forces(structure: Structure) -> set[str]:
 
 
 def reaction_masses(flat: FlatModel, numbering: Numbering) -> list[tuple[int, float, int]]:
-    """(reaction, mass, where its acceleration lies in z) of every prescribed group."""
+    """(reaction, mass, where its acceleration lies in z) of every prescribed group; nothing for rates of balances."""
     found = []
     for index, row in numbering.reactions.items():
         prescribed, a, ratio = flat.groups[index].prescribed, numbering.zero, 1.0
@@ -195,7 +207,7 @@ def reaction_masses(flat: FlatModel, numbering: Numbering) -> list[tuple[int, fl
             a = numbering.n + numbering.signals[PortRef(prescribed.by.instance, prescribed.outputs[2])]
             _, ratio, _ = flat.place(prescribed.by)
         found.append((row, flat.groups[index].mass / ratio, a))  # the source tells its own acceleration
-    return found
+    return found + [(len(numbering.reactions) + k, 0.0, numbering.zero) for k in numbering.rated.values()]
 
 
 def _connected_outputs(flat: FlatModel) -> list[PortRef]:

@@ -19,6 +19,7 @@ from fairlead.system.blocks import Block, Memory
 CHANGED = (
     "z", "w", "zones", "partials", "work", "moving_base", "fixed_done", "outputs_all", "f_rest", "sample_count",
     "sample_start",     "circle_seen", "circle_still", "circle_nodes", "circle_ratio", "guard_inertia",
+    "rated_known", "rated_root", "rated_mode",
 )  # fmt: skip
 """Arrays that callbacks write to, by their names in `layout.py`; and the discrete variables of sampled blocks."""
 LINE = 64  # bytes: every array begins a line of the processor's cache
