@@ -175,9 +175,11 @@ STRUCTURAL = {
         "scene.yaml:10:6: node {one.b, two.a} has no mass and no law determines its force while one and two hold.\n"
         "    Add a Mass there, join the two contacts into one, or write friction: {method: binding}.",
     ),
-    "a node between a contact that holds and a spring": (
-        scene(BLOCK, WALL, PADS[0], "two: {type: Spring, stiffness: 1 N/m}", "[wall.flange, one.a]", "[one.b, two.a]", "[two.b, block.flange]", friction="{method: hold}"),
-        "node {one.b, two.a} has no mass and no law determines its force while one holds.\n    Add a Mass there, or a damper",
+    "a node between a contact whose friction varies and a spring": (
+        scene(BLOCK, WALL, "one: {type: Contact, normal_force: 10 N, curve: {curve: stribeck, stiction: 0.4, coulomb: 0.3, velocity: 10 mm/s}}",
+              "two: {type: Spring, stiffness: 1 N/m}", "[wall.flange, one.a]", "[one.b, two.a]", "[two.b, block.flange]", friction="{method: hold}"),
+        "node {one.b, two.a} has no mass and no damping, and the force of one varies with its slip, and where it falls the node would jump.\n"
+        "    Add a Mass there, or damping beside the spring, or take a curve that is constant (coulomb) or grows in proportion (viscous).",
     ),
     "a force on a spring without mass": (
         scene(WALL, "two: {type: Spring, stiffness: 1 N/m}", "push: {type: ForceSource, force: 1 N}", "[wall.flange, two.a]", "[two.b, push.flange]"),

@@ -155,21 +155,21 @@ BINDING = "{type: Contact, method: binding, normal_force: 1 N, curve: 0.3}"
 @pytest.mark.parametrize(
     "parts",
     [(SPRING, SPRING), (SPRING, SPRING, SPRING), (SPRING, DAMPER), (DAMPER, DAMPER), (SPRING, TETHER), (BINDING, BINDING),
-     (BINDING, SPRING), (PAD, DAMPER)],
+     (BINDING, SPRING), (PAD, SPRING), (PAD, DAMPER)],
     ids=["two springs", "three springs", "spring and damper", "two dampers", "spring and slack line", "two binding contacts",
-         "binding contact and spring", "held contact and damper"],
+         "binding contact and spring", "held contact and spring", "held contact and damper"],
 )  # fmt: skip
 def test_a_massless_node_is_determined_by_what_is_beside_it(tmp_path, parts):
     assert load(tmp_path, chain(*parts)).check() == []
 
 
-@pytest.mark.parametrize("parts", [(PAD, PAD), (PAD, SPRING), (TETHER, TETHER)], ids=["two held", "held and spring", "two slack"])
+@pytest.mark.parametrize("parts", [(PAD, PAD), (TETHER, TETHER)], ids=["two held", "two slack"])
 def test_a_massless_node_whose_force_no_law_determines_is_named(tmp_path, parts):
     with pytest.raises(ModelError, match=r"node \{p0.b, p1.a\} has no mass and no law determines its force while "):
         load(tmp_path, chain(*parts)).check()
 
 
-@pytest.mark.parametrize("parts", [(SPRING, SPRING), (SPRING, DAMPER), (DAMPER, DAMPER), (BINDING, BINDING), (PAD, DAMPER)])
+@pytest.mark.parametrize("parts", [(SPRING, SPRING), (SPRING, DAMPER), (DAMPER, DAMPER), (BINDING, BINDING), (PAD, DAMPER), (PAD, SPRING)])
 def test_what_counts_as_determined_has_a_regular_matrix_at_the_start(tmp_path, parts):
     """C = columns of M where differential, of -J where algebraic: what a consistent start solves with."""
     from tests.components.test_assembly import Called

@@ -9,7 +9,6 @@ code; compiled once, not once per model. Names in capitals are positions, see `l
                of either is done once
     slopes     as jacobian, without the rows of the ledger, which stand last in that list
     shares     of held contacts that close a circle: see sharing.py
-    rates      of the balances of nodes without inertia: see joined.py
     spread     of a part, what the whole is that it stands for: see cutting.py
 """
 
@@ -79,7 +78,6 @@ def evaluate(ctx, t, y):
     for r in range(0, ctx[N_REACTIONS]):
         z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
     if ctx[N_RATED] > 0:
-        share_rates(ctx)
         add_rates(ctx, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
@@ -378,8 +376,7 @@ def outputs(ctx, t, y, out):
 
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
-    look, ask, of_accelerations, evaluate, accelerate, slips, take_samples,
-    fix, assemble, expand, let_slip, show,
+    look, ask, of_accelerations, evaluate, accelerate, slips, take_samples, fix, assemble, expand, let_slip, show,
 )  # fmt: skip
 
 

@@ -73,6 +73,7 @@ def share_rates(ctx):
 
 def add_rates(ctx, w):
     """Add to the balances of nodes without inertia their share of rates."""
+    share_rates(ctx)
     rated, terms, share, z = i8(ctx[RATED]), i8(ctx[RATED_TERMS]), f8(ctx[PARTIALS]), f8(ctx[Z])
     for e in range(0, ctx[N_RATED_TERMS]):
         w[rated[3 * terms[2 * e]]] += share[ctx[RATED_AT] + e] * z[rated[3 * terms[2 * e + 1] + 1]]
