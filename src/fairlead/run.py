@@ -99,7 +99,7 @@ class Watch:
         found = self.strains.end(block.t, block.values)
         self._take(block if found is None else up_to(block, found[0]))
         self.interruption.due()
-        return None if found is None else found[1]
+        return None if found is None else End(float(block.t[found[0]]), *found[1:])
 
     def _take(self, block: Block) -> None:
         rows = Rows(block.t, block.values, block.side)

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.beside_its_laws import few
 from fairlead.component.declare import STRAIN
-from fairlead.integrate import End
 from fairlead.system.recording import OutputSignal
 from fairlead.system.system import System
 
@@ -60,16 +59,14 @@ class Strains:
                 found[path] = column
         return cls(list(found), np.array([*found.values()], dtype=np.int64), np.array([allowed[p] for p in found]))
 
-    def end(self, t: Floats, rows: Floats) -> tuple[int, End] | None:
-        """The first recorded row in which an element is inside out, and the end of the run there; None if in none."""
+    def end(self, t: Floats, rows: Floats) -> tuple[int, str, tuple[str, ...]] | None:
+        """The first recorded row in which an element is inside out, with a sentence and who; None if in none."""
         inside_out = rows[:, self.columns] <= INSIDE_OUT
         if not inside_out.any():
             return None
         row = int(inside_out.any(axis=1).argmax())
         names = tuple(self.names[k] for k in np.flatnonzero(inside_out[row]).tolist())
-        return row, End(
-            float(t[row]), f"t = {t[row]:.6g} s: {few(names)}: {PASSED}, and no law of a line means that. {CURE}", names
-        )
+        return row, f"t = {t[row]:.6g} s: {few(names)}: {PASSED}, and no law of a line means that. {CURE}", names
 
     def watch(self, t: Floats, rows: Floats) -> None:
         """Take recorded rows, shape (k, recorded)."""

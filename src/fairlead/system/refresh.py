@@ -107,8 +107,9 @@ def _numbering(old: Numbering, flat: FlatModel, changed: Iterable[Instance], mov
             unknowns[old.position[k]] = replace(unknowns[old.position[k]], start=group.start[0])
         if k in old.rate:
             unknowns[old.rate[k]] = replace(unknowns[old.rate[k]], start=group.start[1])
-        if k in old.balance and unknowns[old.balance[k]].differential:
-            unknowns[old.balance[k]] = replace(unknowns[old.balance[k]], mass=group.mass)
+        at = old.rate.get(k, old.balance.get(k))  # the balance is that of an acceleration where that is an unknown
+        if at is not None and unknowns[at].differential:
+            unknowns[at] = replace(unknowns[at], mass=group.mass)
     for instance in changed:
         for name, state in instance.type.declaration.states.items():
             at = old.own[instance.path, name]
