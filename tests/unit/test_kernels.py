@@ -52,6 +52,14 @@ def refusal(tmp_path, body, head=""):
         ("return a.force, -a.force", "def law(p, a, b):", "a law must not read an acceleration or a reaction (a's reaction)"),
         ("return abs(a.v), -abs(a.v)", "def law(p, a, b):", "Abs(port:a:v) is not smooth; give each branch a zone"),
         ("f = max(a.v, 0)\n    return f, -f", "f = max(a.v, 0)", "must not branch on values"),
+        ("if a.x == 0.5:\n        return 0, 0\n    return 1, -1", "if a.x == 0.5:", "must not branch on values"),
+        ("return (2 if a.v != 0 else 1), 0", "return (2 if a.v != 0 else 1), 0", "must not branch on values"),
+        ("return (2 if a.v in (0, 1) else 1), 0", "return (2 if a.v in (0, 1) else 1), 0", "must not branch on values"),
+        ("f = a.v or 4\n    return f, -f", "f = a.v or 4", "must not branch on values"),
+        ("if not a.v:\n        return 0, 0\n    return a.v, 0", "if not a.v:", "must not branch on values"),
+        ("match a.v:\n        case 0: return 0, 0\n    return 1, 0", "case 0: return 0, 0", "must not branch on values"),
+        ("try:\n        f = 2 if a.v == 0 else 1\n    except Exception:\n        f = 9\n    return f, 0", "f = 2 if a.v == 0 else 1",
+         "must not branch on values"),
         ("import math\n    return math.sin(a.v), 0", "return math.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead.component"),
         ("import numpy\n    return numpy.sin(a.v), 0", "return numpy.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead"),
         ("import sympy\n    return sympy.gamma(a.v), 0", "def law(p, a, b):", "gamma(port:a:v) cannot be compiled"),
@@ -225,6 +233,6 @@ def test_a_new_netlist_of_known_classes_compiles_nothing(tmp_path, monkeypatch):
     from fairlead.system import kernels
 
     fairlead.load("belt").check()
-    monkeypatch.setattr(kernels, "_build", lambda variant: pytest.fail(f"{variant.label} was compiled again"))
+    monkeypatch.setattr(kernels, "_build", lambda variant, *_: pytest.fail(f"{variant.label} was compiled again"))
     kernels.kernel.cache_clear()
     assert fairlead.load("belt", set={"pad.normal_force": "12 N", "spring.stiffness": "80 N/m"}).check() == []

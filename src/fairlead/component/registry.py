@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import importlib
 import importlib.metadata
 import importlib.util
+import linecache
 import pathlib
 import pkgutil
 import sys
@@ -17,6 +19,8 @@ from fairlead.component.base import Component, Composite, Declared, Family
 from fairlead.errors import Fault, ModelError
 
 ENTRY_POINTS = "fairlead.components"
+WRITTEN = "__written__"
+"""In the module of a library: what its files were when it was loaded."""
 Types = Mapping[str, type[Declared]]
 
 
@@ -64,23 +68,27 @@ def _is_type(kind: type[Declared]) -> bool:
 
 
 def load_library(path: str) -> ModuleType:
-    """Import a user's Python file (or package folder) of components; runs its code.
+    """Import a user's Python file (or package folder) of components; runs its code, again if it has been edited.
 
-    Raises ModelError when it is missing or fails, with the line in the user's file.
+    Models that were loaded before keep their classes. Raises ModelError when it is missing or fails, with the line in
+    the user's file.
     """
     file = pathlib.Path(path).resolve()
     target = file / "__init__.py" if file.is_dir() else file
     if not target.is_file():
         raise ModelError((Fault(None, f"--library {path}: there is no such file", "Give a .py file."),))
     name = f"fairlead_library_{target.parent.name if file.is_dir() else target.stem}"
-    loaded = sys.modules.get(name)
+    loaded, written = sys.modules.get(name), _written(file)
     if loaded is not None and getattr(loaded, "__file__", None) == str(target):
-        return loaded
+        if loaded.__dict__.get(WRITTEN) == written:
+            return loaded
+        _forget(name, written)
     spec = importlib.util.spec_from_file_location(name, target)
     if spec is None or spec.loader is None:
         raise ModelError((Fault(None, f"--library {path}: this is no Python file", "Give a .py file."),))
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
+    module.__dict__[WRITTEN] = written
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:  # a script that ends Python would end fairlead without a word
@@ -89,6 +97,21 @@ def load_library(path: str) -> ModuleType:
             (Fault(None, f"--library {path} cannot be loaded: {_place(error, target)}{error}"),)
         ) from error
     return module
+
+
+def _written(file: pathlib.Path) -> dict[str, str]:
+    """SHA-256 of the text of a file, or of every Python file of a folder, by path."""
+    files = sorted(file.rglob("*.py")) if file.is_dir() else [file]
+    return {str(each): hashlib.sha256(each.read_bytes()).hexdigest() for each in files}
+
+
+def _forget(name: str, files: Iterable[str]) -> None:
+    """Let a library be read anew: Python keeps its modules, their bytecode by the second, and the text for messages."""
+    for each in [one for one in sys.modules if one == name or one.startswith(f"{name}.")]:
+        del sys.modules[each]
+    for file in files:
+        pathlib.Path(importlib.util.cache_from_source(file)).unlink(missing_ok=True)
+        linecache.cache.pop(file, None)
 
 
 def _place(error: BaseException, file: pathlib.Path) -> str:

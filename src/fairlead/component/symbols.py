@@ -6,6 +6,8 @@ import functools
 
 import sympy
 
+from fairlead.component.quantity import Quantity
+
 
 class TraceError(TypeError):
     """A law that cannot be traced; the text names the author's file and line."""
@@ -14,7 +16,7 @@ class TraceError(TypeError):
 @functools.cache
 def symbol(text: str) -> sympy.Symbol:
     """The real symbol of a key (`keys.py`)."""
-    return sympy.Symbol(text, real=True)
+    return Quantity(text, real=True)
 
 
 def sine(path: str, part: str) -> str:

@@ -33,9 +33,11 @@ from fairlead.component.hold_rows import (
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
 from fairlead.component.piecewise import DEGREE
+from fairlead.component.quantity import tracing
 from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
 from fairlead.component.values import Variant
 
+BRANCHES = "a law must not branch on values; write one law per zone"
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
 
@@ -249,17 +251,28 @@ def _run(function: Callable[..., Any], arguments: dict[str, Any]) -> Any:
     code = function.__code__
     wanted = code.co_varnames[: code.co_argcount]
     try:
-        return function(**{name: arguments[name] for name in wanted})
+        with tracing() as asked:
+            said = function(**{name: arguments[name] for name in wanted})
     except Exception as error:
+        if asked:
+            raise _branches(asked[0], function) from error
         frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == code.co_filename]
         line = frames[-1].lineno if frames else code.co_firstlineno
         raise TraceError(f"{code.co_filename}:{line}: {function.__qualname__}: {_explained(error)}") from error
+    if asked:
+        raise _branches(asked[0], function)
+    return said
+
+
+def _branches(place: str, function: Callable[..., Any]) -> TraceError:
+    """Of a law that asks a symbol for its value, by `==`, `in`, `if` or `not`."""
+    return TraceError(f"{place}: {function.__qualname__}: {BRANCHES}")
 
 
 def _explained(error: Exception) -> str:
     """What an author did to a symbol that only a number can bear."""
     if "truth value" in str(error):
-        return "a law must not branch on values; write one law per zone"
+        return BRANCHES
     if "convert expression to float" in str(error) or "ufunc" in str(error):
         return "functions of math and numpy want numbers; import sqrt, exp, sin, ... from fairlead.component"
     return f"{type(error).__name__}: {error}"

@@ -48,7 +48,7 @@ def kernel(variant: Variant, rated: int = 0) -> Kernel:
     return Kernel(variant, Structure(**native.meta), native)
 
 
-def _build(variant: Variant, rated: int) -> Build:
+def _build(variant: Variant, rated: int = 0) -> Build:
     from fairlead.system.lowering import lower
 
     source, structure = write_source(variant, rated)
