@@ -2,7 +2,8 @@
 
 An output of role `strain` is the stretch of an element over its length without load, and `compressible` is the share
 of that length by which it may get shorter. At a strain of -1 its ends are at one place; below, it is inside out, and
-no law of a line means that: the run ends at that row. The end of every step is looked at, whatever is recorded.
+no law of a line that bears pressure means that: the run ends at that row. What is loose at any length, a rope or a
+core, goes on, with a remark. The end of every step is looked at, whatever is recorded.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ class Strains:
 
     def end(self, t: Floats, rows: Floats) -> tuple[int, str, tuple[str, ...]] | None:
         """The first recorded row in which an element is inside out, with a sentence and who; None if in none."""
-        inside_out = rows[:, self.columns] <= INSIDE_OUT
+        inside_out = (rows[:, self.columns] <= INSIDE_OUT) & (self.allowed < 1.0)
         if not inside_out.any():
             return None
         row = int(inside_out.any(axis=1).argmax())

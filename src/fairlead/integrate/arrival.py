@@ -128,13 +128,20 @@ def remember_shown(m, at_shown):
 
 @compiled
 def as_shown(m, at_y):
-    """Address of y as it is recorded at an event."""
+    """Address of y as it is recorded at an event: never so that a guard rises by it, nor off the one that fired."""
     if m.shown_apart == 0:
         return at_y
     y, shown, apart = reals(at_y, m.n), reals(m.at_y_probe, m.n), reals(m.at_apart, m.n)
     for k in range(m.n):
         shown[k] = y[k] + apart[k]
-    return m.at_y_probe
+    evaluate_guards(m, m.t, m.at_y_probe, m.at_g_probe)
+    g, tolerance, rises = reals(m.at_g_probe, m.n_guards), reals(m.at_guard_tolerance, m.n_guards), False
+    for i in range(m.n_guards):
+        rises = rises or g[i] > tolerance[i]
+    fired = indices(m.at_fired, m.n_guards)
+    for k in range(m.n_fired):
+        rises = rises or abs(g[fired[k]]) > tolerance[fired[k]]
+    return at_y if rises else m.at_y_probe
 
 
 @compiled

@@ -68,7 +68,7 @@ SUNDIALS_SOURCES = ("sundials_kernels.py",)
 """What the ida engine adds to SOURCES."""
 SUNDIALS_KERNELS = {
     "residual": "vidiii", "prepare": "iidid", "solve_prepared": "viii", "multiply": "vidii", "guards": "vidii",
-    "judge_step": "iidiiii", "find_culprit": "ii",
+    "judge_step": "iidiiiid", "find_culprit": "ii",
 }  # fmt: skip
 """Functions of sundials_kernels.py with the types of their result and arguments: void, int64, double."""
 

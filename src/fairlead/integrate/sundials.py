@@ -104,8 +104,8 @@ class SundialsLoop:
         self.fresh = False
         self.last_step = step.t - float(number["t"])
         at = [each.ctypes.data for each in (step.y, step.rate, step.rooted)]
-        if self.kernels["judge_step"](address, step.t, *at, len(step.rooted)):
-            return self.taken_again(address)
+        if self.kernels["judge_step"](address, step.t, *at, len(step.rooted), self.floor):
+            self.take_again()
         return None
 
     def restart(self, first_step: float) -> None:
@@ -135,12 +135,9 @@ class SundialsLoop:
         least = max(LEAST_STEP * (self.run.stop - self.run.start), 4e-15 * abs(number["t"]))
         return float(min(max(min(h, 0.1 * (self.run.stop - self.run.start)), least), rest))
 
-    def taken_again(self, address: int) -> Status | None:
+    def take_again(self) -> None:
         """A step missed what happens shortly before a switch: start again at the point with a part of it."""
-        if self.last_step > self.floor:
-            self.restart(max(AGAIN * self.last_step, self.floor))
-            return None
-        return self.failed(address)
+        self.restart(max(AGAIN * self.last_step, self.floor))
 
     @property
     def floor(self) -> float:

@@ -67,12 +67,13 @@ def guards(address, t, at_y, at_g):
     evaluate_guards(memory_at(address), t, at_y, at_g)
 
 
-def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted):
+def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor):
     """Judge the step from the point to (t_end, y_end, y'_end) by the trigger and companion rules; set its piece.
 
     1 if it is to be taken again, shorter: it is cut at a crossing where it does not satisfy the equations. Else 0.
     `rooted` are guards whose rise through zero at t_end was located by the integrator; what the rules of
-    crossing.py see earlier in the step (a double crossing, a guard that begins at zero) comes first.
+    crossing.py see earlier in the step (a double crossing, a guard that begins at zero) comes first. A step of
+    `floor` is not taken again.
     """
     m = memory_at(address)
     h = t_end - m.t
@@ -93,7 +94,7 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted):
         m.n_fired = n_rooted
         m.theta = 1.0
     crossed = found == CROSSING or n_rooted > 0
-    if crossed:
+    if crossed and h > 2.0 * floor:
         weigh(m, m.at_y_end)
         if rough(m, h):
             m.n_fired = 0
