@@ -32,5 +32,8 @@ MOST_BETWEEN = 1000
 PARABOLA, QUARTIC = 1, 3
 """Rows inside a step, evenly spaced, that its dense output goes through: of `stepping`, and of the other engines."""
 
+MIDDLE = 0.5
+"""The theta of the midpoint rule: the one whose error is known (third_order.py)."""
+
 CHECK = "FAIRLEAD_CHECK_INDICES"
 """Set in the environment, the loop is compiled to trap where an index lies outside its array (foreign.py)."""

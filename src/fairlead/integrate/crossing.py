@@ -17,6 +17,7 @@ from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
 from fairlead.integrate.limits import ROUNDING
+from fairlead.integrate.rows_between import take_slip_away
 from fairlead.integrate.settling import RISE, look_ahead
 
 NONE, CROSSING, COMPANION = 0, 1, 2
@@ -34,6 +35,8 @@ def guards_at(m, theta, h, at_g):
         evaluate_guards(m, m.t_land if m.landing == 1 else m.t + h, m.at_y_end, at_g)
     else:
         interpolate(m, theta, m.at_y_probe)
+        if m.rows_slip == 1:
+            take_slip_away(m, m.t + theta * h, m.at_y_probe)
         evaluate_guards(m, m.t + theta * h, m.at_y_probe, at_g)
 
 

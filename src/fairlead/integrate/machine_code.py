@@ -27,7 +27,7 @@ SOURCES = (
 STEPPING_SOURCES = (
     "jumps.py", "known_rows.py", "exchange.py", "active_set.py", "overload.py", "missed_impulse.py", "unseen_guards.py",
     "steady_steps.py", "third_order.py", "step_residual.py", "line_search.py", "theta_step.py",
-    "stepping_trial.py", "stepping_loop.py",
+    "located_step.py", "stepping_trial.py", "stepping_loop.py",
 )  # fmt: skip
 """What the stepping engine adds to them."""
 

@@ -51,10 +51,10 @@ INTEGERS = (
     # the part of the problem the loop works on: the step at which to look whether less would do, whether it is a
     # part, whether its rim has changed
     "narrow_at", "narrowed", "woken",
-    # stepping only: whether J and M are those of the zones in force, whether
-    # a surface that holds is accelerated, steps failed in a row, tries to land on a jump
-    "linearised", "driven", "massless", "failed", "seeking", "linear", "newly_held", "unchecked", "expecting",
-    "has_limits",
+    # stepping only: whether it lands on every switch (located_step.py), whether J and M are those of the zones in
+    # force, whether a surface that holds is accelerated, steps failed in a row, tries to land on a jump
+    "locates", "linearised", "driven", "massless", "failed", "seeking", "linear", "newly_held", "unchecked",
+    "expecting", "has_limits",
     "n_quadratures", "rows_slip", "any_stiff", "shown_apart", "samples", "block_steps",
     # stepping only: whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or
     # values met on the way, whether other pivots were tried for that
@@ -100,8 +100,10 @@ VECTORS = {
     "K": "stages_n", "D": "three_n",
     "absolute": "n", "relative": "n", "cap": "n", "column_scale": "n", "row_scale": "n", "factor_work": "n",
     # matrices along their patterns; `matrix` holds W or the matrix of the consistent point
-    # stepping only: mean slopes of this step, of the one before and of the one before that
-    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "move": "n", "patterns_met": "passes",
+    # stepping only: mean slopes of this step, of the one before and of the one before that; algebraic unknowns in the
+    # middle of the one before
+    "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "mean_before": "n", "move": "n",
+    "patterns_met": "passes",
     "jacobian": "n_jacobian", "mass": "n_mass", "matrix": "n_matrix", "lower": "n_lower", "upper": "n_upper",
     "perturbation": "n_core", "perturbed_columns": "perturbed_core", "capacitance": "perturbed_square",
     "handed": "most_perturbed",

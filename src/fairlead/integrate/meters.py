@@ -68,7 +68,7 @@ def rates_inside(m, theta, h):
     """Into `f`: the rates at theta of the step, of the dense output moved by its residual."""
     n = m.n
     y, y_end, D, probe = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, 3 * n), reals(m.at_y_probe, n)
-    v, b, f = reals(m.at_x, n), reals(m.at_b, n), reals(m.at_f, n)
+    v, b, f, holds = reals(m.at_x, n), reals(m.at_b, n), reals(m.at_f, n), indices(m.at_holds, n)
     rest = 1.0 - theta
     interpolate(m, theta, m.at_y_probe)
     for k in range(n):
@@ -76,13 +76,17 @@ def rates_inside(m, theta, h):
         inner_slope = D[n + k] + 2.0 * theta * D[2 * n + k]
         v[k] = -(y_end[k] - y[k] + (rest - theta) * inner + theta * rest * inner_slope) / h
     field_at(m.call_rhs, (m.context, m.t + theta * h, m.at_y_probe, m.at_f))
-    copy(f, b)
-    add_mass_times(m, m.at_x, m.at_b)
-    solve(m, m.at_b)
-    for k in range(n):
-        probe[k] += b[k]
-    field_at(m.call_rhs, (m.context, m.t + theta * h, m.at_y_probe, m.at_f))
-    m.rhs += 2
+    for _ in range(1 + 3 * m.locates):  # a parabola is further off than the dense output of `rodas`
+        copy(f, b)
+        add_mass_times(m, m.at_x, m.at_b)
+        for k in range(n):
+            if holds[k] == 1:
+                b[k] = 0.0
+        solve(m, m.at_b)
+        for k in range(n):
+            probe[k] += b[k]
+        field_at(m.call_rhs, (m.context, m.t + theta * h, m.at_y_probe, m.at_f))
+    m.rhs += 2 + 3 * m.locates
 
 
 @compiled

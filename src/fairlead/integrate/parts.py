@@ -39,7 +39,8 @@ NEVER = 1e300
 
 NUMBERS = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
-    "total_events", "stop_asked", "failed", "seeking", "driven", "t", "h", "h_wanted", "h_next", "error", "last_error",
+    "total_events", "stop_asked", "failed", "seeking", "locates", "driven", "t", "h", "h_wanted", "h_next", "error",
+    "last_error",
     "theta", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
     "theta_raise", "gap", "gap_before", "t_jump", "t_bent", "growth", "t_growth", "allowed", "allowed_before",
     "block_steps",
@@ -47,7 +48,7 @@ NUMBERS = (
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""
 BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost")
-SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier")
+SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier", "mean_before")
 BY_GUARD = ("g", "g_early", "g_end", "continuous")
 BY_MACHINE = (
     "zones", "last_toggle", "blocked_until", "streak", "chatters", "switches_by_machine", "released", "released_by",

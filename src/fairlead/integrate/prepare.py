@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
-from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_BETWEEN, MOST_PERTURBED, PARABOLA, QUARTIC
+from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MIDDLE, MOST_BETWEEN, MOST_PERTURBED, PARABOLA, QUARTIC
 from fairlead.integrate.condensing import columns_of, lay_out
 from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
 from fairlead.integrate.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
@@ -285,6 +285,7 @@ def stepping_settings(run: Run, problem: Instance) -> dict[str, float]:
         "samples": int(problem.samples),
         "has_limits": int(np.any(problem.limit_guard)),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
+        "locates": int(run.fixed_step is None and run.theta == MIDDLE and len(problem.zones) <= run.most_located),
     }  # fmt: skip
 
 

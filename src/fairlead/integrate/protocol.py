@@ -212,6 +212,9 @@ class Run:
     """Of `rodas`."""
     theta: float = 0.5
     """Of `stepping`: 1/2, of order three (third_order.py); above it, up to 1, the theta rule alone, of order one."""
+    most_located: int = 40
+    """Of `stepping`: machines up to which it ends its steps at every switch (located_step.py). Each costs a settlement,
+    so those of many machines would cost more than the steps between."""
     first_step: float | None = None
     max_step: float = np.inf
     fixed_step: float | None = None

@@ -26,8 +26,14 @@ def prepare_rows(m):
     """Of an accepted step with rows inside: take slip out of its start and its bend; see `rows_slip`."""
     m.rows_slip = 0
     gridless = m.on_grid == 0 or m.start + m.grid_next * m.every >= m.t_piece - 1e-12 * max(abs(m.t_piece), m.every)
-    if gridless and m.inside == 0:
-        return
+    if not gridless or m.inside > 0:
+        hold_inside(m)
+
+
+@compiled
+def hold_inside(m):
+    """Take slip out of the start and the bend of a step, or have every point inside it done (`rows_slip`)."""
+    m.rows_slip = 0
     row, caught = indices(m.at_hold_mass_row, m.n_hold_mass), indices(m.at_caught, m.n)
     holds, any_holds, any_caught = indices(m.at_holds, m.n), False, False
     for e in range(m.n_hold_mass):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import isfinite
 
+from fairlead.integrate.codes import MIDDLE
 from fairlead.integrate.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.linear import add_mass_times
-from fairlead.integrate.third_order import MIDDLE
 
 PASSED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved."""

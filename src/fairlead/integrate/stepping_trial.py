@@ -19,6 +19,7 @@ from math import inf, isfinite
 from fairlead.integrate.codes import (
     BEFORE,
     GO_ON,
+    MIDDLE,
     REPLAN,
     SETTLE,
     SINGULAR_MATRIX,
@@ -33,15 +34,25 @@ from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.jumps import jump_is_due
 from fairlead.integrate.known_rows import forget_rows
 from fairlead.integrate.linear import DONE, INACCURATE, SINGULAR
+from fairlead.integrate.located_step import (
+    CUT,
+    JUDGED,
+    balance_end,
+    error_of_located,
+    judge_guards,
+    remember_middle,
+    settle_start,
+    stops_little,
+)
 from fairlead.integrate.missed_impulse import impulse_is_missed
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
 from fairlead.integrate.record import rows_inside, write_row
 from fairlead.integrate.release import remember
-from fairlead.integrate.rows_between import end_massless, find_stiff, prepare_rows
+from fairlead.integrate.rows_between import end_massless, find_stiff, hold_inside, prepare_rows
 from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.steady_steps import forget_steps, keep_step, note_rejection
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
-from fairlead.integrate.third_order import MIDDLE, refine_end
+from fairlead.integrate.third_order import refine_end
 from fairlead.integrate.trial import accept, is_instant, not_finite_here, over_budget, propose, smallest_step
 from fairlead.integrate.unseen_guards import guards_are_passed
 
@@ -82,6 +93,12 @@ def attempt_stepping(m):
     if status == INACCURATE:
         return find_pivots(m, h)
     m.replanned = 0
+    return finish_located(m, h) if status == DONE and m.locates == 1 else finish_inside(m, h, status)
+
+
+@compiled
+def finish_inside(m, h, status):
+    """The rest of a step that has found the zones of its end: repeated with a shorter one, or accepted to its end."""
     if status == JUMPS or (status == DONE and jump_is_due(m, h)):
         if not landed(m, h):
             return GO_ON
@@ -104,6 +121,50 @@ def attempt_stepping(m):
         end_massless(m, h)
     accept_step(m, h)
     return GO_ON
+
+
+@compiled
+def finish_located(m, h):
+    """The rest of a step in the zones of its start: judged, repeated, or accepted up to the first switch inside."""
+    if m.gap == 0.0 and stops_little(m):
+        settle_start(m)
+        return GO_ON
+    m.error = end_located(m, h)
+    if not isfinite(m.error) or m.error > 1.0:
+        return reject_error(m, h)
+    hold_inside(m)
+    verdict = judge_guards(m, h)
+    if verdict == JUDGED:
+        return GO_ON
+    m.any_stiff = find_stiff(m, h)
+    m.failed = max(m.failed - 1, 0)
+    m.meters_off = 1 if m.n_quadratures > 0 else 0
+    repeated = m.retried > 0
+    accept(m, h, verdict == CUT)
+    keep_step(m, h, repeated)
+    remember_middle(m, h)
+    show_inside(m)
+    return GO_ON
+
+
+@compiled
+def end_located(m, h):
+    """Move the end of a step by the error of its rule, and to where laws balance; the size of its error."""
+    refine_end(m, h)
+    error = error_of_step(m, h)
+    if error <= 1.0:
+        error = max(error, balance_end(m, h))
+    if m.massless == 1:
+        end_massless(m, h)
+    return error
+
+
+@compiled
+def show_inside(m):
+    """How many rows the accepted step has inside, and what its dense output needs."""
+    if m.on_grid == 1 or m.between == 1:
+        m.inside, m.inside_next = rows_inside(m), 1
+        prepare_rows(m)
 
 
 @compiled
@@ -132,9 +193,7 @@ def accept_step(m, h):
     accept(m, h, False)
     if m.adaptive == 1:
         keep_step(m, h, repeated)
-    if m.on_grid == 1 or m.between == 1:
-        m.inside, m.inside_next = rows_inside(m), 1
-        prepare_rows(m)
+    show_inside(m)
     if m.seeking > 0:
         m.crossed = 1
         m.n_fired = 0
@@ -265,7 +324,8 @@ def error_of_step(m, h):
     y, y_end, slope = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_mean_slope, n)
     before, earlier, error = reals(m.at_slope_before, n), reals(m.at_slope_earlier, n), reals(m.at_error_vector, n)
     bend, differential, controlled = reals(m.at_D, n), indices(m.at_differential, n), indices(m.at_controlled, n)
-    holds = indices(m.at_holds, n)
+    holds, quadrature, mean = indices(m.at_holds, n), indices(m.at_quadrature, n), reals(m.at_mean_before, n)
+    settled = m.locates == 0 or m.gap == 0.0
     near, far = m.gap + 0.5 * h, m.gap_before
     per_step, per_near, per_far = 1.0 / h, 1.0 / near, 1.0 / far
     third = h * h * h / 6.0 / (near + far)
@@ -282,10 +342,12 @@ def error_of_step(m, h):
             curve, curve_before = (slope[k] - before[k]) * per_near, (before[k] - earlier[k]) * per_far
             if curve * curve_before > 0.0 and abs(curve) <= ROUGH * abs(curve_before):
                 bend[k] = -0.5 * h * h * curve
-            if controlled[k] == 1:
+            if controlled[k] == 1 or (m.locates == 1 and quadrature[k] == 0):
                 error[k] = third * (curve - curve_before)
         else:
-            slope[k] = (y_end[k] - y[k]) * per_near
+            slope[k] = (y_end[k] - (y[k] if settled else mean[k])) * per_near
+    if m.locates == 1:
+        return error_of_located(m, h)
     size = max(weighted_norm(m, m.at_error_vector), unseen_slip(m, h))
     if m.passes > 0:
         size = max(size, unseen_force(m, h))

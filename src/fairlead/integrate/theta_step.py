@@ -24,6 +24,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.active_set import begin_set, expect_fronts, follow_guards, learn_from_neighbours, violators
+from fairlead.integrate.codes import MIDDLE
 from fairlead.integrate.exchange import exchange_rows, give_up_guesses, solve_exchanged, watch_surfaces
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals
 from fairlead.integrate.guards import evaluate_guards
@@ -33,7 +34,6 @@ from fairlead.integrate.line_search import GIVEN_UP, MOST_SEARCHED, SEARCHED, re
 from fairlead.integrate.linear import DONE, INACCURATE, factorise_step, solve
 from fairlead.integrate.missed_impulse import forget_switches, note_switches
 from fairlead.integrate.step_residual import PASSED, move_end, residual_of_step, scaled_residual, theta_point
-from fairlead.integrate.third_order import MIDDLE
 
 CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
 SLOW = 0.01
@@ -75,8 +75,11 @@ def take_theta_step(m, h):
         solved = True
         solves += 1
         m.newly_held = 0
-        guards_of_step(m, h)
-        violators(m)
+        if m.locates == 1:
+            m.n_fired = 0
+        else:
+            guards_of_step(m, h)
+            violators(m)
         if m.n_fired == 0:
             if m.linear == 1 and m.unchecked == 0:
                 add_quadratures(m, h)

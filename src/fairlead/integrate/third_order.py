@@ -22,9 +22,6 @@ from __future__ import annotations
 from fairlead.integrate.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.linear import add_mass_times, solve
 
-MIDDLE = 0.5
-"""The theta of the midpoint rule: only its error is known to this file."""
-
 
 @compiled
 def refine_end(m, h):
@@ -37,6 +34,8 @@ def refine_end(m, h):
     m.skip_meters = 1
     for k in range(n):
         b[k] = f1[k] - f0[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
+    if m.driven == 1:
+        follow_surfaces(m, h)
     solve(m, m.at_b)
     for k in range(n):
         moves = moving[k] == 1 and quadrature[k] == 0
@@ -55,6 +54,24 @@ def refine_end(m, h):
             y_end[k] += 2.0 * b[k]
     if m.n_quadratures > 0:
         meter_step(m, h)
+
+
+@compiled
+def follow_surfaces(m, h):
+    """Into b, what holds on a surface that is accelerated has its second derivative: h^2 v'' = 8 slips on the chord.
+
+    At both ends of the step it goes as the surface does, in the middle of the chord by h^2 v''/8 faster.
+    """
+    y, y_end, chord = reals(m.at_y, m.n), reals(m.at_y_end, m.n), reals(m.at_y_probe, m.n)
+    slip = reals(m.at_residual, m.n)
+    holds, caught, of_massless = indices(m.at_holds, m.n), indices(m.at_caught, m.n), indices(m.at_of_massless, m.n)
+    moving, b = indices(m.at_differential, m.n), reals(m.at_b, m.n)
+    for k in range(m.n):
+        chord[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
+    field_at(m.call_drift, (m.context, m.t + 0.5 * h, m.at_y_probe, m.at_residual))
+    for k in range(m.n):
+        if holds[k] == 1 and caught[k] == 0 and of_massless[k] == 0:
+            b[k] = -8.0 * slip[k] / h
 
 
 @compiled
