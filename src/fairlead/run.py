@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.analysis.below_weight import BelowWeight
-from fairlead.analysis.beside_its_laws import WAY_OUT, beside_its_laws, few
 from fairlead.analysis.counts import unreasonable
 from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger, judged
@@ -26,6 +25,7 @@ from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
 from fairlead.analysis.step_rows import Batches, Thinning, WholeSteps, on_grid
+from fairlead.analysis.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
 from fairlead.analysis.strains import Strains
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
@@ -39,7 +39,6 @@ from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
 from fairlead.results import MemoryRun, Result, RunDirectory, Signal, Sink
 from fairlead.system.out_of_range import beyond_their_tables
-from fairlead.system.timed_limits import timed_limits
 
 if TYPE_CHECKING:
     from fairlead.system.recording import OutputSignal, Recording
@@ -178,14 +177,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()
-    if settings.engine == "stepping" and system.without_inertia:
-        raise UsageError(_light(system.without_inertia))
-    if settings.engine == "stepping" and system.uneven:
-        raise UsageError(_uneven(system.uneven))
-    if settings.engine != "rodas" and settings.engine != "auto" and (kept := system.kept_positions):
-        raise UsageError(_kept(settings.engine, kept))
-    if settings.engine == "stepping" and (stops := system.rigid_stops):
-        raise UsageError(_met_rigidly(stops))
+    if (fault := refused(settings, system)) is not None:
+        raise UsageError(f"{fault.what} {fault.way_out}")
     patterns = _patterns(netlist)
     recording = system.recording(patterns)
     limits = read_limits(netlist.limits, recording.recorded)
@@ -250,78 +243,40 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     """The engine of a run and why, as run.json tells them."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
-    if system.without_inertia:
-        return "rodas", "auto: a contact or a gear holds a node without inertia, whose forces do not tell its speed"
-    if system.uneven:
-        return "rodas", "auto: a contact holds between a node with mass and one without"
-    if system.kept_positions:
-        return "rodas", "auto: it keeps relations of positions"
-    if system.rigid_stops:
-        return "rodas", "auto: it locates the instants at which rigid stops are met"
+    if (reason := beyond(system, settings)) is not None:
+        return "rodas", f"auto: {reason}"
+    contacts = int(np.count_nonzero(system.holder >= 0))
     smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
-    engine, reason = choose(int(np.count_nonzero(system.holder >= 0)), smooth, settings.accuracy)
-    if engine == "stepping" and (names := timed_limits(system, settings.start, settings.stop)):
-        return "rodas", f"auto: it locates every switch, and the force limit of {few(names)} varies in time"
+    engine, reason = choose(contacts, smooth, settings.accuracy)
+    if engine == "stepping" and (found := handling(system, settings)).way != INSIDE:
+        return "rodas", f"auto: it locates every switch, and {found.why}"
     return engine, reason
 
 
 def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
-    """What the engine that `run.engine` asks for cannot do well in this model."""
-    if settings.engine != "stepping":
-        return []
-    found = list(beside_its_laws(system, settings.accuracy))
-    names = timed_limits(system, settings.start, settings.stop)
-    if not names:
-        return found
-    what = (
-        f"run.engine: stepping rounds the instants at which contacts let go to its steps, and the force limit of "
-        f"{few(names)} varies in time: an error of some percent may not follow the accuracy."
-    )
-    where = next(instance.where for instance in system.flat.instances if instance.path == names[0])
-    return [*found, Fault(where, what, WAY_OUT)]
+    """What the engine that `run.engine` asks for cannot do well in this model. Raises ModelError if it refuses."""
+    if (fault := refused(settings, system)) is not None:
+        raise ModelError([fault])
+    return list(remark(system, settings))
 
 
-def _uneven(contacts: list[str]) -> str:
-    """Why `stepping` does not take these contacts."""
-    return (
-        "run.engine: stepping does not hold contacts between a node with mass and one without "
-        f"({few(contacts)}): of the latter it knows the mean over a step. Give that node a mass, or take run.engine: "
-        "rodas (or auto)."
-    )
-
-
-def _light(parts: list[str]) -> str:
-    """Why `stepping` does not take these contacts and gears."""
-    return (
-        "run.engine: stepping does not take what holds nodes without inertia between springs or at gears "
-        f"({few(parts)}): it knows the mean over a step of their speeds, and no jumps. Give the node an inertia, or "
-        "take run.engine: rodas (or auto, or ida)."
-    )
-
-
-def _kept(engine: str, parts: list[str]) -> str:
-    """Why another engine than `rodas` does not take relations of positions."""
-    return (
-        f"run.engine: {engine} does not bring positions back to what {few(parts)} keeps after every step, so they "
-        "would drift. Take run.engine: rodas (or auto)."
-    )
-
-
-def _met_rigidly(stops: list[str]) -> str:
-    """Why `stepping` does not take these stops."""
-    return (
-        f"run.engine: stepping rounds switches to its steps, and a rigid stop ({few(stops)}) is met at an instant, "
-        "with an impulse. Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether)."
-    )
+def refused(settings: RunSettings, system: System) -> Fault | None:
+    """Why the engine that `run.engine` asks for does not run this model, None where it does."""
+    if settings.engine == "ida" and (kept := system.kept_positions):
+        what = f"run.engine: ida does not bring positions back to what {few(kept)} keeps after every step"
+        return Fault(None, f"{what}, so they would drift.", "Take run.engine: rodas (or auto).")
+    return refusal(system, settings)
 
 
 def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str]) -> Run:
     method = "rodas5p" if settings.method == "auto" else settings.method
     types = [instance.type for instance in system.flat.instances]
+    engine = engine_of(settings, system)[0]
+    located = {"most_located": most_located(system, settings)} if engine == "stepping" else {}
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
         accuracy=settings.accuracy, record=patterns, between=True,
-        engine=engine_of(settings, system)[0],
+        engine=engine, **located,
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
         max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,

@@ -112,10 +112,3 @@ def test_auto_leaves_stepping_where_a_limit_varies_in_time(count, load, engine, 
     found, reason = engine_of(model.netlist.run, model.system)
     assert found == engine
     assert ("the force limit of pad0 varies in time" in reason) == (LOADS[load][2] and count >= 100)
-
-
-@pytest.mark.parametrize(("engine", "told"), [("stepping", True), ("rodas", False)])
-def test_check_remarks_on_it_when_stepping_is_asked_for(engine, told, scene):
-    load, wires, _ = LOADS["a sine"]
-    remarks = scene(text(load, wires, run=f"stop: 1 s, engine: {engine}")).check()
-    assert any("the force limit of pad0 varies in time" in str(remark) for remark in remarks) == told

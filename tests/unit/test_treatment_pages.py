@@ -23,6 +23,11 @@ def test_the_pages_are_those_that_the_classes_give():
     assert written == made().pages(), "run python docs/make.py pages"
 
 
+def test_the_table_of_stepping_is_the_one_that_check_goes_by():
+    path, text = made().stepping()
+    assert path.read_text(encoding="utf-8") == text, "run python docs/make.py pages"
+
+
 BUNDLED = {w: m for w, m in known_types()["Contact"].members.items() if m.__module__.startswith("fairlead.")}
 
 

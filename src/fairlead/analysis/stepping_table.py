@@ -1,0 +1,176 @@
+"""What `stepping` can do, by classes of scenes: the one declaration that checks, runs, `auto` and the docs go by.
+
+A class is found by facts of the compiled system: what laws declare, and what was traced of them. No name decides.
+
+    INSIDE     switches happen inside steps: the cost does not depend on how many contacts switch in one
+    LANDED     every step ends at the first switch in it, as those of `rodas` do (integrate/located_step.py)
+    REFUSED    the run does not begin, and names the part and the engine to take
+
+Up to `Run.most_located` machines (contacts, stops, tables: all that has zones) every scene is LANDED, since few
+switches cost little. Why a class is where it is: docs/stepping.md, which shows this table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Literal, NamedTuple
+
+from fairlead.component.base import Component, Family
+from fairlead.errors import Fault, Location
+from fairlead.netlist.settings import RunSettings
+from fairlead.system.break_away import least_left
+from fairlead.system.system import System
+from fairlead.system.timed_limits import timed_limits
+
+Way = Literal["inside", "landed", "refused"]
+INSIDE: Way = "inside"
+LANDED: Way = "landed"
+REFUSED: Way = "refused"
+FEW = 40
+"""Machines up to which every switch is landed on, as `Run.most_located` has it."""
+EVERY_SWITCH = 2**31
+"""Of `Run.most_located`: whatever there is."""
+WAY_OUT = "Take run.engine: rodas (or auto)."
+
+
+class Class(NamedTuple):
+    """A class of scenes."""
+
+    scenes: str
+    """Whose they are, for the page."""
+    way: Way
+    """How a scene of more than FEW machines is run."""
+    why: str
+    """A clause; `{}` stands for the names of the parts."""
+    parts: Callable[[System, RunSettings], Iterable[str]]
+    """Paths of the parts that make a scene one of this class; none if it is not."""
+    way_out: str = WAY_OUT
+    auto: str = ""
+    """Why `auto` takes `rodas` for what is refused."""
+
+
+def _bending(system: System, settings: RunSettings) -> Iterator[str]:
+    """Contacts that stick and hold nothing: their laws creep or bend, and turn within a slip of nearly nothing."""
+    for block in system.blocks:
+        kind = block.kernel.variant.type
+        contact = issubclass(kind, Family) and issubclass(kind, Component) and not kind.answers.never_sticks
+        if contact and not block.kernel.structure.holds and len(block.kernel.structure.zones) > 1:
+            yield from (one.path for one in block.instances)
+
+
+def _falling(system: System, settings: RunSettings) -> Iterator[str]:
+    """Contacts whose friction falls with a jump as they let go."""
+    for block in system.blocks:
+        structure = block.kernel.structure
+        if structure.holds and structure.shares_left:
+            for one in block.instances:
+                if least_left(structure.shares_left, one.values) < 1.0 - settings.accuracy:
+                    yield one.path
+
+
+def _timed(system: System, settings: RunSettings) -> Iterable[str]:
+    """Contacts whose limit follows something given in time."""
+    return timed_limits(system, settings.start, settings.stop)
+
+
+def _any(system: System, settings: RunSettings) -> Iterable[str]:
+    """Asks nothing: the class of what is in no other."""
+    return ()
+
+
+TABLE: tuple[Class, ...] = (
+    Class("contacts and gears that hold nodes without inertia, whose forces do not tell their speed", REFUSED,
+          "stepping does not take what holds nodes without inertia between springs or at gears ({}): it knows the mean "
+          "over a step of their speeds, and no jumps", lambda system, _: system.without_inertia,
+          "Give the node an inertia, or take run.engine: rodas (or auto, or ida).",
+          "a contact or a gear holds a node without inertia, whose forces do not tell its speed"),
+    Class("contacts between a node with mass and one without", REFUSED,
+          "stepping does not hold contacts between a node with mass and one without ({}): of the latter it knows the "
+          "mean over a step", lambda system, _: system.uneven,
+          "Give that node a mass, or take run.engine: rodas (or auto).",
+          "a contact holds between a node with mass and one without"),
+    Class("relations of positions (`hold_position`)", REFUSED,
+          "stepping does not bring positions back to what {} keeps after every step, so they would drift",
+          lambda system, _: system.kept_positions, auto="it keeps relations of positions"),
+    Class("rigid stops", REFUSED,
+          "stepping rounds switches to its steps, and a rigid stop ({}) is met at an instant, with an impulse",
+          lambda system, _: system.rigid_stops,
+          "Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether).",
+          "it locates the instants at which rigid stops are met"),
+    Class("limits of friction given in time", LANDED,
+          "the force limit of {} varies in time, so that it may be passed and kept again inside a step", _timed),
+    Class("contacts that creep or bend at rest and have zones (binding)", LANDED,
+          "the laws of {} turn within a slip of nearly nothing", _bending),
+    Class("friction that falls as a contact lets go", INSIDE,
+          "stepping ends its steps where the friction of {} falls, but not where other contacts switch meanwhile: "
+          "what moves right after may be of order one in the step", _falling),
+    Class("everything else: contacts that hold at one level, limits that follow the motion, nodes without mass, "
+          "ropes and stops that give, motions that are given", INSIDE, "", _any),
+)  # fmt: skip
+"""The first class that has parts in a scene decides."""
+
+
+class Handling(NamedTuple):
+    """How `stepping` runs a scene: the way, and the class and the parts that decide."""
+
+    way: Way
+    of: Class
+    parts: tuple[str, ...]
+
+    @property
+    def why(self) -> str:
+        """The clause of the class with the names of the parts."""
+        return self.of.why.format(few(self.parts))
+
+
+def handling(system: System, settings: RunSettings) -> Handling:
+    """By the table."""
+    for one in TABLE:
+        if parts := tuple(one.parts(system, settings)):
+            way: Way = LANDED if one.way == INSIDE and len(system.zones) <= FEW else one.way
+            return Handling(way, one, parts)
+    return Handling(LANDED if len(system.zones) <= FEW else INSIDE, TABLE[-1], ())
+
+
+def beyond(system: System, settings: RunSettings) -> str | None:
+    """Why `auto` does not even ask for `stepping`."""
+    refused = (one for one in TABLE if one.way == REFUSED)
+    return next((one.auto for one in refused if any(True for _ in one.parts(system, settings))), None)
+
+
+def refusal(system: System, settings: RunSettings) -> Fault | None:
+    """Why `stepping`, asked for by name, does not run this scene; None where it does."""
+    if settings.engine != "stepping":
+        return None
+    found = handling(system, settings)
+    if found.way != REFUSED:
+        return None
+    return Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
+
+
+def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
+    """What `stepping`, asked for by name, does not do as exactly as its accuracy says."""
+    found = handling(system, settings)
+    if settings.engine == "stepping" and found.way == INSIDE and found.parts:
+        yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
+
+
+def most_located(system: System, settings: RunSettings) -> int:
+    """Of `Run`: machines up to which steps end at every switch."""
+    return EVERY_SWITCH if handling(system, settings).way == LANDED else FEW
+
+
+def page() -> str:
+    """The table as Markdown."""
+    words = {INSIDE: "yes, inside steps", LANDED: "yes, every switch landed on", REFUSED: "refused"}
+    rows = [f"| {one.scenes} | {words[LANDED if one.way == INSIDE else one.way]} | {words[one.way]} |" for one in TABLE]
+    return "\n".join([f"| scenes with | up to {FEW} machines | more |", "|---|---|---|", *rows])
+
+
+def few(names: Sequence[str]) -> str:
+    """Three of them, and how many follow."""
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+
+
+def _where(system: System, parts: Sequence[str]) -> Location | None:
+    return next((one.where for one in system.flat.instances if one.path == parts[0]), None)

@@ -1,0 +1,114 @@
+"""What `stepping` does with a class of scenes is what its table says: refused by name, landed on, or inside steps."""
+
+import pytest
+
+from fairlead.analysis.stepping_table import EVERY_SWITCH, FEW, INSIDE, LANDED, REFUSED, TABLE, handling, most_located
+from fairlead.errors import ModelError, UsageError
+from fairlead.integrate import Run
+from fairlead.run import engine_of
+
+MANY = FEW + 5
+LEVEL, FALLING = "curve: 0.3", "curve: {curve: coulomb, stiction: 0.5, coulomb: 0.3}"
+SWING = "source: {type: SignalSource, value: {sine: {amplitude: 2, frequency: 500 Hz, offset: 10}}}"
+
+
+def row(count, contact, engine="stepping", more="", joined=""):
+    """Blocks on a floor, each with a contact."""
+    parts = "".join(
+        f"  m{k}: {{type: Mass, mass: 1 kg}}\n  rub{k}: {{type: Contact, normal_force: 10 N, {contact}}}\n"
+        for k in range(count)
+    )
+    joins = "".join(f"  - [floor.flange, rub{k}.a]\n  - [rub{k}.b, m{k}.flange]\n" for k in range(count))
+    return (
+        f"components:\n  floor: {{type: Ground}}\n{parts}{more and f'  {more}'}\n"
+        f"connections:\n{joins}{joined and f'  - {joined}'}\nrun: {{stop: 0.1 s, engine: {engine}}}\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("count", "contact", "more", "joined", "way", "named"),
+    [
+        (1, LEVEL, "", "", LANDED, ""),
+        (FEW, FALLING, "", "", LANDED, "rub0"),
+        (MANY, LEVEL, "", "", INSIDE, ""),
+        (MANY, FALLING, "", "", INSIDE, "rub0"),
+        (MANY, f"{FALLING}, method: karnopp", "", "", INSIDE, "rub0"),
+        (MANY, f"{LEVEL}, method: binding", "", "", LANDED, "rub0"),
+        (MANY, f"{LEVEL}, method: tanh", "", "", INSIDE, ""),
+        (MANY, LEVEL, SWING, "[source.signal, rub3.normal]", LANDED, "rub3"),
+    ],
+)
+def test_a_class_is_known_by_its_facts(count, contact, more, joined, way, named, scene):
+    model = scene(row(count, contact, more=more, joined=joined))
+    found = handling(model.system, model.netlist.run)
+    assert found.way == way
+    assert found.parts[:1] == ((named,) if named else ())
+    located = most_located(model.system, model.netlist.run)
+    assert located == (EVERY_SWITCH if way == LANDED else FEW)
+
+
+@pytest.mark.parametrize(("engine", "told"), [("stepping", True), ("rodas", False), ("auto", False)])
+def test_what_is_done_less_exactly_is_told_with_the_way_out(engine, told, scene):
+    found = scene(row(MANY, FALLING, engine)).check()
+    assert bool(found) == told
+    assert all("the friction of rub0" in fault.what and "run.engine: rodas" in fault.way_out for fault in found)
+
+
+
+def test_what_is_refused_is_refused_by_check_and_by_the_run(scene, library, tmp_path):
+    text = """
+    components:
+      wall: {type: Ground}
+      load: {type: Mass, mass: 1 kg, velocity: 1 m/s}
+      joint: {type: Joint}
+    connections: [[wall.flange, joint.a], [joint.b, load.flange]]
+    run: {stop: 0.1 s, engine: stepping}
+    """
+    joint = """
+    class Joint(Component):
+        '''A stop that takes any impulse.'''
+
+        a, b = Translational(), Translational()
+        pull = Unknown("N")
+        zones = Zones("free", "met")
+
+        @zone("free")
+        def free(p, a, b, pull):
+            return Law(a=0, b=0, pull=pull)
+
+        @zone("met")
+        def met(p, a, b, pull):
+            return Law(a=-pull, b=pull, pull=hold(b.v - a.v))
+
+        @guard("free", to="met", unit="m")
+        def meets(p, a, b):
+            return b.x - a.x - 0.01
+
+        @guard("met", to="free", unit="N")
+        def leaves(p, pull):
+            return -pull
+    """
+    model = scene(text, libraries=(library(joint),))
+    with pytest.raises(ModelError, match=r"(?s)a rigid stop \(joint\).*rodas"):
+        model.check()
+    with pytest.raises(UsageError, match=r"(?s)a rigid stop \(joint\).*rodas"):
+        model.run(out=tmp_path / "run")
+
+
+def test_the_engine_lands_by_itself_on_the_switches_of_as_many_machines():
+    assert Run(stop=1.0).most_located == FEW
+
+
+def test_every_refusal_has_a_reason_for_auto_and_names_its_parts():
+    assert all(one.auto and "{}" in one.why and "rodas" in one.way_out for one in TABLE if one.way == REFUSED)
+
+
+COUNTS = (pytest.param(90, marks=pytest.mark.slow), 99, 100, pytest.param(110, marks=pytest.mark.slow))
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize(("contact", "serves"), [(LEVEL, True), (FALLING, False)])
+def test_auto_takes_stepping_from_a_hundred_contacts_on_where_switches_may_be_inside(count, contact, serves, scene):
+    model = scene(row(count, contact, "auto"))
+    engine, _ = engine_of(model.netlist.run, model.system)
+    assert engine == ("stepping" if serves and count >= 100 else "rodas")
