@@ -1,6 +1,6 @@
 """The pages in docs/treatments and the figures of docs/friction.md, made from the classes and by the code.
 
-    python docs/make.py            pages and figures, half a minute
+    python docs/make.py            pages and figures, half a minute; also the table in docs/stepping.md
     python docs/make.py pages      pages only
 
 A test compares the pages with what this writes, so they cannot go stale.
@@ -22,6 +22,7 @@ from fairlead.system.interface import beyond, first_line, parameter_rows, shared
 HERE = pathlib.Path(__file__).parent
 PAGES, FIGURES = HERE / "treatments", HERE / "figures"
 NOTE = "<!-- written by docs/make.py from the class; change that -->"
+TABLE_BEGINS, TABLE_ENDS = "<!-- table of stepping -->", "<!-- end of table -->"
 NORMAL = 10.0  # N, for the figures
 CURVE = {"curve": "stribeck", "stiction": 0.5, "coulomb": 0.3, "velocity": 5e-3}
 COLOURS = 200  # of a figure; with a hundred, thin lines lose theirs
@@ -37,6 +38,15 @@ def pages() -> dict[pathlib.Path, str]:
     base = shared(member.declaration for member in members.values())
     found = {PAGES / f"{word}.md": "\n".join(page(word, member, base)) for word, member in members.items()}
     return {PAGES / "README.md": "\n".join(index(contact, members, base)), **found}
+
+
+def stepping() -> tuple[pathlib.Path, str]:
+    """The page on the error of a step with the table of what `stepping` can do."""
+    from fairlead.analysis.stepping_table import page as table
+
+    path = HERE / "stepping.md"
+    before, rest = path.read_text(encoding="utf-8").split(TABLE_BEGINS)
+    return path, f"{before}{TABLE_BEGINS}\n{table()}\n{TABLE_ENDS}{rest.split(TABLE_ENDS)[1]}"
 
 
 def page(word: str, member: Any, base: Any) -> Iterator[str]:
@@ -168,7 +178,7 @@ def small(path: pathlib.Path) -> None:
 def main() -> None:
     """Write everything."""
     PAGES.mkdir(exist_ok=True)
-    for path, text in pages().items():
+    for path, text in [*pages().items(), stepping()]:
         path.write_text(text, encoding="utf-8")
     if sys.argv[1:] != ["pages"]:
         figures()

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.analysis.beside_its_laws import few
+from fairlead.analysis.stepping_table import few
 from fairlead.component.declare import STRAIN
 from fairlead.system.recording import OutputSignal
 from fairlead.system.system import System

@@ -96,7 +96,7 @@ def shown_end(m):
     if m.any_stiff == 0:
         return m.at_y_piece
     copy(reals(m.at_y_piece, m.n), reals(m.at_y_probe, m.n))
-    theta = 1.0 if m.most_inside == PARABOLA else (m.t_piece - m.t) / m.h
+    theta = 1.0 if m.most_inside == PARABOLA and m.locates == 0 else (m.t_piece - m.t) / m.h
     balance_stiff(m, m.t_piece, theta, m.at_y_probe)
     return m.at_y_probe
 

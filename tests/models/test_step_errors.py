@@ -1,0 +1,110 @@
+"""The error of a step of `stepping` with a switch inside is the one that docs/stepping.md says, at every phase."""
+
+import numpy as np
+import pytest
+
+from fairlead.integrate import Run, integrate
+
+PHASES = np.linspace(0.04, 0.96, 24)
+BEFORE = 8  # steps before the one with the switch
+BLOCK = """
+    components:
+      ground: {type: Ground}
+      block: {type: Mass, mass: 1 kg, position: 0 m, velocity: SPEED m/s}
+      rub: {type: Contact, normal_force: 10 N, curve: 0.3, method: hold}
+      pull: {type: ForceSource, force: FORCE}
+    connections: [[ground.flange, rub.a], [rub.b, block.flange, pull.flange]]
+    run: {stop: 1 s, accuracy: 1e-6}
+    effects: {energy: off}
+    """
+NODE = """
+    components:
+      ground: {type: Ground}
+      rub: {type: Contact, normal_force: 10 N, curve: 0.3, method: hold}
+      behind: {type: Damper, damping: 4 N*s/m}
+      pull: {type: ForceSource, force: FORCE}
+    connections: [[ground.flange, rub.a, behind.a], [rub.b, behind.b, pull.flange]]
+    run: {stop: 1 s, accuracy: 1e-6}
+    effects: {energy: off}
+    """
+WALL = """
+    components:
+      ground: {type: Ground}
+      block: {type: Mass, mass: 1 kg, position: 0 m, velocity: 1 m/s}
+      stop: {type: EndStop, stiffness: 1 N/m, upper: 0.5 m, lower: -9 m, damping: 0 s/m}
+    connections: [[ground.flange, stop.a], [stop.b, block.flange]]
+    run: {stop: 1 s, accuracy: 1e-6}
+    effects: {energy: off}
+    """
+RAMP, LEVEL, DUE = "{ramp: {to: 60 N, over: 10 s}}", 3.0, 0.5  # N/s: 6; the limit [N]; the switch [s]
+RATE = 6.0
+
+
+def ends(model, due, what, after=1):
+    """By phase: h, and the unknown at the end of so many steps, counted from the one with the switch at `due`."""
+    system = model.system
+    (k,) = [k for k, name in enumerate(system.unknown_names) if name.endswith(what)]
+    for s in PHASES:
+        h = due / (BEFORE + s)
+        outcome = integrate(system, Run(stop=(BEFORE + after) * h, fixed_step=h, engine="stepping"))
+        assert outcome.ok
+        yield s, h, outcome.y[k]
+
+
+def test_a_contact_that_lets_go_is_late_in_speed_by_the_square_of_the_nearer_part(scene):
+    model = scene(BLOCK.replace("FORCE", RAMP).replace("SPEED", "0"))
+    errors = []
+    for s, h, v in ends(model, DUE, "block.v", after=2):
+        errors.append((v - RATE / 2 * (2 * h - s * h) ** 2) / (RATE * h**2))
+        assert errors[-1] == pytest.approx(-0.5 * min(s, 1 - s) ** 2, abs=1e-9)
+    assert np.mean(errors) == pytest.approx(-1 / 24, rel=0.05)
+
+
+def test_a_capture_is_right_in_speed_and_short_or_far_by_half_its_parts(scene):
+    a = LEVEL - 1.0  # m/s^2
+    model = scene(BLOCK.replace("FORCE", "1 N").replace("SPEED", repr(a * DUE)))
+    for _, _, v in ends(model, DUE, "block.v"):
+        assert v == pytest.approx(0, abs=1e-12)
+    for s, h, x in ends(model, DUE, "block.x"):
+        assert x - a * DUE**2 / 2 == pytest.approx(a * h**2 / 2 * s * (1 - s), abs=1e-12)
+
+
+def test_a_slip_that_turns_round_is_wrong_in_speed_by_order_one(scene):
+    force = 9.0
+    a, b = force + LEVEL, force - LEVEL
+    model = scene(BLOCK.replace("FORCE", f"-{force} N").replace("SPEED", repr(a * DUE)))
+    for s, h, v in ends(model, DUE, "block.v"):
+        right = -b * (1 - s) * h
+        assert v - right == pytest.approx((a - b) * s * h if s < b / a else b * (1 - s) * h, abs=1e-12)
+
+
+def test_a_stop_that_gives_is_met_too_soon(scene):
+    """The stop is so soft that it hardly turns the block within the step: r = k u = 1 N/s."""
+    for s, h, v in ends(scene(WALL), DUE, "block.v"):
+        wrong = (v - np.cos((1 - s) * h)) / (0.5 * h**2)
+        assert wrong == pytest.approx(s**2, abs=0.3 * h)
+
+
+def test_a_node_without_mass_that_is_let_go_is_behind_in_place(scene):
+    model = scene(NODE.replace("FORCE", RAMP))
+    for s, h, x in ends(model, DUE, ".x"):
+        if s < 0.5:
+            wrong = x - RATE / 8 * (1 - s) ** 2 * h**2
+            assert wrong == pytest.approx(-RATE / 8 * s**2 * h**2, abs=1e-12)
+
+
+def test_the_place_on_a_table_that_swings_is_of_order_three(scene):
+    text = (
+        BLOCK.replace("FORCE", "0 N")
+        .replace("SPEED", "0.01")
+        .replace(
+            "ground: {type: Ground}",
+            "ground: {type: MotionSource, velocity: {sine: {amplitude: 0.01 m/s, frequency: 0.5 Hz, phase: 90 deg}}}",
+        )
+    )
+    model, found = scene(text), []
+    (k,) = [k for k, name in enumerate(model.system.unknown_names) if name.endswith("block.x")]
+    for n in (16, 32):
+        outcome = integrate(model.system, Run(stop=0.8, fixed_step=0.8 / n, engine="stepping"))
+        found.append(abs(outcome.y[k] - 0.01 / np.pi * np.sin(0.8 * np.pi)))
+    assert found[0] > 7 * found[1]
