@@ -248,7 +248,7 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     contacts = int(np.count_nonzero(system.holder >= 0))
     smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
     engine, reason = choose(contacts, smooth, settings.accuracy)
-    if engine == "stepping" and (found := handling(system, settings)).way != INSIDE:
+    if engine == "stepping" and ((found := handling(system, settings)).way != INSIDE or found.of.auto):
         return "rodas", f"auto: it locates every switch, and {found.why}"
     return engine, reason
 

@@ -108,3 +108,10 @@ def test_the_place_on_a_table_that_swings_is_of_order_three(scene):
         outcome = integrate(model.system, Run(stop=0.8, fixed_step=0.8 / n, engine="stepping"))
         found.append(abs(outcome.y[k] - 0.01 / np.pi * np.sin(0.8 * np.pi)))
     assert found[0] > 7 * found[1]
+
+
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-6"])
+def test_where_machines_are_few_a_switch_is_logged_at_its_instant(accuracy, scene, tmp_path):
+    model = scene(BLOCK.replace("FORCE", RAMP).replace("SPEED", "0"), **{"run.accuracy": accuracy})
+    (let_go,) = model.run(out=tmp_path / "run", engine="stepping").events
+    assert let_go.t == pytest.approx(DUE, abs=1e-9)

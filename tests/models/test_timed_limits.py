@@ -112,3 +112,12 @@ def test_auto_leaves_stepping_where_a_limit_varies_in_time(count, load, engine, 
     found, reason = engine_of(model.netlist.run, model.system)
     assert found == engine
     assert ("the force limit of pad0 varies in time" in reason) == (LOADS[load][2] and count >= 100)
+
+
+@pytest.mark.parametrize(
+    ("value", "turns"), [(SWING, True), (CORNERS, False), ("{ramp: {from: 10, to: 2, over: 1 s}}", False)]
+)
+def test_a_limit_that_turns_now_and_then_does_not_turn_often(value, turns, scene):
+    system = scene(text(f"source: {{type: SignalSource, value: {value}}}", TOLD)).system
+    assert timed_limits(system, 0.0, 1.0) == ["pad0"]
+    assert timed_limits(system, 0.0, 1.0, turning=True) == (["pad0"] if turns else [])

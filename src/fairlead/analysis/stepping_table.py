@@ -46,7 +46,7 @@ class Class(NamedTuple):
     """Paths of the parts that make a scene one of this class; none if it is not."""
     way_out: str = WAY_OUT
     auto: str = ""
-    """Why `auto` takes `rodas` for what is refused."""
+    """Why `auto` takes `rodas` for what is refused, or runs inside steps less exactly."""
 
 
 def _bending(system: System, settings: RunSettings) -> Iterator[str]:
@@ -73,6 +73,11 @@ def _timed(system: System, settings: RunSettings) -> Iterable[str]:
     return timed_limits(system, settings.start, settings.stop)
 
 
+def _swung(system: System, settings: RunSettings) -> Iterable[str]:
+    """Contacts whose limit follows something given in time that turns often."""
+    return timed_limits(system, settings.start, settings.stop, turning=True)
+
+
 def _any(system: System, settings: RunSettings) -> Iterable[str]:
     """Asks nothing: the class of what is in no other."""
     return ()
@@ -97,10 +102,13 @@ TABLE: tuple[Class, ...] = (
           lambda system, _: system.rigid_stops,
           "Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether).",
           "it locates the instants at which rigid stops are met"),
-    Class("limits of friction given in time", LANDED,
-          "the force limit of {} varies in time, so that it may be passed and kept again inside a step", _timed),
+    Class("limits of friction given in time that turn ten times and more", LANDED,
+          "the force limit of {} varies in time, so that it may be passed and kept again inside a step", _swung),
     Class("contacts that creep or bend at rest and have zones (binding)", LANDED,
           "the laws of {} turn within a slip of nearly nothing", _bending),
+    Class("limits of friction given in time that turn less often", INSIDE,
+          "the force limit of {} varies in time, and stepping reads it in the middle of its steps", _timed,
+          auto="it locates every switch, and a force limit varies in time"),
     Class("friction that falls as a contact lets go", INSIDE,
           "stepping ends its steps where the friction of {} falls, but not where other contacts switch meanwhile: "
           "what moves right after may be of order one in the step", _falling),

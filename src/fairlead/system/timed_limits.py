@@ -10,7 +10,7 @@ them are no variation: a step ends where a piece does.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,15 +24,23 @@ from fairlead.system.structure import Structure
 from fairlead.system.system import System
 
 Booleans = NDArray[np.bool_]
+OFTEN = 10
+"""Turns of a limit, each of which may add a switch: what `stepping` makes wrong in that many is no longer a few weights
+(docs/stepping.md)."""
+Moves = Callable[[PiecewisePolynomial | Wave, float, float], bool]
 FIRST_SLOPE = 4
 """Where in a row of a polynomial the coefficients begin that make it vary."""
 
 
-def timed_limits(system: System, start: float, stop: float) -> list[str]:
-    """Paths of the components whose limit varies in time between start and stop [s], in the order of the blocks."""
+def timed_limits(system: System, start: float, stop: float, *, turning: bool = False) -> list[str]:
+    """Paths of the components whose limit varies in time between start and stop [s], in the order of the blocks.
+
+    `turning`: only where what is given in time turns between up and down OFTEN.
+    """
     if not any(block.kernel.structure.holds for block in system.blocks):
         return []
-    beating = [_beats(block, start, stop) for block in system.blocks]
+    moves = _turns if turning else _moves
+    beating = [_beats(block, start, stop, moves) for block in system.blocks]
     if not any(beats.any() for beats in beating):
         return []
     varies = _spread(system, beating)
@@ -43,12 +51,12 @@ def timed_limits(system: System, start: float, stop: float) -> list[str]:
     return found
 
 
-def _beats(block: Block, start: float, stop: float) -> Booleans:
+def _beats(block: Block, start: float, stop: float, moves: Moves) -> Booleans:
     """By instance: time moves something in its law."""
     s = block.kernel.structure
     if not s.time_tables:
         return np.full(block.count, "t" in s.inputs)
-    return np.array([any(_moves(one.values.path(p), start, stop) for p in s.time_tables) for one in block.instances])
+    return np.array([any(moves(one.values.path(p), start, stop) for p in s.time_tables) for one in block.instances])
 
 
 def _moves(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool:
@@ -58,6 +66,16 @@ def _moves(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool
     rows = polynomial(given).rows
     some = (rows[:, 1] > start) & (rows[:, 0] < stop)
     return bool(rows[some, FIRST_SLOPE:].any())
+
+
+def _turns(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool:
+    """True if this quantity in time turns up and down OFTEN between start and stop; a curved piece is a turn."""
+    if isinstance(given, Wave) and given.sine.amplitude and abs(given.sine.omega) * (stop - start) >= OFTEN * np.pi:
+        return True
+    rows = polynomial(given).rows
+    slopes = rows[(rows[:, 1] > start) & (rows[:, 0] < stop), FIRST_SLOPE:]
+    ways = np.sign(slopes[:, 0])[slopes[:, 0] != 0.0]
+    return bool(np.count_nonzero(np.diff(ways)) + np.count_nonzero(slopes[:, 1:].any(axis=1)) >= OFTEN)
 
 
 def _spread(system: System, beating: list[Booleans]) -> Booleans:
