@@ -7,7 +7,7 @@ from the masses (impulses.py), takes no kinetic energy from nowhere, and is book
 import pytest
 
 import fairlead
-from fairlead.errors import UsageError
+from fairlead.errors import ModelError
 from tests.scenes.blows import KINDS, WALL, blow
 from tests.scenes.impulses import defect, impacts
 
@@ -63,6 +63,6 @@ def test_impacts_of_three_hundred_random_scenes_are_what_the_laws_allow(first, t
 
 
 def test_stepping_refuses_rigid_stops_by_name(tmp_path):
-    with pytest.raises(UsageError, match=r"rigid stop \(stop0.*rodas"):
+    with pytest.raises(ModelError, match=r"(?s)rigid stop \(stop0.*rodas"):
         played(0, tmp_path, "stepping")
     assert played(0, tmp_path, "auto")[1].run["engine"] == "rodas"
