@@ -12,7 +12,7 @@ FEW = [*((network, seed) for seed in range(len(KINDS))), *((route, seed) for see
 MANY = [*((network, seed) for seed in range(len(KINDS), 100)), *((route, seed) for seed in range(3, 40))]
 
 
-EXPECTED = "run.engine: stepping"
+EXPECTED = "run.engine: "
 """What is remarked on where a scene asks for `stepping` and has laws that it is not made for."""
 
 
