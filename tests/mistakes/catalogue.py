@@ -1,0 +1,13 @@
+"""All mistakes by kind."""
+
+from tests.mistakes import command_mistakes, component_mistakes, netlist_mistakes, python_mistakes
+from tests.mistakes.entry import Mistake
+
+CATALOGUE: dict[str, tuple[Mistake, ...]] = {
+    "netlist": netlist_mistakes.MISTAKES,
+    "command": command_mistakes.MISTAKES,
+    "component": component_mistakes.MISTAKES,
+    "python": python_mistakes.MISTAKES,
+}
+
+ALL = {f"{kind}: {mistake.name}": mistake for kind, mistakes in CATALOGUE.items() for mistake in mistakes}
