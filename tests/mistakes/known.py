@@ -61,7 +61,7 @@ _PYTHON = {
     "force is a word": "any word counts as True, `no` too",
     "statics of a length": _RAW,
     "a new value with a decimal comma": "the line of the netlist that uses mu is blamed, not mu",
-    "a list of new values, to sweep them": "the netlist's line that uses mu is blamed; that it takes one at a time is not told",
+    "a list of new values, to sweep them": "the line that uses mu is blamed; that it takes one at a time is not told",
     "a new value of nothing": "the line of the netlist that uses mu is blamed, for a curve `None`",
     "new values in a dict": _RAW,
     "a signal by its number": _RAW,

@@ -21,7 +21,7 @@ from tests.mistakes.bases import BASES
 from tests.mistakes.entry import Called, Mistake, Typed
 from tests.mistakes.judge import Answer, missing
 
-SECONDS = 10  # longer than that is taken for a hang
+SECONDS = 20  # of processor time; longer than that is taken for a hang
 A_MISTAKE_OF_FAIRLEAD = 70
 PLAIN = {"COLUMNS": "400", "NO_COLOR": "1", "TERM": "dumb"}  # a wide page without colours: words stay whole
 
@@ -160,18 +160,18 @@ def chdir(folder: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Raise EndlessError when the time is up, where the system can tell."""
-    if not hasattr(signal, "SIGALRM"):
+    """Raise EndlessError when so much processor time is used up, where the system can tell."""
+    if not hasattr(signal, "SIGPROF"):
         yield
         return
 
     def ring(*_: object) -> None:
         raise EndlessError
 
-    kept = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    kept = signal.signal(signal.SIGPROF, ring)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, kept)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, kept)
