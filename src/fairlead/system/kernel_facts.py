@@ -26,6 +26,7 @@ from fairlead.system import layout
 from fairlead.system.break_away import parameters_as_text, shares_left
 from fairlead.system.dependence import carried_ratio, reads
 from fairlead.system.flow_rates import flow_rates, joins, output_rates, yields
+from fairlead.system.guard_slots import bounds_what_holds, in_slots
 from fairlead.system.held_pairs import held_pairs
 from fairlead.system.structure import Structure
 
@@ -41,7 +42,7 @@ class KernelFacts:
 
         A `rated` kernel also knows at what rate its flows change, one rated 2 its outputs too (flow_rates.py).
         """
-        self.traced = traced
+        self.traced = traced = in_slots(traced)
         has = traced.variant.type.declaration
         self.zones = list(traced.zones.values())
         told = [flow_rates(zone, has) if rated else ({}, {}) for zone in self.zones]
@@ -265,8 +266,7 @@ def _describe(guard: TracedGuard, facts: KernelFacts, zone: TracedZone) -> dict[
     base = facts.machines - len(facts.traced.tables)
     machine = base + facts.traced.tables.index(guard.table) if guard.table else 0
     to = -1 if guard.table else list(facts.traced.zones).index(guard.to)
-    held = {f"own:{unknown}" for unknown in zone.holds}
-    limits = any(s.name in held for value in guard.values for s in value.free_symbols)
     return {
-        "name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step, "limits": limits,
+        "name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step,
+        "limits": bounds_what_holds(guard, zone),
     }  # fmt: skip

@@ -58,7 +58,8 @@ def _slots(block: Block) -> list[Named]:
 def _sharing(block: Block) -> list[list[dict[str, Any]]]:
     """By slot: the guards of all zones that share it."""
     s = block.kernel.structure
-    return [[known[k] for known in s.guards.values() if k < len(known)] for k in range(s.slots)]
+    guards = s.guards.values()
+    return [[known[k] for known in guards if k < len(known) and known[k]["name"]] for k in range(s.slots)]
 
 
 def holds(blocks: Sequence[Block]) -> tuple[Integers, int]:
