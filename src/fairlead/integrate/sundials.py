@@ -49,6 +49,11 @@ RETREAT = 1e-3
 """After a failure IDA is started again from the last good point, with this share of the step that failed."""
 AGAIN = 0.5
 """A step that is cut at a switch where it does not satisfy the equations is taken again with this share of it."""
+GROWTH_STRIDE = 0.2
+"""Step in times 1/w where a slip grows by e^(w t) from nothing (growth.py). A long one damps what grows: the contact
+rests where its forces balance until they have left it by far. At 1/w the matrix of order one is singular."""
+GROWTH_SEEN = 1e-2
+"""Bend of the motion over such a step, in weights, from which on IDA sees by itself how long it may be."""
 LEAST_STEP = 1e-14
 """First step of a restart over the span, at least."""
 
@@ -69,6 +74,7 @@ class SundialsLoop:
         self.fresh = False
         """IDA was started at the point and has made no step since."""
         self.started_with, self.last_step = 0.0, 0.0
+        self.slope_before = np.zeros(0)
 
     def __call__(self, address: int, attempts: int) -> int:
         """Run on for at most `attempts` steps."""
@@ -93,12 +99,13 @@ class SundialsLoop:
         # A settlement leaves last_error at zero: the last step says nothing about the next.
         if number["last_error"] == 0.0 or not self.solver.running:
             self.restart(self.first_step())
-        elif self.weights.outgrown(array["y"]):
+        elif self.weights.outgrown(array["y"]) or self.has_grown():
             self.restart(self.last_step)
+        self.slope_before = array["slope"].copy() if number["growth"] > 0.0 else self.slope_before
         try:
             step = self.solver.step(float(number["t_land"]))
         except Refused as refused:
-            return refused.status
+            return self.failed(address, singular=True) if refused.status == Status.SINGULAR else refused.status
         if step is None:
             return self.failed(address)
         self.fresh = False
@@ -114,12 +121,24 @@ class SundialsLoop:
         algebraic = array["differential"] == 0
         array["slope"][algebraic] = array["curvature"][algebraic]
         relative, absolute = self.weights.freeze(array["y"])
+        longest = min(self.max_step, GROWTH_STRIDE / number["growth"]) if number["growth"] > 0.0 else self.max_step
         self.solver.start(
             float(number["t"]), array["y"], array["slope"], rtol=relative, atol=absolute,
-            first_step=first_step, max_step=self.max_step, min_step=self.least_step, max_order=self.max_order,
+            first_step=min(first_step, longest), max_step=longest, min_step=self.least_step, max_order=self.max_order,
         )  # fmt: skip
         number["last_error"] = 1.0
         self.fresh, self.started_with = True, first_step
+
+    def has_grown(self) -> bool:
+        """True if what grew from nothing is seen by now, or never will be; it is forgotten then."""
+        number, array = self.memory.number, self.memory.array
+        if number["growth"] == 0.0:
+            return False
+        bend = np.where(array["differential"] == 1, array["slope"] - self.slope_before, 0.0) * self.last_step
+        if number["t"] < number["t_growth"] and np.max(np.abs(bend) / self.weights.at(array["y"])) < GROWTH_SEEN:
+            return False
+        number["growth"] = 0.0
+        return True
 
     def first_step(self) -> float:
         """The first step: its error h^2/2 |y''| is START_ERROR, or what the run says at its start."""
@@ -145,15 +164,19 @@ class SundialsLoop:
         span = self.run.stop - self.run.start
         return max(LEAST_STEP * span, 4e-15 * abs(float(self.memory.number["t"])), self.least_step)
 
-    def failed(self, address: int) -> Status | None:
-        """IDA made no step: start it again from here with a much shorter one, until there is none."""
+    def failed(self, address: int, *, singular: bool = False) -> Status | None:
+        """IDA made no step: start it again from here with a much shorter one, until there is none.
+
+        A `singular` matrix too: IDA asks at points far ahead, where friction that rises towards rest, mirrored
+        beyond it, may not be finite, or may grow by just what the step would have it.
+        """
         number = self.memory.number
         tried = self.started_with if self.fresh else self.last_step
         if tried > self.floor:
             self.restart(max(RETREAT * tried, self.floor))
             return None
         number["h"] = self.floor
-        return Status(self.kernels["find_culprit"](address))
+        return Status.SINGULAR if singular else Status(self.kernels["find_culprit"](address))
 
 
 class Weights:
