@@ -53,7 +53,15 @@ from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.steady_steps import forget_steps, keep_step, note_rejection
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.third_order import refine_end
-from fairlead.integrate.trial import accept, is_instant, not_finite_here, over_budget, propose, smallest_step
+from fairlead.integrate.trial import (
+    accept,
+    cut_too_rough,
+    is_instant,
+    not_finite_here,
+    over_budget,
+    propose,
+    smallest_step,
+)
 from fairlead.integrate.unseen_guards import guards_are_passed
 
 STILL, HOLD_SHARE = 1e-2, 0.025
@@ -134,7 +142,7 @@ def finish_located(m, h):
         return reject_error(m, h)
     hold_inside(m)
     verdict = judge_guards(m, h)
-    if verdict == JUDGED:
+    if verdict == JUDGED or (verdict == CUT and m.theta < 1.0 and cut_too_rough(m, h)):
         return GO_ON
     m.any_stiff = find_stiff(m, h)
     m.failed = max(m.failed - 1, 0)
