@@ -17,8 +17,7 @@ AGREE = 1e-3
 """Difference of the engines at the end [m, m/s] at accuracy 1e-6; a chain of impacts multiplies what one is off."""
 CLOSES = 10
 """Closure in accuracies; that of the sliding friction between the impacts counts too."""
-SET_ASIDE = {16: "a stop that opens meets again within rounding of its place; held as one that chatters: 0.6 mm/s",
-             319: "ida ends at its step floor, and says so; rodas goes on"}  # fmt: skip
+SET_ASIDE = {319: "ida ends at its step floor, and says so; rodas goes on"}
 """Scenes that are not right, by seed, and why; one in a hundred at most."""
 
 
