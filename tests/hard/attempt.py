@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from fairlead.integrate.engines import RODAS, STEPPING
 from fairlead.integrate.machine_code import compiled_loop
 from tests.hard.play import Broken, Play, Verdict
 from tests.hard.registry import Row
@@ -44,7 +45,7 @@ class Attempt:
 
 def attempt(row: Row) -> Attempt:
     """Play a row. What an engine throws counts as a crash; KeyboardInterrupt passes."""
-    compiled_loop("stepping" if row.engine == "stepping" else "rodas")  # not on the budget of the first row
+    compiled_loop(STEPPING if row.engine == "stepping" else RODAS)  # not on the budget of the first row
     begun = time.perf_counter()
     with tempfile.TemporaryDirectory(prefix="fairlead-hard-") as folder:
         play = Play(row.engine, row.treatment, Path(folder), row.case.budget)

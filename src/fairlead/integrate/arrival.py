@@ -26,11 +26,11 @@ from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.impulse import RUBBED
 from fairlead.integrate.limits import ROUNDING
 from fairlead.integrate.linear import INACCURATE, SINGULAR
+from fairlead.integrate.pace import DOUBT, not_finite_here, smallest_step
 from fairlead.integrate.record import shown_end, write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import NO_ROOM, NOT_SETTLED, begin_settling, distance_to_look, move_ahead, settle
 from fairlead.integrate.start import NOT_CONSISTENT, correct_forces, keep_positions
-from fairlead.integrate.trial import DOUBT, not_finite_here, smallest_step
 
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 """Newton iterations allowed from the guess of a user, and from a point consistent before a switch."""

@@ -7,6 +7,7 @@ import time
 import numpy as np
 
 from fairlead.integrate.counters import COUNTS, Counters
+from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory import Memory
 from fairlead.integrate.prepare import check_lengths
 from fairlead.integrate.protocol import CALLBACKS, Block, End, OnBlock, Outcome, Problem, Run, Status
@@ -80,10 +81,11 @@ def check(problem: Problem, run: Run) -> None:
         value = getattr(run, name)
         if value is not None and not value > 0:
             raise ValueError(f"{name} = {value:g} s must be above zero.")
-    if run.engine == "ida" and run.fixed_step is not None:
-        raise ValueError("fixed_step is for rodas and stepping; ida chooses its own steps.")
-    if len(problem.moves) and run.engine != "rodas":
-        raise ValueError(f"{run.engine} does not keep relations of positions; rodas does.")
+    engine = engine_of(run)
+    if engine.chooses_steps and run.fixed_step is not None:
+        raise ValueError(f"fixed_step is for rodas and stepping; {engine.name} chooses its own steps.")
+    if len(problem.moves) and not engine.keeps_relations:
+        raise ValueError(f"{engine.name} does not keep relations of positions; rodas does.")
     if not 0.5 <= run.theta <= 1.0:
         raise ValueError(f"theta = {run.theta:g} must be from 0.5 to 1.")
     n, ng = len(problem.initial), len(problem.guard_machine)

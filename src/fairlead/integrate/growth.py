@@ -17,8 +17,7 @@ from fairlead.integrate.controller import weighted_norm
 from fairlead.integrate.even_steps import COARSE, rounded
 from fairlead.integrate.foreign import compiled, copy, indices, reals
 from fairlead.integrate.guards import evaluate_guards
-from fairlead.integrate.linear import solve
-from fairlead.integrate.rosenbrock import times_jacobian
+from fairlead.integrate.linear import solve, times_jacobian
 from fairlead.integrate.settling import RISE
 
 STRIDE = 1.0

@@ -1,22 +1,11 @@
-"""The solution inside a step: y(theta) for 0 <= theta <= 1, from the dense output of the method."""
+"""The solution inside a step: y(theta) for 0 <= theta <= 1, from the dense output of the method.
+
+y(theta) = (1 - theta) y0 + theta (y1 + (1 - theta)(D_0 + theta (D_1 + theta D_2)))
+"""
 
 from __future__ import annotations
 
 from fairlead.integrate.foreign import compiled, reals
-
-
-@compiled
-def prepare_interpolant(m):
-    """D_r = sum_i H_ri K_i, once for an accepted step."""
-    n, stages = m.n, m.stages
-    D, K, H = reals(m.at_D, 3 * n), reals(m.at_K, stages * n), reals(m.at_H, 3 * stages)
-    for r in range(3):
-        D[r * n : (r + 1) * n] = 0.0
-        for i in range(stages):
-            factor = H[r * stages + i]
-            if factor != 0.0:
-                for k in range(n):
-                    D[r * n + k] += factor * K[i * n + k]
 
 
 @compiled

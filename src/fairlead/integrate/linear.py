@@ -180,3 +180,15 @@ def add_mass_times(m, at_v, at_b):
     values, v, b = reals(m.at_mass, m.n_mass), reals(at_v, m.n), reals(at_b, m.n)
     for p in range(m.n_mass):
         b[rows[p]] += values[p] * v[columns[p]]
+
+
+@compiled
+def times_jacobian(m, at_v, at_b):
+    """Add J v to b over the differential columns, for the n doubles at the two addresses."""
+    starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
+    values, differential = reals(m.at_jacobian, m.n_jacobian), indices(m.at_differential, m.n)
+    v, b = reals(at_v, m.n), reals(at_b, m.n)
+    for j in range(m.n):
+        if differential[j] == 1:
+            for p in range(starts[j], starts[j + 1]):
+                b[rows[p]] += values[p] * v[j]

@@ -17,11 +17,11 @@ from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.crossing import COMPANION, CROSSING, first_crossing
 from fairlead.integrate.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.linear import add_mass_times, solve
+from fairlead.integrate.pace import DOUBT, smallest_step
 from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.rows_between import STIFF, take_slip_away
 from fairlead.integrate.settling import all_fall, begin_settling
-from fairlead.integrate.trial import DOUBT, smallest_step
 
 CAREFUL = 10.0
 """A step is allowed a tenth of a weight: errors of one sign add up, and energy is to be right to ten accuracies of what

@@ -1,24 +1,28 @@
-"""The loop of a run, compiled once for all problems.
+"""The loop of a run, one for every method, compiled once for all problems.
 
     START    point = (start, y0); at_time; settle it (staged)
     while point.t < stop:
-        TRY      h = propose(point)                        # clipped to land on time events
-                 trial = step(point, h)                    # zones, M and J frozen: the minor step
-                 if not accepted: shrink h; TRY again
-                 crossing = first_crossing(trial)
-                 if companion: settle the point at the start of the step; TRY again
-        RECORD   grid points of the piece up to the crossing, or the end
-        ARRIVE   point = end of the piece                  # the major step
+        TRY      method.attempt: h = propose(point)        # clipped to land on time events
+                 trial = step(point, h)                    # the minor step: M and J frozen, and zones unless
+                                                           # the method finds those of the end
+                 rejected: shrink h; TRY again
+                 given up: SETTLE at the point
+                 accepted: up to the first crossing, or to the end
+        RECORD   grid points of the piece
+        ARRIVE   method.arrive: point = end of the piece   # the major step
                  if crossing: SETTLE on the guards that fired
                  if time event: at_time, and SETTLE if anything changed
-        SETTLE   switch zones until no guard fires; choose the next step; TRY
+        SETTLE   switch zones until no guard fires; method.settled; choose the next step; TRY
 
 The loop returns to Python with a status when a slice is used up, a buffer is full, the planned
 pivots fail, a smaller part of the problem may do or no longer does (parts.py), or the run ends, and
-goes on where it was when called again: `phase` and the struct hold all there is to know.
+goes on where it was when called again: `phase` and the structs hold all there is to know.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from fairlead.integrate.arrival import arrive, settle_here, start
 from fairlead.integrate.codes import (
@@ -35,36 +39,70 @@ from fairlead.integrate.codes import (
     WIDEN,
 )
 from fairlead.integrate.foreign import compiled, memory_at
+from fairlead.integrate.one_step import OneStep, trial_of
 from fairlead.integrate.record import record_piece, there_is_room
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import begin_settling
-from fairlead.integrate.trial import attempt
 
 
-def advance(address, attempts):
-    """Run on for at most `attempts` trial steps; the status to return to Python."""
-    m = memory_at(address)
-    while True:
-        if m.phase == TRY:
-            status = ready(m)
+class Method(NamedTuple):
+    """What a method of integration does in the loop: compiled functions, each given the memory of the run."""
+
+    attempt: Callable[..., Any]
+    """attempt(m) -> status: one trial step; leaves the phase that follows, and `t_piece`, `y_piece` if accepted."""
+    arrive: Callable[..., Any]
+    """arrive(m) -> status: go on to the end of the piece."""
+    settled: Callable[..., Any]
+    """settled(m): after every settlement; what was known of the steps before holds no longer."""
+
+
+@compiled
+def arrive_located(m):
+    """Arrive at the end of a piece, where crossings are places on the interpolant of the step."""
+    return arrive(m, True)
+
+
+@compiled
+def nothing_kept(m):
+    """What a method does after a settlement that knows nothing of earlier steps."""
+
+
+def method_of(steps: OneStep) -> Method:
+    """The method that takes such steps, and keeps nothing of them."""
+    return Method(trial_of(steps), arrive_located, nothing_kept)
+
+
+def loop_of(method: Method) -> Callable[[int, int], int]:
+    """advance(address of the structs, attempts) -> status: run on for at most so many trial steps."""
+    attempt, arrive_at, settled = method
+
+    def advance(address, attempts):
+        m = memory_at(address)
+        while True:
+            if m.phase == TRY:
+                status = ready(m)
+                if status != GO_ON:
+                    return status
+                if attempts <= 0:
+                    return PAUSED
+                attempts -= 1
+                status = attempt(m)
+            elif m.phase == RECORD:
+                status = write_piece(m)
+            elif m.phase == ARRIVE:
+                status = arrive_at(m)
+            elif m.phase == SETTLE:
+                status = settle_here(m)
+                if status == GO_ON and m.phase == TRY:
+                    settled(m)
+            elif m.phase == WAKE:
+                status = settle_anew(m)
+            else:
+                status = start(m)
             if status != GO_ON:
                 return status
-            if attempts <= 0:
-                return PAUSED
-            attempts -= 1
-            status = attempt(m)
-        elif m.phase == RECORD:
-            status = record(m)
-        elif m.phase == ARRIVE:
-            status = arrive(m, True)
-        elif m.phase == SETTLE:
-            status = settle_here(m)
-        elif m.phase == WAKE:
-            status = settle_anew(m)
-        else:
-            status = start(m)
-        if status != GO_ON:
-            return status
+
+    return advance
 
 
 @compiled
@@ -90,7 +128,7 @@ def settle_anew(m):
 
 
 @compiled
-def record(m):
+def write_piece(m):
     """Write the grid points of the piece."""
     if not record_piece(m):
         return BUFFER_FULL

@@ -12,34 +12,30 @@ from typing import Any
 
 import fairlead.native as native
 from fairlead.integrate.codes import CHECK
+from fairlead.integrate.engine import Advance, Engine
 from fairlead.processor import tell_numba
 
 SOURCES = (
     "memory.py", "foreign.py", "condensing.py", "condensed.py", "linear.py", "sparse.py", "perturbed_pivots.py",
-    "rosenbrock.py", "interpolant.py", "meters.py", "even_steps.py", "controller.py", "curvature.py", "guards.py",
-    "limits.py", "least_index.py",
-    "balance.py", "position.py", "crossing.py", "rows_between.py", "record.py", "rebound.py", "impulse.py", "start.py",
-    "release.py", "settling.py", "growth.py", "codes.py", "trial.py", "arrival.py", "loop.py",
+    "interpolant.py", "defect.py", "meters.py", "even_steps.py", "controller.py", "curvature.py", "guards.py",
+    "limits.py", "least_index.py", "balance.py", "position.py", "crossing.py", "rows_between.py", "record.py",
+    "rebound.py", "impulse.py", "start.py", "release.py", "settling.py", "growth.py", "codes.py", "pace.py",
+    "one_step.py", "arrival.py", "loop.py",
 )  # fmt: skip
-"""Every file of this folder whose text the machine code depends on."""
+"""Every file of this folder whose text the machine code of every loop depends on."""
 
 
-STEPPING_SOURCES = (
-    "jumps.py", "known_rows.py", "exchange.py", "active_set.py", "overload.py", "missed_impulse.py", "unseen_guards.py",
-    "steady_steps.py", "third_order.py", "step_residual.py", "line_search.py", "theta_step.py",
-    "located_step.py", "stepping_trial.py", "stepping_loop.py",
-)  # fmt: skip
-"""What the stepping engine adds to them."""
-
-
-@functools.cache
-def compiled_loop(engine: str = "rodas") -> Callable[[int, int], int]:
-    """advance(address of the struct, attempts) -> status; see loop.py and stepping_loop.py.
+def compiled_loop(engine: Engine) -> Advance:
+    """advance(address of the structs, attempts) -> status, as loop.py has it, with the method of this engine.
 
     Each engine is an entry of its own in the cache, so that only what is used gets compiled.
     """
-    names = SOURCES if engine == "rodas" else SOURCES + STEPPING_SOURCES
-    code = native.load_or_compile(_key(names), _build if engine == "rodas" else _build_stepping)
+    return _compiled_loop(engine.module, engine.sources)
+
+
+@functools.cache
+def _compiled_loop(module: str, sources: tuple[str, ...]) -> Advance:
+    code = native.load_or_compile(_key(SOURCES + sources), lambda: _build(module))
     call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(code.address["advance"])
     call.keep_alive = code  # type: ignore[attr-defined]
     return call
@@ -52,16 +48,16 @@ def _key(names: tuple[str, ...]) -> str:
     return native.digest("integrate", os.environ.get(CHECK, ""), *texts)
 
 
-def _build() -> native.Build:
-    from fairlead.integrate.loop import advance
+def _build(module: str) -> native.Build:
+    import numba
 
-    return _compile(advance)
+    tell_numba()
+    from fairlead.integrate.loop import loop_of
 
-
-def _build_stepping() -> native.Build:
-    from fairlead.integrate.stepping_loop import advance_stepping
-
-    return _compile(advance_stepping)
+    advance = loop_of(importlib.import_module(module).METHOD)
+    signature = numba.int64(numba.int64, numba.int64)
+    function = numba.cfunc(signature, error_model="numpy", _nrt=False)(advance)
+    return native.Build(meta={}, functions={"advance": function})
 
 
 SUNDIALS_SOURCES = ("sundials_kernels.py",)
@@ -100,12 +96,3 @@ def _build_sundials() -> native.Build:
         make = numba.cfunc(signature, error_model="numpy", _nrt=False)
         functions[name] = make(getattr(sundials_kernels, name))
     return native.Build(meta={}, functions=functions)
-
-
-def _compile(advance: Callable[[int, int], int]) -> native.Build:
-    import numba
-
-    tell_numba()
-    signature = numba.int64(numba.int64, numba.int64)
-    function = numba.cfunc(signature, error_model="numpy", _nrt=False)(advance)
-    return native.Build(meta={}, functions={"advance": function})

@@ -15,6 +15,7 @@ import numpy as np
 
 from fairlead.integrate.codes import TRY, WAKE
 from fairlead.integrate.counters import COUNTS
+from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory import Memory, State
 from fairlead.integrate.prepare import NEVER_LOOK, new_plan, planned, prepare
 from fairlead.integrate.protocol import EVENT, Bytes, Instance, Problem, Run
@@ -83,9 +84,10 @@ class Scope:
 
     def __init__(self, problem: Problem, run: Run, tableau: Tableau) -> None:
         """Begin with the whole."""
-        self._run, self._tableau, stepping = run, tableau, run.engine == "stepping"
+        self._run, self._tableau, self._engine = run, tableau, engine_of(run)
         self.memory, self.problem = prepare(
-            problem, planned(problem, stepping), run, tableau, lambda piece: problem.instance(run, piece)
+            problem, planned(problem, self._engine.plans_contacts), run, tableau,
+            lambda piece: problem.instance(run, piece),
         )
         self.whole, self.whole_problem = self.memory, self.problem
         self.part: Any = None
@@ -95,7 +97,7 @@ class Scope:
         self._pause, self._margin, self._since = self._cost, MARGIN, 0
         self._seen: Any = None
         self._switched = np.zeros(len(problem.zones), dtype=np.int64)
-        able = run.engine != "ida" and n >= LEAST and self.narrowing is not None and self.narrowing.possible
+        able = self._engine.works_on_parts and n >= LEAST and self.narrowing is not None and self.narrowing.possible
         able = able and bool(problem.callbacks.get("outputs"))  # else unknowns are recorded, and a part has fewer
         self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
 
@@ -187,7 +189,7 @@ class Scope:
             made = part.placed(piece, self.whole_problem)
             return made.problem
 
-        plan = new_plan(part.problem, self._run.engine == "stepping")
+        plan = new_plan(part.problem, self._engine.plans_contacts)
         return prepare(part.problem, plan, self._run, self._tableau, place)[0], made
 
     def save(self) -> ScopeState:

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 import fairlead.integrate.ordering as ordering
-from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MIDDLE, MOST_BETWEEN, MOST_PERTURBED, PARABOLA, QUARTIC
+from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_BETWEEN, MOST_PERTURBED, QUARTIC
 from fairlead.integrate.condensing import columns_of, lay_out
+from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
 from fairlead.integrate.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
 from fairlead.integrate.protocol import CALLBACKS, AnyPattern, Bytes, Instance, Integers, Problem, Run
@@ -43,22 +44,22 @@ class Planned(NamedTuple):
 _PLANS: weakref.WeakKeyDictionary[Problem, dict[bool, Planned]] = weakref.WeakKeyDictionary()
 
 
-def planned(problem: Problem, stepping: bool) -> Planned:
+def planned(problem: Problem, contacts: bool) -> Planned:
     """The plan for a problem, which is kept as long as the problem is; one that is no key is planned every time."""
     try:
         kept = _PLANS.setdefault(problem, {})
     except TypeError:
-        return new_plan(problem, stepping)
-    if stepping not in kept:
-        kept[stepping] = new_plan(problem, stepping)
-    return kept[stepping]
+        return new_plan(problem, contacts)
+    if contacts not in kept:
+        kept[contacts] = new_plan(problem, contacts)
+    return kept[contacts]
 
 
-def new_plan(problem: Problem, stepping: bool) -> Planned:
-    """Pivots, patterns, sizes; for `stepping` also who holds what, and who hands its load to whom."""
+def new_plan(problem: Problem, contacts: bool) -> Planned:
+    """Pivots, patterns, sizes; where `contacts` are planned also who holds what, and who hands its load to whom."""
     n, ng, nz = len(problem.initial), len(problem.guard_machine), len(problem.zones)
     plan = ordering.plan(problem)
-    most_perturbed = MOST_PERTURBED if stepping and not plan.dense else 0
+    most_perturbed = MOST_PERTURBED if contacts and not plan.dense else 0
     numbers: dict[str, float] = {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, **plan.lengths,
@@ -98,14 +99,14 @@ def new_plan(problem: Problem, stepping: bool) -> Planned:
         **plan.arrays,
     }  # fmt: skip
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
-    if stepping:
+    if contacts:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
         given |= {"controlled": controlled(problem)}
         holds = given["hold_row"][problem.guard_machine[problem.guard_machine >= 0]] >= 0
         numbers |= {f"n_{name}": len(given[name]) for name in OF_STEPPING}
         numbers |= {"n_free_guards": int(np.count_nonzero(~holds)), "n_known": KNOWN_ZONES * nz}
     by_zone = {name: len(given.get(name, ())) for name in ("own_slopes", "own_masses")} | {"machines": nz}
-    lengths |= {f"{name}_by_zone": KNOWN_ZONES * length if stepping else 0 for name, length in by_zone.items()}
+    lengths |= {f"{name}_by_zone": KNOWN_ZONES * length if contacts else 0 for name, length in by_zone.items()}
     return Planned(lengths, given, numbers)
 
 
@@ -167,8 +168,9 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     write_numbers(memory, plan.numbers | settings(run, tableau) | {"stages": s, "max_passes": passes})
     write_numbers(memory, {"max_step": _longest_step(run, own), "narrow_at": NEVER_LOOK})
     point_at_instance(memory, own)
-    if run.engine == "stepping":
-        write_numbers(memory, stepping_settings(run, own))
+    engine = engine_of(run)
+    write_numbers(memory, engine.numbers(run, own))
+    if engine.plans_contacts:
         memory.array["held_inertia"][:] = held_inertia(own)
     write_numbers(memory, calls(own) | {"context": own.context})
     if not memory.number["call_guards"]:
@@ -263,7 +265,7 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
         "on_grid": int(run.every is not None),
         "every": run.every or 0.0, "between": int(run.between),
         "least_gap": (run.stop - run.start) / MOST_BETWEEN, "t_row": -NEVER,
-        "most_inside": PARABOLA if run.engine == "stepping" else QUARTIC,
+        "most_inside": QUARTIC,
         "on_chatter": REACTIONS[run.on_chatter],
         "start": run.start, "t": run.start, "stop": run.stop,
         "first_step": run.first_step or 0.0,
@@ -274,18 +276,6 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
         "gamma": tableau.gamma,
         "error_exponent": 1.0 / (tableau.error_order + 1),
         "t_next": NEVER, "t_release": NEVER, "t_last_switch": -NEVER,
-    }  # fmt: skip
-
-
-def stepping_settings(run: Run, problem: Instance) -> dict[str, float]:
-    """What the stepping engine sets differently, or alone."""
-    return {
-        "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
-        "error_exponent": 1.0 / 3.0, "linear": int(problem.linear),
-        "samples": int(problem.samples),
-        "has_limits": int(np.any(problem.limit_guard)),
-        "n_quadratures": int(np.count_nonzero(problem.quadrature)),
-        "locates": int(run.fixed_step is None and run.theta == MIDDLE and len(problem.zones) <= run.most_located),
     }  # fmt: skip
 
 

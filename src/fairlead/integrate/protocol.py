@@ -48,6 +48,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.integrate.counters import Counters
+from fairlead.integrate.engine import Engine
 from fairlead.integrate.facts import Facts, Narrowed
 
 Floats = NDArray[np.float64]
@@ -205,9 +206,9 @@ class Run:
     """Record on this grid (and both sides of each event); None: every accepted step."""
     between: bool = False
     """Hand over rows inside steps as well, and with a grid the ends of steps (`Block.side`)."""
-    engine: Literal["rodas", "stepping", "ida"] = "rodas"
+    engine: Literal["rodas", "stepping", "ida"] | Engine = "rodas"
     """rodas: Rosenbrock, every switch located; stepping: zones found inside each step (theta_step.py); ida: BDF
-    by SUNDIALS, every switch located (sundials.py), which needs scikit-sundae."""
+    by SUNDIALS, every switch located (sundials.py), which needs scikit-sundae; or one of one's own (engine.py)."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
     """Of `rodas`."""
     theta: float = 0.5

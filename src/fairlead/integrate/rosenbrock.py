@@ -1,4 +1,4 @@
-"""One step of a Rosenbrock method: linear systems only, zones, M and J frozen (the minor step).
+"""The method `rodas`: a step of a Rosenbrock method, linear systems only, zones, M and J frozen (the minor step).
 
     W K_i = f(t + c_i h, y + sum_j a_ij K_j) + M sum_j (C_ij/h) K_j + h d_i f_t,   W = M/(h gamma) - J
 
@@ -7,8 +7,10 @@ See tableau.py for the letters.
 
 from __future__ import annotations
 
-from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, reals
+from fairlead.integrate.foreign import compiled, copy, field_at, jacobian_at, reals
 from fairlead.integrate.linear import DONE, add_mass_times, factorise_step, solve, solve_watched
+from fairlead.integrate.loop import method_of
+from fairlead.integrate.one_step import OneStep
 
 CHUNK = 512
 """Unknowns combined at a time, so that sums over the stages stay in the nearest cache."""
@@ -111,49 +113,17 @@ def combine(m):
 
 
 @compiled
-def midpoint_defect(m, h):
-    """Into `error_vector`: how far the dense output of the unknowns watched is off in the middle of the step.
-
-    A stiffly accurate method meets the algebraic equations at the end of a step of any size, so its
-    error estimate says nothing about a multiplier that follows a force in time: without this, a held
-    contact under a swinging load would be stepped over. So it is with stiff unknowns, the slip of a bound contact on
-    a surface that moves, a bristle that is bent to its end on both sides of a reversal: right where a step ends,
-    and anything in between. The residual of the interpolant, r = f - M y', through the factors of W, is the missing
-    estimate (as in Rodas5Pr, Steinebach 2024); it behaves as the error of the dense output.
-    """
-    defect(m, h, 0.5)
-    error, watched = reals(m.at_error_vector, m.n), indices(m.at_watched, m.n)
-    for k in range(m.n):
-        if watched[k] == 0:
-            error[k] = 0.0
+def prepare_interpolant(m, h):
+    """D_r = sum_i H_ri K_i, once for an accepted step."""
+    n, stages = m.n, m.stages
+    D, K, H = reals(m.at_D, 3 * n), reals(m.at_K, stages * n), reals(m.at_H, 3 * stages)
+    for r in range(3):
+        D[r * n : (r + 1) * n] = 0.0
+        for i in range(stages):
+            factor = H[r * stages + i]
+            if factor != 0.0:
+                for k in range(n):
+                    D[r * n + k] += factor * K[i * n + k]
 
 
-@compiled
-def defect(m, h, theta):
-    """Into `error_vector`: r = f - M y' of the dense output at theta, through the factors of W."""
-    n = m.n
-    y, y_end, D = reals(m.at_y, n), reals(m.at_y_end, n), reals(m.at_D, 3 * n)
-    u, v, f, error = reals(m.at_u, n), reals(m.at_v, n), reals(m.at_f, n), reals(m.at_error_vector, n)
-    both = theta * (1.0 - theta)
-    for k in range(n):
-        change = y_end[k] - y[k]
-        inner = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
-        u[k] = y[k] + theta * change + both * inner
-        v[k] = -(change + (1.0 - 2.0 * theta) * inner + both * (D[n + k] + 2.0 * theta * D[2 * n + k])) / h
-    field_at(m.call_rhs, (m.context, m.t + theta * h, m.at_u, m.at_f))
-    m.rhs += 1
-    copy(f, error)
-    add_mass_times(m, m.at_v, m.at_error_vector)
-    solve(m, m.at_error_vector)
-
-
-@compiled
-def times_jacobian(m, at_v, at_b):
-    """Add J v to b over the differential columns, for the n doubles at the two addresses."""
-    starts, rows = indices(m.at_jacobian_starts, m.n + 1), indices(m.at_jacobian_rows, m.n_jacobian)
-    values, differential = reals(m.at_jacobian, m.n_jacobian), indices(m.at_differential, m.n)
-    v, b = reals(at_v, m.n), reals(at_b, m.n)
-    for j in range(m.n):
-        if differential[j] == 1:
-            for p in range(starts[j], starts[j + 1]):
-                b[rows[p]] += values[p] * v[j]
+METHOD = method_of(OneStep(take_step, prepare_interpolant))

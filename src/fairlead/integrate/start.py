@@ -20,9 +20,16 @@ from fairlead.integrate.controller import weigh, weighted_norm
 from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
 from fairlead.integrate.impulse import ROUNDED as ROUNDED_IMPULSE
 from fairlead.integrate.impulse import change_of_speed, impact
-from fairlead.integrate.linear import DONE, SINGULAR, add_mass_times, factorise_consistent, solve, solve_watched
+from fairlead.integrate.linear import (
+    DONE,
+    SINGULAR,
+    add_mass_times,
+    factorise_consistent,
+    solve,
+    solve_watched,
+    times_jacobian,
+)
 from fairlead.integrate.position import project_positions
-from fairlead.integrate.rosenbrock import times_jacobian
 
 NOT_CONSISTENT = 3
 OF_POSITIONS = 3

@@ -1,53 +1,20 @@
-"""The loop of the stepping engine, compiled once for all problems; phases and statuses as in loop.py.
+"""The method `stepping`, as the loop takes it.
 
-START    point = (start, y0); at_time; settle it (staged)
-while point.t < stop:
-    TRY      h = propose(point)                        # clipped to land on time events
-             zones and end of the step together        # the active set, theta_step.py
+    attempt  zones and end of the step together        # the active set, theta_step.py
              if they do not settle: halve h; TRY again
              if the error is too large: shrink h; TRY again
-    RECORD   grid points of the step
-    ARRIVE   point = end of the step; zone changes go to the log, at its end
-             if time event: at_time, and SETTLE if anything changed
-    SETTLE   as `rodas` does
+    arrive   zone changes go to the log, at the end of the step
+    settled  the slopes before are those of the settled point
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.arrival import arrive, settle_here, start
-from fairlead.integrate.codes import ARRIVE, BUFFER_FULL, GO_ON, PAUSED, RECORD, SETTLE, TRY, WAKE
-from fairlead.integrate.foreign import compiled, copy, indices, memory_at, reals
-from fairlead.integrate.loop import ready, record, settle_anew
+from fairlead.integrate.arrival import arrive
+from fairlead.integrate.codes import BUFFER_FULL, TRY
+from fairlead.integrate.foreign import compiled, copy, indices, reals
+from fairlead.integrate.loop import Method
 from fairlead.integrate.settling import log_changes
 from fairlead.integrate.stepping_trial import attempt_stepping, begin_history, remember_slope
-
-
-def advance_stepping(address, attempts):
-    """Run on for at most `attempts` trial steps; the status to return to Python."""
-    m = memory_at(address)
-    while True:
-        if m.phase == TRY:
-            status = ready(m)
-            if status != GO_ON:
-                return status
-            if attempts <= 0:
-                return PAUSED
-            attempts -= 1
-            status = attempt_stepping(m)
-        elif m.phase == RECORD:
-            status = record(m)
-        elif m.phase == ARRIVE:
-            status = arrive_with_zones(m)
-        elif m.phase == WAKE:
-            status = settle_anew(m)
-        elif m.phase == SETTLE:
-            status = settle_here(m)
-            if status == GO_ON and m.phase == TRY:
-                begin_history(m)
-        else:
-            status = start(m)
-        if status != GO_ON:
-            return status
 
 
 @compiled
@@ -70,3 +37,12 @@ def arrive_with_zones(m):
     if m.phase == TRY:
         remember_slope(m)
     return status
+
+
+@compiled
+def begin_again(m):
+    """After a settlement nothing is known of the steps before."""
+    begin_history(m)
+
+
+METHOD = Method(attempt_stepping, arrive_with_zones, begin_again)

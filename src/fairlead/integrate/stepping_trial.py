@@ -45,7 +45,9 @@ from fairlead.integrate.located_step import (
     stops_little,
 )
 from fairlead.integrate.missed_impulse import impulse_is_missed
+from fairlead.integrate.one_step import cut_too_rough
 from fairlead.integrate.overload import begin_rest, count_rest, unseen_force, unseen_slip
+from fairlead.integrate.pace import accept, is_instant, not_finite_here, over_budget, propose, smallest_step
 from fairlead.integrate.record import rows_inside, write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.rows_between import end_massless, find_stiff, hold_inside, prepare_rows
@@ -53,15 +55,6 @@ from fairlead.integrate.settling import begin_settling
 from fairlead.integrate.steady_steps import forget_steps, keep_step, note_rejection
 from fairlead.integrate.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.third_order import refine_end
-from fairlead.integrate.trial import (
-    accept,
-    cut_too_rough,
-    is_instant,
-    not_finite_here,
-    over_budget,
-    propose,
-    smallest_step,
-)
 from fairlead.integrate.unseen_guards import guards_are_passed
 
 STILL, HOLD_SHARE = 1e-2, 0.025

@@ -29,6 +29,7 @@ from __future__ import annotations
 import numpy as np
 
 import fairlead.integrate.machine_code as machine_code
+from fairlead.integrate.engines import RODAS
 from fairlead.integrate.memory import Memory
 from fairlead.integrate.protocol import Floats, Instance, Run, Status
 from fairlead.integrate.sundials_solver import Refused, Solver
@@ -64,7 +65,7 @@ class SundialsLoop:
     def __init__(self, problem: Instance, run: Run, memory: Memory) -> None:
         """Nothing is started yet; raises UsageError when scikit-sundae is missing."""
         self.memory, self.run = memory, run
-        self.go_on = machine_code.compiled_loop("rodas")
+        self.go_on = machine_code.compiled_loop(RODAS)
         self.kernels = machine_code.compiled_sundials()
         self.max_step = min(float(memory.number["max_step"]), run.stop - run.start)
         self.least_step = run.step_floor or 0.0

@@ -15,10 +15,11 @@ from fairlead.integrate.foreign import compiled, copy, field_at, indices, jacobi
 from fairlead.integrate.guards import evaluate_guards
 from fairlead.integrate.interpolant import interpolate
 from fairlead.integrate.linear import add_mass_times, factorise_step, solve
+from fairlead.integrate.one_step import rough
+from fairlead.integrate.pace import not_finite_here
 from fairlead.integrate.record import write_row
 from fairlead.integrate.release import remember
 from fairlead.integrate.settling import begin_settling
-from fairlead.integrate.trial import not_finite_here, rough
 
 
 def residual(address, t, at_y, at_rate, at_r):
@@ -64,7 +65,8 @@ def multiply(address, cj, at_v, at_product):
 
 def guards(address, t, at_y, at_g):
     """Guards at (t, y), as all engines see them."""
-    evaluate_guards(memory_at(address), t, at_y, at_g)
+    m = memory_at(address)
+    evaluate_guards(m, t, at_y, at_g)
 
 
 def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor):

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fairlead.errors import UsageError
+from fairlead.integrate.engines import engine_of
 from fairlead.integrate.machine_code import compiled_loop
-from fairlead.integrate.memory import Memory
 from fairlead.integrate.parts import Scope, ScopeState
-from fairlead.integrate.protocol import Block, Instance, OnBlock, Problem, Run, Status
+from fairlead.integrate.protocol import Block, OnBlock, Problem, Run, Status
 from fairlead.integrate.replan import replan
 from fairlead.integrate.tableau import TABLEAUS
 
@@ -42,7 +42,9 @@ class Underway:
         """Begin; nothing is evaluated yet."""
         self.run, self.take = run, take
         self.scope = Scope(problem, run, TABLEAUS[run.method])
-        self._advance = loop_of(self.scope.problem, run, self.scope.memory)
+        self.engine = engine_of(run)
+        make = self.engine.loop
+        self._advance = make(self.scope.problem, run, self.scope.memory) if make else compiled_loop(self.engine)
         self.status, self._attempts, self._replanned_at = Status.PAUSED, FIRST_ATTEMPTS, -1
         self.wall = self.cpu = 0.0
         """Seconds spent inside the loop, and on cutting out what moves."""
@@ -84,7 +86,7 @@ class Underway:
         number = self.scope.memory.number
         again = int(number["factorisations"]) <= self._replanned_at + 1
         found = not again and replan(self.scope.memory, self.scope.problem)
-        if self.run.engine == "stepping" and number["midway"]:
+        if number["midway"]:
             number["replanned"] = 1
         elif not found:
             self.status = Status.SINGULAR
@@ -108,25 +110,15 @@ class Underway:
         )
 
     def save(self) -> Saved:
-        """Where the run is now, between two slices. Raises UsageError for the engine ida."""
-        if self.run.engine == "ida":
-            what = "The engine ida keeps the past of a run in memory of SUNDIALS, which cannot be copied"
-            raise UsageError(f"{what}; a run that is to be saved takes rodas or stepping.")
+        """Where the run is now, between two slices. Raises UsageError for an engine that cannot be copied, as ida."""
+        if why := self.engine.not_saved:
+            raise UsageError(f"{why}; a run that is to be saved takes rodas or stepping.")
         return Saved(self.scope.save(), self.status, self._replanned_at)
 
     def restore(self, saved: Saved) -> None:
         """Go to where this run was, or another one of the same problem with the same settings."""
         self.scope.restore(saved.scope)
         self.status, self._replanned_at = saved.status, saved.replanned_at
-
-
-def loop_of(problem: Instance, run: Run, memory: Memory) -> Callable[[int, int], int]:
-    """The loop of the engine: advance(address of the struct, attempts) -> status."""
-    if run.engine == "ida":
-        from fairlead.integrate.sundials import SundialsLoop
-
-        return SundialsLoop(problem, run, memory)
-    return compiled_loop(run.engine)
 
 
 def next_attempts(attempts: int, spent: float) -> int:

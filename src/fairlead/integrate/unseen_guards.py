@@ -9,7 +9,7 @@ from __future__ import annotations
 from fairlead.integrate.controller import IDLE_ERROR
 from fairlead.integrate.foreign import compiled, indices, reals
 from fairlead.integrate.guards import evaluate_guards
-from fairlead.integrate.trial import smallest_step
+from fairlead.integrate.pace import smallest_step
 
 PARTS = 8
 

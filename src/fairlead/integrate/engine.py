@@ -1,0 +1,50 @@
+"""What Python knows of a method of integration; what it does in the loop is in loop.py (Method).
+
+A method of one's own is one file: compiled functions, `METHOD = method_of(OneStep(take, interpolate))` or a `Method` of
+its own, and an `Engine` that names the file. `Run(stop=..., engine=that)` integrates with it: events, holds,
+settlements, records and budgets are those of all methods.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fairlead.integrate.memory import Memory
+    from fairlead.integrate.protocol import Instance, Run
+
+Advance = Callable[[int, int], int]
+"""advance(address of the structs, attempts) -> status: the loop, at work on the memory of a run."""
+
+
+def nothing_beside(run: Run, problem: Instance) -> Mapping[str, float]:
+    """No settings but those of all methods."""
+    return {}
+
+
+@dataclass(frozen=True)
+class Engine:
+    """A method of integration."""
+
+    name: str
+    module: str
+    """Where `METHOD` is; imported only to compile the loop."""
+    sources: tuple[str, ...] = ()
+    """Files whose text its compiled code depends on beside those of every loop: of this folder, or anywhere by their
+    full path."""
+    numbers: Callable[[Run, Instance], Mapping[str, float]] = nothing_beside
+    """Single values of the memory that it wants otherwise, by name."""
+    loop: Callable[[Instance, Run, Memory], Advance] | None = None
+    """What advances a run, for one whose steps are made outside of the compiled loop."""
+    plans_contacts: bool = False
+    """Knows who holds what and who hands its load to whom (neighbours.py)."""
+    works_on_parts: bool = False
+    """Keeps nothing of earlier steps but what parts.py carries over."""
+    keeps_relations: bool = False
+    """Relations of positions are kept."""
+    chooses_steps: bool = False
+    """Cannot be given a fixed step."""
+    not_saved: str = ""
+    """Why a run cannot be copied; empty if it can."""
