@@ -95,7 +95,7 @@ def main() -> None:
 
 def without_search() -> None:
     """Have the engine compiled with a search that is always content; the cache is one of its own."""
-    import fairlead.integrate.line_search as line_search
+    import fairlead.integrate.stepping.line_search as line_search
 
     line_search.PASSED = float("inf")
 

@@ -31,8 +31,8 @@ from fairlead.choice import choose
 from fairlead.component.declare import CREEP
 from fairlead.errors import Fault, ModelError, UsageError
 from fairlead.integrate import Block, End, Outcome, Run, integrate
-from fairlead.integrate.protocol import Status
-from fairlead.integrate.sundials_solver import require_package
+from fairlead.integrate.ida.solver import require_package
+from fairlead.integrate.problem import Status
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings

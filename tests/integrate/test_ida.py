@@ -11,7 +11,7 @@ import pytest
 
 from fairlead.errors import UsageError
 from fairlead.integrate import Block, Run, Status, integrate
-from fairlead.integrate.sundials_solver import require_package
+from fairlead.integrate.ida.solver import require_package
 from fairlead.integrate.textbook import textbook
 from tests.integrate.problems import (
     belt_block,

@@ -8,7 +8,7 @@ import pytest
 
 TRAPS = """
 import numba, numpy
-from fairlead.integrate.foreign import indices, reals
+from fairlead.integrate.memory.foreign import indices, reals
 
 @numba.cfunc(numba.float64(numba.int64, numba.int64, numba.int64), error_model="numpy", _nrt=False)
 def pick(at_values, at_places, k):

@@ -8,11 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fairlead.integrate import Run, condensing, integrate, ordering
-from fairlead.integrate.condensing import columns_of, starts_of
-from fairlead.integrate.memory import INDICES, VECTORS, Memory
-from fairlead.integrate.protocol import Pattern
-from fairlead.integrate.replan import fresh_plan
+from fairlead.integrate import Run, integrate
+from fairlead.integrate.linear import condensing, ordering
+from fairlead.integrate.linear.condensing import columns_of, starts_of
+from fairlead.integrate.linear.replan import fresh_plan
+from fairlead.integrate.memory.arena import Memory
+from fairlead.integrate.memory.layout import INDICES, VECTORS
+from fairlead.integrate.problem import Pattern
 from fairlead.integrate.textbook import textbook
 
 NOTHING_KEPT = np.zeros((0, 3), dtype=np.int64)
@@ -25,14 +27,14 @@ def solver():
     """(address of the struct, scale, address of b) -> status: assemble, factorise, solve with the check."""
     import numba
 
-    from fairlead.integrate.foreign import memory_at
-    from fairlead.integrate.linear import factorise_consistent, factorise_step, solve_watched
+    from fairlead.integrate.linear.systems import factorise_consistent, factorise_step, solve_watched
+    from fairlead.integrate.memory.foreign import memory_at
 
     @numba.cfunc(numba.int64(numba.int64, numba.float64, numba.int64), error_model="numpy", _nrt=False)
     def run(address, scale, at_x):
-        m = memory_at(address)
-        status = factorise_step(m, scale) if scale > 0.0 else factorise_consistent(m)
-        return status if status != 0 else solve_watched(m, at_x)
+        linear = memory_at(address).linear
+        status = factorise_step(linear, scale) if scale > 0.0 else factorise_consistent(linear)
+        return status if status != 0 else solve_watched(linear, at_x)
 
     return run.ctypes
 
@@ -105,6 +107,7 @@ def memory_for(problem, plan, perturbed=0):
     for name in ("n", "n_jacobian", "n_mass", "n_matrix", "most_perturbed", *plan.lengths):
         memory.number[name] = lengths[name]
     memory.number["dense"] = int(plan.dense)
+    memory.spread()
     return memory
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, integrate
-from fairlead.integrate.tableau import RODAS3P, RODAS5P, TABLEAUS, Tableau, _checked
+from fairlead.integrate.rodas.tableau import RODAS3P, RODAS5P, TABLEAUS, Tableau, _checked
 from tests.integrate import problems
 
 

@@ -1,7 +1,7 @@
 """What goes along when the loop turns from a problem to a part of it, and what is made anew for either."""
 
 from fairlead.integrate.counters import COUNTS
-from fairlead.integrate.memory import INTEGERS, NUMBERS
+from fairlead.integrate.memory.layout import INTEGERS, NUMBERS
 from fairlead.integrate.parts import NUMBERS as CARRIED
 
 OF_THE_PROBLEM = {

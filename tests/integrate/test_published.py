@@ -150,6 +150,6 @@ def test_nothing_else_of_fairlead_is_loaded_by_all_this():
     ])  # fmt: skip
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     loaded = done.stdout.split()
-    assert "fairlead.integrate.driver" in loaded
+    assert "fairlead.integrate.run" in loaded
     others = {name for name in loaded if not name.startswith("fairlead.integrate")}
     assert others <= BENEATH

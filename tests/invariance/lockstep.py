@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import fairlead
-from fairlead.integrate.protocol import Status
+from fairlead.integrate.problem import Status
 from fairlead.integrate.underway import Underway
 from fairlead.run import _engine_settings, _patterns
 from tests.invariance.plays import Play

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.integrate.even_steps import COARSE, rounded
+from fairlead.integrate.point.even_steps import COARSE, rounded
 from tests.invariance import outcome
 from tests.invariance.known import KNOWN
 from tests.invariance.lockstep import first_difference, tries

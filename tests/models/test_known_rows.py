@@ -5,7 +5,7 @@ import pytest
 
 import fairlead
 from fairlead.integrate import Run, integrate
-from fairlead.integrate.neighbours import known_rows
+from fairlead.integrate.stepping.neighbours import known_rows
 
 BLOCKS = 8
 SHAKEN = "position: {sine: {amplitude: 40 mm, frequency: 1.5 Hz}}"  # its acceleration is zero at the start, alone

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fairlead.integrate import Run, integrate, ordering
+from fairlead.integrate import Run, integrate
+from fairlead.integrate.linear import ordering
 from tests.conftest import Scene
 
 ENGINES = pytest.mark.parametrize("engine", ["rodas", "stepping"])

@@ -86,6 +86,38 @@ def test_every_stage_imports_only_what_lies_before_it() -> None:
     assert not wrong, "\n".join(wrong)
 
 
+ROOMS = ("memory", "linear", "point", "record", "events", "rodas", "stepping", "ida")
+"""Rooms of the integrator; each imports only those before it. Files beside them are shapes that know no room (problem.py,
+facts.py, ...), the loop with the trial of a method of one step, which know rooms up to events, or run.py and its helpers."""
+OF_METHODS = {"rodas", "stepping", "ida"}
+SHAPES = {"problem", "facts", "counters", "codes", "engine"}
+LOOP = {"loop", "one_step"}
+
+
+def room(name: str) -> str:
+    """The room, or the file beside them, of a module of the integrator."""
+    return (name.split(".") + ["", "", ""])[2]
+
+
+def test_rooms_of_the_integrator_import_only_those_before_them() -> None:
+    wrong = []
+    for importer, imported, where in import_edges():
+        if stage(importer) != "integrate" or stage(imported) != "integrate":
+            continue
+        one, other = room(importer), room(imported)
+        if one in ROOMS and other in ROOMS:
+            allowed = ROOMS.index(other) <= ROOMS.index(one)
+        elif one in SHAPES:
+            allowed = other in SHAPES
+        elif one in LOOP:
+            allowed = other in LOOP | SHAPES or (other in ROOMS and other not in OF_METHODS)
+        else:
+            allowed = one not in ROOMS or other in SHAPES or (one in OF_METHODS and other in LOOP | {"machine_code"})
+        if not allowed:
+            wrong.append(f"{where}: {one} imports {other}")
+    assert not wrong, "\n".join(wrong)
+
+
 def test_only_the_command_line_is_built_on_the_command_line() -> None:
     wrong = [
         where

@@ -76,7 +76,7 @@ def test_nor_does_what_numba_compiles():
     """numba asks for the processor once a process, before its first function."""
     script = (
         "import numba, fairlead.processor as p; p.tell_numba()\n"
-        "from fairlead.integrate.foreign import reals\n"
+        "from fairlead.integrate.memory.foreign import reals\n"
         "def f(address, n):\n"
         "    x = reals(address, n)\n"
         "    for i in range(n): x[i] = x[i] * x[i] + 0.5\n"

@@ -25,7 +25,7 @@ LEVELS = 16
 ORDINARY, BEFORE, AFTER = 0, 1, 2
 """What a recorded row is: a point, or a side of an event."""
 INSIDE, PASSED, INSIDE_PASSED, GRID = 3, 4, 5, 6
-"""With `between` (record.py): a row inside a step, on the curve through the rows of that step; an end of a step that is
+"""With `between` (rows.py): a row inside a step, on the curve through the rows of that step; an end of a step that is
 no grid point, and a row inside one; a grid point inside one."""
 MOST_BETWEEN = 1000
 """So many rows between a run on a grid has at most, evenly spread: they cost little where steps are short."""
@@ -34,6 +34,3 @@ PARABOLA, QUARTIC = 1, 3
 
 MIDDLE = 0.5
 """The theta of the midpoint rule: the one whose error is known (third_order.py)."""
-
-CHECK = "FAIRLEAD_CHECK_INDICES"
-"""Set in the environment, the loop is compiled to trap where an index lies outside its array (foreign.py)."""

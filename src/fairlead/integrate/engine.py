@@ -9,17 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from fairlead.integrate.memory import Memory
-    from fairlead.integrate.protocol import Instance, Run
+from typing import Any
 
 Advance = Callable[[int, int], int]
 """advance(address of the structs, attempts) -> status: the loop, at work on the memory of a run."""
 
 
-def nothing_beside(run: Run, problem: Instance) -> Mapping[str, float]:
+def nothing_beside(run: Any, problem: Any) -> Mapping[str, float]:
     """No settings but those of all methods."""
     return {}
 
@@ -32,12 +28,11 @@ class Engine:
     module: str
     """Where `METHOD` is; imported only to compile the loop."""
     sources: tuple[str, ...] = ()
-    """Files whose text its compiled code depends on beside those of every loop: of this folder, or anywhere by their
-    full path."""
-    numbers: Callable[[Run, Instance], Mapping[str, float]] = nothing_beside
-    """Single values of the memory that it wants otherwise, by name."""
-    loop: Callable[[Instance, Run, Memory], Advance] | None = None
-    """What advances a run, for one whose steps are made outside of the compiled loop."""
+    """What its compiled code is made of beside that of every loop: rooms of this folder, or files by full path."""
+    numbers: Callable[[Any, Any], Mapping[str, float]] = nothing_beside
+    """numbers(run, instance): single values of the memory that it wants otherwise, by name."""
+    loop: Callable[[Any, Any, Any], Advance] | None = None
+    """loop(instance, run, memory): what advances a run, for one whose steps are made outside of the compiled loop."""
     plans_contacts: bool = False
     """Knows who holds what and who hands its load to whom (neighbours.py)."""
     works_on_parts: bool = False

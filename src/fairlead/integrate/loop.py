@@ -24,7 +24,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from fairlead.integrate.arrival import arrive, settle_here, start
 from fairlead.integrate.codes import (
     ARRIVE,
     BUFFER_FULL,
@@ -38,11 +37,12 @@ from fairlead.integrate.codes import (
     WAKE,
     WIDEN,
 )
-from fairlead.integrate.foreign import compiled, memory_at
+from fairlead.integrate.events.arrival import arrive, settle_here, start
+from fairlead.integrate.events.release import remember
+from fairlead.integrate.events.settling import begin_settling
+from fairlead.integrate.memory.foreign import compiled, memory_at
 from fairlead.integrate.one_step import OneStep, trial_of
-from fairlead.integrate.record import record_piece, there_is_room
-from fairlead.integrate.release import remember
-from fairlead.integrate.settling import begin_settling
+from fairlead.integrate.record.rows import record_piece, there_is_room
 
 
 class Method(NamedTuple):
@@ -78,27 +78,28 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
 
     def advance(address, attempts):
         m = memory_at(address)
+        problem, run, point, events = m.problem, m.run, m.point, m.events
         while True:
-            if m.phase == TRY:
-                status = ready(m)
+            if run.phase == TRY:
+                status = ready(problem, run, point, m.recorder)
                 if status != GO_ON:
                     return status
                 if attempts <= 0:
                     return PAUSED
                 attempts -= 1
                 status = attempt(m)
-            elif m.phase == RECORD:
+            elif run.phase == RECORD:
                 status = write_piece(m)
-            elif m.phase == ARRIVE:
+            elif run.phase == ARRIVE:
                 status = arrive_at(m)
-            elif m.phase == SETTLE:
+            elif run.phase == SETTLE:
                 status = settle_here(m)
-                if status == GO_ON and m.phase == TRY:
+                if status == GO_ON and run.phase == TRY:
                     settled(m)
-            elif m.phase == WAKE:
-                status = settle_anew(m)
+            elif run.phase == WAKE:
+                status = settle_anew(problem, run, point, events)
             else:
-                status = start(m)
+                status = start(problem, run, point, events)
             if status != GO_ON:
                 return status
 
@@ -106,24 +107,24 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
 
 
 @compiled
-def ready(m):
+def ready(problem, run, point, recorder):
     """GO_ON before a trial step, or what has to be done first."""
-    if m.woken == 1:
+    if run.woken == 1:
         return WIDEN
-    if m.t >= m.stop:
+    if point.t >= run.stop:
         return FINISHED
-    if not there_is_room(m):
+    if not there_is_room(problem, recorder):
         return BUFFER_FULL
-    return NARROW if m.steps >= m.narrow_at else GO_ON
+    return NARROW if run.steps >= run.narrow_at else GO_ON
 
 
 @compiled
-def settle_anew(m):
+def settle_anew(problem, run, point, events):
     """Settle all that there is at a point where only a part of it was."""
-    m.n_fired = 0
-    remember(m)
-    begin_settling(m)
-    m.phase = SETTLE
+    events.guards.n_fired = 0
+    remember(problem, point, events.loads)
+    begin_settling(problem, run, point, events)
+    run.phase = SETTLE
     return GO_ON
 
 
@@ -132,5 +133,5 @@ def write_piece(m):
     """Write the grid points of the piece."""
     if not record_piece(m):
         return BUFFER_FULL
-    m.phase = ARRIVE
+    m.run.phase = ARRIVE
     return GO_ON

@@ -5,24 +5,20 @@ from __future__ import annotations
 import ctypes
 import functools
 import importlib
-import importlib.resources
 import os
+import pathlib
 from collections.abc import Callable
 from typing import Any
 
 import fairlead.native as native
-from fairlead.integrate.codes import CHECK
 from fairlead.integrate.engine import Advance, Engine
+from fairlead.integrate.memory.layout import CHECK
 from fairlead.processor import tell_numba
 
-SOURCES = (
-    "memory.py", "foreign.py", "condensing.py", "condensed.py", "linear.py", "sparse.py", "perturbed_pivots.py",
-    "interpolant.py", "defect.py", "meters.py", "even_steps.py", "controller.py", "curvature.py", "guards.py",
-    "limits.py", "least_index.py", "balance.py", "position.py", "crossing.py", "rows_between.py", "record.py",
-    "rebound.py", "impulse.py", "start.py", "release.py", "settling.py", "growth.py", "codes.py", "pace.py",
-    "one_step.py", "arrival.py", "loop.py",
-)  # fmt: skip
-"""Every file of this folder whose text the machine code of every loop depends on."""
+ROOMS = ("memory", "linear", "point", "record", "events")
+"""Rooms that the machine code of every loop is made of."""
+FILES = ("codes.py", "one_step.py", "loop.py")
+"""Files of this folder beside them."""
 
 
 def compiled_loop(engine: Engine) -> Advance:
@@ -35,17 +31,22 @@ def compiled_loop(engine: Engine) -> Advance:
 
 @functools.cache
 def _compiled_loop(module: str, sources: tuple[str, ...]) -> Advance:
-    code = native.load_or_compile(_key(SOURCES + sources), lambda: _build(module))
+    code = native.load_or_compile(_key(module, *sources), lambda: _build(module))
     call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(code.address["advance"])
     call.keep_alive = code  # type: ignore[attr-defined]
     return call
 
 
-def _key(names: tuple[str, ...]) -> str:
-    """Hash of what the machine code of these files depends on."""
-    folder = importlib.resources.files("fairlead.integrate")
-    texts = (folder.joinpath(name).read_text("utf-8") for name in names)
-    return native.digest("integrate", os.environ.get(CHECK, ""), *texts)
+def _key(module: str, *sources: str) -> str:
+    """Hash of what the machine code of a module depends on: these rooms or files, and those of every loop."""
+    texts = (file.read_text("utf-8") for name in (*ROOMS, *FILES, *sources) for file in sources_of(name))
+    return native.digest("integrate", module, os.environ.get(CHECK, ""), *texts)
+
+
+def sources_of(name: str) -> list[pathlib.Path]:
+    """The files of a room, or the file of that name or path."""
+    at = pathlib.Path(__file__).parent / name
+    return sorted(at.glob("*.py")) if at.is_dir() else [at]
 
 
 def _build(module: str) -> native.Build:
@@ -60,20 +61,17 @@ def _build(module: str) -> native.Build:
     return native.Build(meta={}, functions={"advance": function})
 
 
-SUNDIALS_SOURCES = ("sundials_kernels.py",)
-"""What the ida engine adds to SOURCES."""
 SUNDIALS_KERNELS = {
     "residual": "vidiii", "prepare": "iidid", "solve_prepared": "viii", "multiply": "vidii", "guards": "vidii",
     "judge_step": "iidiiiid", "find_culprit": "ii",
 }  # fmt: skip
-"""Functions of sundials_kernels.py with the types of their result and arguments: void, int64, double."""
+"""Functions of ida/kernels.py with the types of their result and arguments: void, int64, double."""
 
 
 @functools.cache
 def compiled_sundials() -> dict[str, Callable[..., int]]:
-    """The functions of sundials_kernels.py by name."""
-    names = SOURCES + SUNDIALS_SOURCES
-    code = native.load_or_compile(_key(names), _build_sundials)
+    """The functions of ida/kernels.py by name."""
+    code = native.load_or_compile(_key("ida", "rodas", "ida/kernels.py"), _build_sundials)
     kinds: dict[str, Any] = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
     calls: dict[str, Callable[..., int]] = {}
     for name, types in SUNDIALS_KERNELS.items():
@@ -87,7 +85,7 @@ def _build_sundials() -> native.Build:
     import numba
 
     tell_numba()
-    sundials_kernels = importlib.import_module("fairlead.integrate.sundials_kernels")
+    sundials_kernels = importlib.import_module("fairlead.integrate.ida.kernels")
 
     kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
     functions = {}

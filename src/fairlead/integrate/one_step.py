@@ -11,18 +11,26 @@ from math import inf, isfinite
 from typing import Any, NamedTuple
 
 from fairlead.integrate.codes import BEFORE, GO_ON, NOT_FINITE, REPLAN, SETTLE, SINGULAR_MATRIX, STEP_FLOOR
-from fairlead.integrate.controller import estimate_error, step_after_rejection, weighted_norm
-from fairlead.integrate.crossing import COMPANION, CROSSING, first_crossing
-from fairlead.integrate.defect import defect, midpoint_defect
-from fairlead.integrate.foreign import compiled, indices, reals
-from fairlead.integrate.linear import INACCURATE, SINGULAR
-from fairlead.integrate.meters import judge_meters
-from fairlead.integrate.pace import DOUBT, accept, is_instant, not_finite_here, over_budget, propose, smallest_step
-from fairlead.integrate.position import way_back
-from fairlead.integrate.record import write_row
-from fairlead.integrate.release import remember
-from fairlead.integrate.rows_between import find_stiff
-from fairlead.integrate.settling import all_fall, begin_settling
+from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossing
+from fairlead.integrate.events.pace import (
+    DOUBT,
+    accept,
+    is_instant,
+    not_finite_here,
+    over_budget,
+    propose,
+    smallest_step,
+)
+from fairlead.integrate.events.position import way_back
+from fairlead.integrate.events.release import remember
+from fairlead.integrate.events.settling import all_fall, begin_settling
+from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
+from fairlead.integrate.memory.foreign import compiled, indices, reals
+from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
+from fairlead.integrate.point.defect import defect, midpoint_defect
+from fairlead.integrate.point.meters import judge_meters
+from fairlead.integrate.record.between import find_stiff
+from fairlead.integrate.record.rows import write_row
 
 ROUGH = 10.0
 """Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
@@ -47,21 +55,22 @@ def trial_of(method: OneStep) -> Any:
 
     @compiled
     def attempt(m):
-        spent = over_budget(m)
+        run, point, recorder = m.run, m.point, m.recorder
+        spent = over_budget(run, recorder)
         if spent != GO_ON:
             return spent
-        h = propose(m)
-        if is_instant(m, h):
+        h = propose(run, point)
+        if is_instant(run, point, m.events.guards, h):
             return GO_ON
-        m.h = h
+        run.h = h
         status = take(m, h)
         if status == INACCURATE:
             return REPLAN
-        judge_end(m, status)
-        if m.error <= 1.0 or m.adaptive == 0:
+        judge_end(run, point, recorder, status)
+        if run.error <= 1.0 or run.adaptive == 0:
             prepare(m, h)
             judge_inside(m, h)
-        if not isfinite(m.error) or (m.adaptive == 1 and m.error > 1.0):
+        if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
             return reject(m, h, status)
         return up_to_crossing(m, h)
 
@@ -69,100 +78,104 @@ def trial_of(method: OneStep) -> Any:
 
 
 @compiled
-def judge_end(m, status):
+def judge_end(run, point, recorder, status):
     """Error of the end of the trial step."""
-    m.error = inf
+    run.error = inf
     if status != SINGULAR:
-        m.error = estimate_error(m)
-        judge_meters(m)
+        run.error = estimate_error(point)
+        judge_meters(run, point, recorder)
 
 
 @compiled
 def judge_inside(m, h):
     """Error of the dense output, where the end of a step does not tell."""
-    if m.n_watched > 0 and m.adaptive == 1:
-        midpoint_defect(m, h)
-        m.error = max(m.error, weighted_norm(m, m.at_error_vector))
-    if m.n_moves > 0 and m.adaptive == 1:
-        m.error = max(m.error, way_back(m, h))
+    problem, run, point, linear, method = m.problem, m.run, m.point, m.linear, m.method
+    if method.n_watched > 0 and run.adaptive == 1:
+        midpoint_defect(problem, point, linear, method, h)
+        run.error = max(run.error, weighted_norm(point, point.at_error_vector))
+    if problem.n_moves > 0 and run.adaptive == 1:
+        run.error = max(run.error, way_back(problem, point, linear, h))
 
 
 @compiled
 def up_to_crossing(m, h):
     """Accept a step whose error is small enough, up to its first crossing; or give it up for what that shows."""
+    problem, run, point, guards, recorder = m.problem, m.run, m.point, m.events.guards, m.recorder
     found = first_crossing(m, h)
-    if m.n_balanced > 0 and m.judged == 1 and turns_at_limit(m, h):
-        return try_shorter(m, h)
+    if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, guards, h):
+        return try_shorter(run, guards, h)
     if found == COMPANION:
-        m.rejected_companion += 1
-        doubtful = m.judged == 1 and m.adaptive == 1 and DOUBT * h >= smallest_step(m)
-        if doubtful and all_fall(m):
-            return try_shorter(m, h)
+        run.rejected_companion += 1
+        doubtful = run.judged == 1 and run.adaptive == 1 and DOUBT * h >= smallest_step(run, point)
+        if doubtful and all_fall(problem, run, point, m.events):
+            return try_shorter(run, guards, h)
         settle_at_start(m)
         return GO_ON
-    if found == CROSSING and m.theta < 1.0 and m.adaptive == 1 and cut_too_rough(m, h):
+    if found == CROSSING and run.theta < 1.0 and run.adaptive == 1 and cut_too_rough(m, h):
         return GO_ON
-    m.any_stiff = find_stiff(m, h)
+    recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
     accept(m, h, found == CROSSING)
     return GO_ON
 
 
 @compiled
-def try_shorter(m, h):
+def try_shorter(run, guards, h):
     """Take a much shorter step: see DOUBT."""
-    m.n_fired = 0
-    m.h_next = DOUBT * h
-    m.retried += 1
+    guards.n_fired = 0
+    run.h_next = DOUBT * h
+    run.retried += 1
     return GO_ON
 
 
 @compiled
 def settle_at_start(m):
     """Settle at the point, on the guards in `fired`, before another step is tried."""
-    m.companion = 1
-    write_row(m, m.t, m.at_y, BEFORE)
-    remember(m)
-    begin_settling(m)
-    m.phase = SETTLE
+    problem, run, point = m.problem, m.run, m.point
+    run.companion = 1
+    write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
+    remember(problem, point, m.events.loads)
+    begin_settling(problem, run, point, m.events)
+    run.phase = SETTLE
 
 
 @compiled
 def cut_too_rough(m, h):
     """True if the piece up to a crossing is to be taken as a step of its own, which `h_next` then is."""
-    if min(m.theta, MOST_KEPT) * h < smallest_step(m) or not rough(m, h):
+    run, point = m.run, m.point
+    if min(run.theta, MOST_KEPT) * h < smallest_step(run, point) or not rough(m.problem, run, point, m.linear, h):
         return False
-    m.n_fired = 0
-    m.h_next = min(m.theta, MOST_KEPT) * h
+    m.events.guards.n_fired = 0
+    run.h_next = min(run.theta, MOST_KEPT) * h
     return True
 
 
 @compiled
-def rough(m, h):
+def rough(problem, run, point, linear, h):
     """True if the dense output does not satisfy the equations at `theta`, where the step is to be cut.
 
     The error of a step is that of its end. A law may change much between the last stage before a crossing and the one
     after it, as friction does that rises while a contact comes to rest: beyond rest the law in force is mirrored, so
     all stages may lie beside the rise, and the piece of the step up to rest misses it.
     """
-    defect(m, h, m.theta)
-    if weighted_norm(m, m.at_error_vector) <= ROUGH:
+    defect(problem, point, linear, h, run.theta)
+    if weighted_norm(point, point.at_error_vector) <= ROUGH:
         return False
-    m.rejected_switch += 1
-    m.retried += 1
+    run.rejected_switch += 1
+    run.retried += 1
     return True
 
 
 @compiled
-def turns_at_limit(m, h):
+def turns_at_limit(run, guards, h):
     """True if guards fired that were at their limits where zones were settled, and all are below at the end.
 
     The load of a spring that turns in the hand at the limit of its contact leaves it with no slope, and the interpolant
     of a long step is rougher than that. Of a shorter one it is not: the load goes with the square of the step.
     """
-    ng = m.n_guards
-    g, end, tolerance = reals(m.at_g, ng), reals(m.at_g_end, ng), reals(m.at_guard_tolerance, ng)
-    fired, turns = indices(m.at_fired, ng), m.n_fired > 0 and m.adaptive == 1 and DOUBT * h >= m.dwell
-    for k in range(m.n_fired):
+    ng = guards.n_guards
+    g, end, tolerance = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(guards.at_guard_tolerance, ng)
+    fired, turns = indices(guards.at_fired, ng), guards.n_fired > 0 and run.adaptive == 1 and DOUBT * h >= run.dwell
+    for k in range(guards.n_fired):
         i = fired[k]
         turns = turns and abs(g[i]) <= tolerance[i] and end[i] < 0.0
     return turns
@@ -171,23 +184,24 @@ def turns_at_limit(m, h):
 @compiled
 def reject(m, h, status):
     """Shrink the step, and say whom it is due to; end the run at the step floor."""
-    indices(m.at_rejections_by_unknown, m.n)[m.worst] += 1
+    problem, run, point = m.problem, m.run, m.point
+    indices(run.at_rejections_by_unknown, problem.n)[point.worst] += 1
     if status == SINGULAR:
-        m.rejected_singular += 1
-    elif isfinite(m.error):
-        m.rejected_error += 1
+        run.rejected_singular += 1
+    elif isfinite(run.error):
+        run.rejected_error += 1
     else:
-        m.rejected_nan += 1
-    m.h_next = step_after_rejection(m, h)
-    m.retried += 1
-    if m.retried == STUBBORN and m.n_algebraic > 0 and m.mended == 0 and status != SINGULAR:
+        run.rejected_nan += 1
+    run.h_next = step_after_rejection(run, h)
+    run.retried += 1
+    if run.retried == STUBBORN and problem.n_algebraic > 0 and run.mended == 0 and status != SINGULAR:
         mend_point(m)
         return GO_ON
-    if m.adaptive == 1 and m.h_next >= smallest_step(m):
+    if run.adaptive == 1 and run.h_next >= smallest_step(run, point):
         return GO_ON
     if status == SINGULAR:
-        return not_finite_here(m, SINGULAR_MATRIX)
-    return STEP_FLOOR if isfinite(m.error) else not_finite_here(m, NOT_FINITE)
+        return not_finite_here(problem, run, point, SINGULAR_MATRIX)
+    return STEP_FLOOR if isfinite(run.error) else not_finite_here(problem, run, point, NOT_FINITE)
 
 
 @compiled
@@ -197,6 +211,6 @@ def mend_point(m):
     An algebraic unknown at the end of a step is right within the error of the step. Where it amplifies the
     others that may be many weights: the next step then begins with a jump that no shorter step makes smaller.
     """
-    m.mended = 1
-    m.n_fired = 0
+    m.run.mended = 1
+    m.events.guards.n_fired = 0
     settle_at_start(m)

@@ -1,6 +1,6 @@
 """What the loop works on: the whole problem, or the part of it that moves.
 
-A problem that can say what is at rest (`narrowing`, see protocol.py) is cut down to what moves, with a margin, when
+A problem that can say what is at rest (`narrowing`, see problem.py) is cut down to what moves, with a margin, when
 that is much less; and woken when a contact at the rim of the part lets go. Steps, switches and error control are
 those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so that two
 runs do the same.
@@ -16,10 +16,10 @@ import numpy as np
 from fairlead.integrate.codes import TRY, WAKE
 from fairlead.integrate.counters import COUNTS
 from fairlead.integrate.engines import engine_of
-from fairlead.integrate.memory import Memory, State
+from fairlead.integrate.memory.arena import Memory, State
 from fairlead.integrate.prepare import NEVER_LOOK, new_plan, planned, prepare
-from fairlead.integrate.protocol import EVENT, Bytes, Instance, Problem, Run
-from fairlead.integrate.tableau import Tableau
+from fairlead.integrate.problem import EVENT, Bytes, Instance, Problem, Run
+from fairlead.integrate.rodas.tableau import Tableau
 
 LEAST = 400
 """Unknowns of a problem that is worth looking at."""

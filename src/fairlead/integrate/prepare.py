@@ -9,14 +9,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-import fairlead.integrate.ordering as ordering
+import fairlead.integrate.linear.ordering as ordering
 from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_BETWEEN, MOST_PERTURBED, QUARTIC
-from fairlead.integrate.condensing import columns_of, lay_out
 from fairlead.integrate.engines import engine_of
-from fairlead.integrate.memory import BUFFERS, INDICES, VECTORS, Memory
-from fairlead.integrate.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
-from fairlead.integrate.protocol import CALLBACKS, AnyPattern, Bytes, Instance, Integers, Problem, Run
-from fairlead.integrate.tableau import TABLEAUS, Tableau
+from fairlead.integrate.linear.condensing import columns_of, lay_out
+from fairlead.integrate.memory.arena import BUFFERS, Memory
+from fairlead.integrate.memory.layout import INDICES, VECTORS
+from fairlead.integrate.problem import CALLBACKS, AnyPattern, Bytes, Instance, Integers, Problem, Run
+from fairlead.integrate.rodas.tableau import TABLEAUS, Tableau
+from fairlead.integrate.stepping.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
 
 BLOCK_NUMBERS, LEAST_ROWS, MOST_ROWS = 1 << 17, 64, 1 << 16
 """Recorded numbers a block may hold; rows it may hold at least, 5 are needed, and at most."""
@@ -36,7 +37,7 @@ class Planned(NamedTuple):
     """What all runs of a problem with one engine share: nothing changes it."""
 
     lengths: dict[str, int]
-    """Of arrays, by the names in memory.py."""
+    """Of arrays, by the names in memory/arena.py."""
     given: dict[str, np.ndarray]
     numbers: dict[str, float]
 
@@ -183,6 +184,7 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     memory.number["falling"] = int(falls.any() and len(np.unique(plan.given["holder"])) > 2)  # -1 is one
     memory.array["last_toggle"][:] = -NEVER
     memory.array["blocked_until"][:] = -NEVER
+    memory.spread()
     return memory, own
 
 

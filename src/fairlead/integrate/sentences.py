@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairlead.integrate.memory import Memory
-from fairlead.integrate.protocol import Problem, Run, Status
+from fairlead.integrate.memory.arena import Memory
+from fairlead.integrate.problem import Problem, Run, Status
 
 
 def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.integrate.facts import Plain
-from fairlead.integrate.protocol import Booleans, Bytes, Floats, Integers, Pattern, Run
+from fairlead.integrate.problem import Booleans, Bytes, Floats, Integers, Pattern, Run
 
 Law = Callable[..., Any]
 

@@ -1,6 +1,6 @@
 """A run under way: entered slice by slice, served between the slices, copied and taken back.
 
-Its state is an arena (memory.py), that of the part it works on if it does (parts.py), and what callbacks in plain
+Its state is an arena (memory/arena.py), that of the part it works on if it does (parts.py), and what callbacks in plain
 Python know. `ida` keeps the past of a run in memory of SUNDIALS, which cannot be copied: it neither saves nor restores.
 """
 
@@ -14,11 +14,11 @@ import numpy as np
 
 from fairlead.errors import UsageError
 from fairlead.integrate.engines import engine_of
+from fairlead.integrate.linear.replan import replan
 from fairlead.integrate.machine_code import compiled_loop
 from fairlead.integrate.parts import Scope, ScopeState
-from fairlead.integrate.protocol import Block, OnBlock, Problem, Run, Status
-from fairlead.integrate.replan import replan
-from fairlead.integrate.tableau import TABLEAUS
+from fairlead.integrate.problem import Block, OnBlock, Problem, Run, Status
+from fairlead.integrate.rodas.tableau import TABLEAUS
 
 SLICE = 0.05
 """Seconds between two returns to Python, aimed at."""

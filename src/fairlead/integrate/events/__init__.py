@@ -1,0 +1,1 @@
+"""Events: guards, where they fire, settlements, impacts, the order of release, consistent points. For all engines."""

@@ -1,0 +1,257 @@
+"""Consistent points: y' of the differential and y of the algebraic unknowns, zones frozen.
+
+    find (y'_d, y_a) with M y' = f(t, y):   C (dy'_d, dy_a) = f - M y',
+    C = columns of M where differential, of -J where algebraic
+
+By Newton; linear problems take one iteration, and a second to know it. Impacts come first (impulse.py). Then held rows
+project: at a capture C (dV, Lambda) = r with r = -v_rel on the rows that hold gives the impulse that brings them to
+rest and conserves momentum; dV is added to the differential unknowns, Lambda dropped. It is of the size of rounding.
+
+The start is staged: the same Newton from the user's guess, then damped (halving while the residual
+norm, in units of its first value by row, grows), then settling.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from fairlead.integrate.events.balance import ROUNDS, close_balance
+from fairlead.integrate.events.impulse import ROUNDED as ROUNDED_IMPULSE
+from fairlead.integrate.events.impulse import change_of_speed, impact
+from fairlead.integrate.events.position import project_positions
+from fairlead.integrate.linear.systems import (
+    DONE,
+    SINGULAR,
+    add_mass_times,
+    factorise_consistent,
+    solve,
+    solve_watched,
+    times_jacobian,
+)
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
+from fairlead.integrate.point.controller import weigh, weighted_norm
+
+NOT_CONSISTENT = 3
+OF_POSITIONS = 3
+"""What a row takes that keeps a relation of positions: any impulse, see `Facts.takes_impulse`."""
+HANDED_ON = 1e-6
+"""Share of the slip of contacts that relations of positions may be left with: more would be an impact on the next."""
+SETTLED_UPDATE = 1e-6
+"""A Newton update of the algebraic unknowns below this, in units of their weights, is the last."""
+
+ROUNDED = 1e-3
+"""An update below this that no longer halves is rounding: of a force of 3e5 N, 1e-11 N is."""
+
+
+@compiled
+def prepare_consistent(problem, point, linear):
+    """J here, and the factors of C."""
+    matrices = linear.matrices
+    jacobian_at(problem.call_jacobian, (problem.context, point.t, point.at_y, matrices.at_jacobian, point.at_ft))
+    problem.jacobians += 1
+    matrices.jacobian_fresh = 0
+    linear.factors.factored_h = 0.0
+    return factorise_consistent(linear)
+
+
+@compiled
+def project(problem, point, linear):
+    """Bring held rows to rest by the impulse that conserves momentum.
+
+    Not where that is more than rounding or would leave a relation of positions, as where its ratio goes through zero: a
+    crank in its dead centre is not stopped by what stops the slider. The force that would be needed decides.
+    """
+    n = problem.n
+    if problem.call_slip == 0:
+        return
+    r = reals(point.at_b, n)
+    r[:] = 0.0
+    slip_at(problem.call_slip, (problem.context, point.t, point.at_y, point.at_b))
+    at_rest = True
+    for k in range(n):
+        at_rest = at_rest and r[k] == 0.0
+    if at_rest:
+        return
+    if problem.n_moves > 0:
+        copy(r, reals(point.at_v, n))
+    solve(linear, point.at_b)
+    y, differential = reals(point.at_y, n), indices(problem.at_differential, n)
+    if problem.n_moves > 0 and (change_of_speed(problem, point) > ROUNDED_IMPULSE or hands_slip_on(problem, point)):
+        return
+    is_speed, quadrature = indices(problem.at_is_speed, n), indices(problem.at_quadrature, n)
+    for k in range(n):
+        if differential[k] == 1 and is_speed[k] + quadrature[k] > 0:  # for a place that would be the change of its rate
+            y[k] += r[k]
+
+
+@compiled
+def hands_slip_on(problem, point):
+    """True if the change of speed in u takes slip (in v) from contacts and leaves it to relations of positions."""
+    n = problem.n
+    y, dv, moved, slip = reals(point.at_y, n), reals(point.at_u, n), reals(point.at_y_probe, n), reals(point.at_v, n)
+    takes, left = indices(problem.at_takes_impulse, n), reals(point.at_x, n)
+    for k in range(n):
+        moved[k] = y[k] + dv[k]
+    slip_at(problem.call_slip, (problem.context, point.t, point.at_y_probe, point.at_x))
+    before = taken = after = 0.0
+    for k in range(n):
+        if takes[k] == OF_POSITIONS:
+            before = max(before, abs(slip[k]))
+            after = max(after, abs(left[k]))
+        else:
+            taken = max(taken, abs(slip[k]))
+    return after > max(before, HANDED_ON * taken)
+
+
+@compiled
+def keep_positions(problem, point, linear):
+    """Bring the end of a step back to the relations of positions: positions, speeds, and what follows from them.
+
+    Nodes without inertia are brought to where their forces balance, from where the dense output has put them.
+    DONE or INACCURATE. Where relations are not independent of what holds, the end stays as it is.
+    """
+    status = prepare_consistent(problem, point, linear)
+    if status == SINGULAR:
+        return DONE
+    if status == DONE and problem.n_moves > 0:
+        status = project_positions(problem, point, linear)
+    if status != DONE:
+        return status
+    if problem.n_balanced > 0:
+        close_balance(problem, point, linear)
+    project(problem, point, linear)
+    residual_here(problem, point, linear.matrices, point.at_x)
+    solve(linear, point.at_x)
+    update(point, 1.0)
+    if problem.n_moves > 0:
+        point.projections += 1
+        point.most_moved = max(point.most_moved, point.moved)
+    else:
+        slope_change(point, linear)
+    return DONE
+
+
+@compiled
+def correct_forces(problem, point, linear):
+    """Give a point of the interpolant the algebraic unknowns and y' that the equations say; DONE or INACCURATE.
+
+    One Newton update: what is left is of second order in the error of the interpolant.
+    """
+    status = prepare_consistent(problem, point, linear)
+    if status == SINGULAR:
+        return DONE
+    if status == DONE:
+        residual_here(problem, point, linear.matrices, point.at_x)
+        solve(linear, point.at_x)
+        update(point, 1.0)
+        slope_change(point, linear)
+    return status
+
+
+@compiled
+def residual_here(problem, point, matrices, at_r):
+    """Set r = f(t, y) - M y' at the point."""
+    n = problem.n
+    field_at(problem.call_rhs, (problem.context, point.t, point.at_y, point.at_f))
+    problem.rhs += 1
+    v, slope, r, f = reals(point.at_v, n), reals(point.at_slope, n), reals(at_r, n), reals(point.at_f, n)
+    differential = indices(problem.at_differential, n)
+    for k in range(n):
+        v[k] = -slope[k] if differential[k] == 1 else 0.0
+        r[k] = f[k]
+    add_mass_times(matrices, point.at_v, at_r)
+
+
+@compiled
+def consistent(m, iterations):
+    """Make the point consistent for the zones in force, and compute its rate of change.
+
+    Returns DONE, SINGULAR, INACCURATE, NOT_CONSISTENT or RELEASED (impulse.py).
+    """
+    problem = m.problem
+    status = solve_point(m, iterations)
+    for _ in range(ROUNDS):
+        if status != DONE or problem.n_balanced == 0 or not close_balance(problem, m.point, m.linear):
+            break
+        status = solve_point(m, iterations)
+    return status
+
+
+@compiled
+def solve_point(m, iterations):
+    """As `consistent`, with nodes without inertia where they are."""
+    problem, point, linear, matrices = m.problem, m.point, m.linear, m.linear.matrices
+    mass_at(problem.call_mass, (problem.context, matrices.at_mass))
+    status = prepare_consistent(problem, point, linear)
+    if status == DONE and problem.n_moves > 0:
+        status = project_positions(problem, point, linear)
+    if status == DONE:
+        status = impact(m)
+    if status != DONE:
+        return status
+    project(problem, point, linear)
+    weigh(point, point.at_y)
+    previous = 1e300
+    for iteration in range(iterations):
+        if iteration >= 2:
+            status = prepare_consistent(problem, point, linear)
+            if status != DONE:
+                return status
+        if problem.n_moves > 0:
+            # The force that would keep the slider of a crank from passing its dead centre is huge.
+            weigh(point, point.at_y)
+        residual_here(problem, point, matrices, point.at_x)
+        if iteration == 0:
+            status = solve_watched(linear, point.at_x)
+            if status != DONE:
+                return status
+        else:
+            solve(linear, point.at_x)
+        size = update(point, 1.0)
+        if not isfinite(size):
+            return NOT_CONSISTENT
+        if problem.n_algebraic == 0 or size <= SETTLED_UPDATE or (size <= ROUNDED and size > 0.5 * previous):
+            slope_change(point, linear)
+            return DONE
+        if iterations > 12 and size > 0.9 * previous:  # nor as large: the root of a root is stepped over for ever
+            size = damp(point, size)
+        previous = size
+    return NOT_CONSISTENT
+
+
+@compiled
+def update(point, fraction):
+    """Add `fraction` of the Newton update in x; the weighted size of its algebraic part."""
+    n = point.n
+    x, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
+    differential, u = indices(point.at_differential, n), reals(point.at_u, n)
+    for k in range(n):
+        u[k] = 0.0
+        if differential[k] == 1:
+            slope[k] += fraction * x[k]
+            if not isfinite(x[k]):
+                u[k] = x[k]
+        else:
+            y[k] += fraction * x[k]
+            u[k] = x[k]
+    return weighted_norm(point, point.at_u)
+
+
+@compiled
+def damp(point, size):
+    """Take back three quarters of an update that was larger than the one before it."""
+    update(point, -0.75)
+    return size
+
+
+@compiled
+def slope_change(point, linear):
+    """Rate of change of the consistent point: `curvature` = y'' where differential, y' where algebraic.
+
+    Differentiating M y' = f:  C (y''_d, y'_a) = J y'_d + f_t, with J and C of the point.
+    """
+    n = point.n
+    curvature, ft = reals(point.at_curvature, n), reals(point.at_ft, n)
+    copy(ft, curvature)
+    times_jacobian(linear.matrices, point.at_slope, point.at_curvature)
+    solve(linear, point.at_curvature)

@@ -1,0 +1,311 @@
+"""Where in a trial step the first guard fires.
+
+Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1;
+exactly zero at t0 does not fire. A guard that starts at zero and dips below it counts as below from
+there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
+extremum is tested. Companion rule: a guard above its tolerance that never was below zero means that
+the zones at t0 were wrong (the caller settles from there).
+Zero at t0 is what a settlement counts as at a limit (settling.ROUNDING): the slip of a contact that has just broken
+away is 1e-20 m/s of either sign, and the sign must not tell whether the contact stops again or never slipped.
+
+All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of guards at once.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.settling import RISE, look_ahead
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
+from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.record.between import take_slip_away
+
+NONE, CROSSING, COMPANION = 0, 1, 2
+NEAR = 2.0**-10
+"""Distance in theta over which the slope of a guard at an end of the step is taken."""
+
+HIGHEST = 4.0 / 27.0
+"""Largest value of x (1 - x)^2, which is how far a cubic rises above its ends for a unit of slope at one of them."""
+
+
+@compiled
+def guards_at(m, theta, h, at_g):
+    """Guards at theta on the interpolant."""
+    problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
+    if theta == 1.0:
+        evaluate_guards(problem, run, guards, run.t_land if run.landing == 1 else point.t + h, point.at_y_end, at_g)
+    else:
+        interpolate(point, theta, point.at_y_probe)
+        if m.recorder.rows_slip == 1:
+            take_slip_away(problem, point, m.linear, m.stepping.exchange, point.t + theta * h, point.at_y_probe)
+        evaluate_guards(problem, run, guards, point.t + theta * h, point.at_y_probe, at_g)
+
+
+@compiled
+def first_crossing(m, h):
+    """NONE, CROSSING (at `theta`, guards in `fired`) or COMPANION (guards in `fired`)."""
+    guards = m.events.guards
+    ng = guards.n_guards
+    guards.n_fired = 0
+    if ng == 0:
+        return NONE
+    g, end = reals(guards.at_g, ng), reals(guards.at_g_end, ng)
+    early, left, right = reals(guards.at_g_early, ng), reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
+    tolerance = reals(guards.at_guard_tolerance, ng)
+    guards_at(m, 1.0, h, guards.at_g_end)
+    guards_at(m, NEAR, h, guards.at_g_early)
+    right_end = 1.0
+    crossed = False
+    for i in range(ng):
+        left[i] = g[i]
+        if g[i] >= -ROUNDING * tolerance[i]:
+            left[i] = early[i] if early[i] < -ROUNDING * tolerance[i] else max(g[i], 0.0)
+    copy(end, right)
+    bump = earliest_bump(m, h)
+    if bump < 1.0:
+        right_end = bump
+        guards_at(m, bump, h, guards.at_g_right)
+    unseen = overlooked(guards)
+    if unseen and not look_further(m, h, right_end):
+        found = look_closer(m, h)
+        if found < right_end:
+            right_end = found
+            crossed = True
+    for i in range(ng):
+        crossed = crossed or (left[i] < 0.0 and right[i] >= 0.0)
+    m.run.theta = 1.0
+    if crossed:
+        locate(m, h, right_end)
+    return collect_fired(guards, crossed)
+
+
+@compiled
+def overlooked(guards):
+    """True if some guard is above its tolerance at the end and was not seen below zero."""
+    ng = guards.n_guards
+    left, end, tolerance = reals(guards.at_g_left, ng), reals(guards.at_g_end, ng), reals(guards.at_guard_tolerance, ng)
+    found = False
+    for i in range(ng):
+        found = found or (left[i] >= 0.0 and end[i] > tolerance[i])
+    return found
+
+
+@compiled
+def look_further(m, h, right_end):
+    """Look for a dip that has not left the limit by NEAR in guards that start at zero; True if there is one.
+
+    A slip that has just begun grows with the square of time, or slower; it may be over before the step is.
+    """
+    guards = m.events.guards
+    ng = guards.n_guards
+    left, end = reals(guards.at_g_left, ng), reals(guards.at_g_end, ng)
+    probe, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
+    theta, found = 2.0 * NEAR, False
+    while theta < right_end and not found:
+        guards_at(m, theta, h, guards.at_g_probe)
+        for i in range(ng):
+            if left[i] >= 0.0 and end[i] > tolerance[i] and probe[i] < -ROUNDING * tolerance[i]:
+                left[i] = probe[i]
+                found = True
+        theta *= 2.0
+    return found
+
+
+@compiled
+def look_closer(m, h):
+    """Look for a dip shorter than NEAR in guards that start at zero; theta by which it is over, 2 if none."""
+    guards = m.events.guards
+    ng = guards.n_guards
+    left, right = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
+    early, probe = reals(guards.at_g_early, ng), reals(guards.at_g_probe, ng)
+    tolerance = reals(guards.at_guard_tolerance, ng)
+    copy(early, reals(guards.at_g_late, ng))
+    outer = NEAR
+    while outer > 1e-13:
+        inner = 0.125 * outer
+        guards_at(m, inner, h, guards.at_g_probe)
+        found = False
+        for i in range(ng):
+            if left[i] >= 0.0 and probe[i] < -ROUNDING * tolerance[i]:
+                left[i] = probe[i]
+                found = True
+        if found:
+            copy(reals(guards.at_g_late, ng), right)
+            return outer
+        copy(probe, reals(guards.at_g_late, ng))
+        outer = inner
+    return 2.0
+
+
+@compiled
+def collect_fired(guards, crossed):
+    """Fill `fired` from the bracket: crossings, unless a guard is positive that never was negative."""
+    ng = guards.n_guards
+    left, right = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
+    tolerance = reals(guards.at_guard_tolerance, ng)
+    fired = indices(guards.at_fired, ng)
+    for i in range(ng):
+        if left[i] >= 0.0 and right[i] > tolerance[i]:
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
+    if guards.n_fired > 0:
+        return COMPANION
+    if not crossed:
+        return NONE
+    for i in range(ng):
+        if left[i] < 0.0 and right[i] >= 0.0:
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
+    return CROSSING
+
+
+@compiled
+def earliest_bump(m, h):
+    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none.
+
+    A guard at its limit that falls by y' and y'' of the point, as settled, and is below it at the end does not rise:
+    the interpolant of a long step is rough at its start.
+    """
+    run, guards = m.run, m.events.guards
+    ng = guards.n_guards
+    end = reals(guards.at_g_end, ng)
+    g, early, late = reals(guards.at_g, ng), reals(guards.at_g_early, ng), reals(guards.at_g_late, ng)
+    tolerance, ahead = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_ahead, ng)
+    rising = False
+    for i in range(ng):
+        rising = rising or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i])
+    if not rising:
+        return 1.0
+    guards_at(m, 1.0 - NEAR, h, guards.at_g_late)
+    found, looked = 1.0, False
+    for i in range(ng):
+        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
+            if run.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
+                if not looked:
+                    look_ahead(m.problem, run, m.point, m.events)
+                    copy(reals(guards.at_g_probe, ng), ahead)
+                    looked = True
+                if g[i] - ahead[i] > RISE * tolerance[i]:
+                    continue
+            rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
+            if max(g[i], end[i]) + 1.25 * HIGHEST * (rise - fall) < 0.0:
+                continue
+            top, height = hermite_top(g[i], end[i], rise, fall)
+            # A quarter of the bump is the margin for what a cubic does not see.
+            if height + 0.25 * (height - max(g[i], end[i])) >= 0.0:
+                # Just switched, a guard is at its limit within rounding: there, only a bump that leaves
+                # its tolerance is a crossing and not the error of the interpolant.
+                floor = tolerance[i] if g[i] >= -tolerance[i] else 0.0
+                found = min(found, climb(m, h, i, top, floor))
+    return found
+
+
+@compiled
+def hermite_top(g0, g1, s0, s1):
+    """Where, and how high, the cubic with these end values and slopes (s0 > 0 > s1) is largest on [0, 1]."""
+    lower, upper = 0.0, 1.0
+    for _ in range(30):
+        middle = 0.5 * (lower + upper)
+        slope = (
+            s0
+            + 2.0 * middle * (3.0 * (g1 - g0) - 2.0 * s0 - s1)
+            + 3.0 * middle * middle * (s0 + s1 - 2.0 * (g1 - g0))
+        )
+        if slope > 0.0:
+            lower = middle
+        else:
+            upper = middle
+    x = 0.5 * (lower + upper)
+    height = g0 + x * (s0 + x * ((3.0 * (g1 - g0) - 2.0 * s0 - s1) + x * (s0 + s1 - 2.0 * (g1 - g0))))
+    return x, height
+
+
+@compiled
+def climb(m, h, i, top, floor):
+    """Follow guard i to its maximum by parabolas from a first guess; where it reaches `floor`, else 1."""
+    guards = m.events.guards
+    ng = guards.n_guards
+    probe = reals(guards.at_g_probe, ng)
+    a, ga = 0.0, reals(guards.at_g, ng)[i]
+    b, gb = 1.0, reals(guards.at_g_end, ng)[i]
+    x = min(max(top, NEAR), 1.0 - NEAR)
+    guards_at(m, x, h, guards.at_g_probe)
+    gx = probe[i]
+    for _ in range(8):
+        if gx >= floor:
+            return x
+        p = (b - x) * (gx - ga)
+        q = (x - a) * (gb - gx)
+        if not p - q > 0.0:
+            return 1.0
+        left, right = (gx - ga) / (x - a), (gb - gx) / (b - x)
+        slope, bend = (left * (b - x) + right * (x - a)) / (b - a), (left - right) / (b - a)
+        # The parabola through the points rises above the middle one by slope^2/(4 bend); what it does not see, no more.
+        if gx + 0.5 * slope * slope / bend < floor:
+            return 1.0
+        new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
+        new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))
+        if abs(new - x) < 1e-3 * (b - a):
+            new = x + (1e-2 * (b - x) if b - x > x - a else -1e-2 * (x - a))
+        guards_at(m, new, h, guards.at_g_probe)
+        if probe[i] > gx:
+            if new > x:
+                a, ga = x, gx
+            else:
+                b, gb = x, gx
+            x, gx = new, probe[i]
+        elif new > x:
+            b, gb = new, probe[i]
+        else:
+            a, ga = new, probe[i]
+    return 1.0
+
+
+@compiled
+def locate(m, h, right_end):
+    """Close a bracket on the earliest crossing to rounding in t; `theta` is its right-hand end.
+
+    Illinois method (Dowell, Jarratt, BIT 11:168, 1971) on the whole vector: the next point is the
+    earliest secant root of all guards that cross in the bracket, so the first of them is found
+    without locating the others; a point that does not shrink the bracket well is followed by a
+    bisection.
+
+    Kinks are located as closely as jumps. A step that went past one would leave what follows a table by a stiff law
+    behind by the difference of two pieces: 1e-5 m/s, which a bond of 1e9 N s/m shows as 10 kN.
+    """
+    point, guards = m.point, m.events.guards
+    ng = guards.n_guards
+    left, right, probe = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng), reals(guards.at_g_probe, ng)
+    a, b = 0.0, right_end
+    bias_left, bias_right, last = 1.0, 1.0, 0
+    closeness = max(4e-16 * max(abs(point.t), abs(point.t + h)) / h, 4e-16)
+    width, slow = b - a, 0
+    while b - a > closeness:
+        x = b
+        for i in range(ng):
+            if left[i] < 0.0 and right[i] >= 0.0:
+                ga, gb = bias_left * left[i], bias_right * right[i]
+                x = min(x, b - (b - a) * (gb / (gb - ga)))
+        if slow >= 3:
+            x = 0.5 * (a + b)
+            slow = 0
+        x = min(max(x, a + 0.5 * closeness), b - 0.5 * closeness)
+        if not a < x < b:
+            break
+        guards_at(m, x, h, guards.at_g_probe)
+        crossed = False
+        for i in range(ng):
+            crossed = crossed or (left[i] < 0.0 and probe[i] >= 0.0)
+        if crossed:
+            b = x
+            copy(probe, right)
+            bias_left = 0.5 * bias_left if last == 1 else 1.0
+            bias_right, last = 1.0, 1
+        else:
+            a = x
+            copy(probe, left)
+            bias_right = 0.5 * bias_right if last == -1 else 1.0
+            bias_left, last = 1.0, -1
+        slow = slow + 1 if b - a > 0.5 * width else 0
+        width = b - a
+    m.run.theta = b

@@ -1,0 +1,22 @@
+"""Values of all guards, as the loop sees them: a machine that is held in its zone has none."""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
+
+OUT_OF_FORCE = -1.0
+
+
+@compiled
+def evaluate_guards(problem, run, guards, t, at_y, at_g):
+    """Guards at (t, y) into the array at `at_g`; -1 for those of machines blocked until after t."""
+    if problem.n_guards == 0:
+        return
+    field_at(problem.call_guards, (problem.context, t, at_y, at_g))
+    problem.guards += 1
+    if run.t_release < 1e300:
+        g, machine = reals(at_g, problem.n_guards), indices(problem.at_guard_machine, problem.n_guards)
+        blocked = reals(guards.at_blocked_until, problem.n_zones)
+        for i in range(problem.n_guards):
+            if machine[i] >= 0 and blocked[machine[i]] > t:
+                g[i] = OUT_OF_FORCE

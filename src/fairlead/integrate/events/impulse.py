@@ -1,0 +1,244 @@
+"""Impacts: the impulses that bring to rest what is to hold and slips, and who may pass them on.
+
+    C (dV, P) = r        r = -slip on the rows that hold; C of the consistent point
+
+dV is what the speeds change by, P the impulse in every row. A rigid row takes any impulse. Friction is limited by a
+force, and an impulse is a force beyond all limits for no time. So the guards of what may hold are asked once more, with
+
+    speed = v + dV        force = P / SHORT
+
+A contact whose normal force is finite lets go. One whose normal force is an impulse itself holds while |P_t| <= mu P_n,
+and slides with P_t = mu P_n beyond that, because C has the slopes of the law; it is caught if that would turn its slip
+round. A stop that would have to pull opens. One that touches at that instant, and that the speeds v + dV would close,
+closes: all impacts of an instant are one problem, whichever stop was found first. Who changes changes C, so all is
+asked again until nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
+What was let go slips, and is caught later as any contact is. Where stops rebound the speeds change by
+(1 + e) dV, and those that part again open (rebound.py).
+
+A slip whose dV is below the error weights is no impact but rounding, and so is one that a contact says it may take
+(`within`): `project` takes these away.
+
+The loss of energy goes into the ledger, and by row into `lost`. With dV the change of speed,
+
+    loss = dV M dV / 2 = -(change of kinetic energy) + (work of supports that move)
+
+Source: the impulse problem of rigid bodies with set-valued laws, F. Pfeiffer, C. Glocker, Multibody Dynamics with
+Unilateral Contacts, 1996, chapter 8.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.least_index import keep_first
+from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, rebound
+from fairlead.integrate.linear.systems import DONE, solve_watched
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, slip_at
+from fairlead.integrate.point.controller import weigh, weighted_norm
+
+RELEASED, RUBBED = 6, 7
+LIMITED, UNLIMITED = 1, 2
+"""What a row that may hold takes: an impulse as small as rounding leaves it, or any."""
+SHORT = 1e-12
+"""Share of the span during which an impulse acts as a force: less than time can resolve in a run."""
+ROUNDED = 1.0
+"""Change of speed, in error weights, below which a slip is no impact."""
+LEAST_IMPULSE = 1e-10
+"""Share of the largest impulse below which one is rounding: that row keeps the force it has."""
+LATER = 1e-6
+"""Share of the span after which it is asked which stops come nearer: long enough to be more than rounding of places."""
+LEAST_APPROACH = 1e-8
+"""Share of the largest change of speed at which stops that touch must approach to take part: less is rounding."""
+
+
+@compiled
+def impact(m):
+    """DONE when there is no impact, or it is over; RELEASED with the guards in `fired` of those who change first."""
+    problem, point, matrices, guards = m.problem, m.point, m.linear.matrices, m.events.guards
+    if problem.call_slip == 0 or problem.takes_impulses == 0 or not slip_to_stop(problem, point):
+        return DONE
+    status = solve_watched(m.linear, point.at_b)
+    if status != DONE:
+        return status
+    weigh(point, point.at_y)
+    if change_of_speed(problem, point) <= ROUNDED:
+        return DONE
+    change_zones_for(m)
+    if guards.n_fired > 0:
+        return RELEASED
+    supports = any_support_moves(problem, point)
+    back = NO_REBOUND if problem.rebounds == 0 else rebound(problem, point, matrices, least_impulse(problem, point))
+    if back == RUBS:
+        return RUBBED
+    if back == REBOUND:
+        throw_back(problem, m.run, point, guards)
+    change_speeds(problem, point, matrices, back, supports)
+    return RELEASED if guards.n_fired > 0 else DONE
+
+
+@compiled
+def least_impulse(problem, point):
+    """The impulse below which one is rounding."""
+    b, takes, largest = reals(point.at_b, problem.n), indices(problem.at_takes_impulse, problem.n), 0.0
+    for k in range(problem.n):
+        if takes[k] > 0:
+            largest = max(largest, abs(b[k]))
+    return LEAST_IMPULSE * largest
+
+
+@compiled
+def throw_back(problem, run, point, guards):
+    """Set u = (1 + e) dV, and fill `fired` with the guards of the stops that part again."""
+    n, ng = problem.n, problem.n_guards
+    y, b, r, e = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
+    dv, parting = reals(point.at_u, n), reals(point.at_x, n)
+    takes, least = indices(problem.at_takes_impulse, n), least_impulse(problem, point)
+    for k in range(n):
+        dv[k] *= 1.0 + e[k]
+        parting[k] = y[k] + dv[k]
+        if takes[k] == UNLIMITED and r[k] != 0.0 and e[k] > 0.0 and abs(b[k]) > least:
+            parting[k] = -b[k] / (SHORT * (run.stop - run.start))
+    evaluate_guards(problem, run, guards, point.t, point.at_x, guards.at_g)
+    under, g, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng)
+    may_hold, fired = indices(problem.at_may_hold, ng), indices(guards.at_fired, ng)
+    for i in range(ng):
+        if may_hold[i] == UNLIMITED and g[i] > tolerance[i] >= under[i]:
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
+
+
+@compiled
+def slip_to_stop(problem, point):
+    """Set b = r, with nothing for what a contact takes without an impulse; False if no rigid row slips."""
+    n = problem.n
+    r, little, takes = reals(point.at_b, n), reals(point.at_x, n), indices(problem.at_takes_impulse, n)
+    slip_at(problem.call_slip, (problem.context, point.t, point.at_y, point.at_x))
+    slips = False
+    for k in range(n):
+        slips = slips or (takes[k] >= UNLIMITED and little[k] != 0.0)
+    if not slips:
+        return False
+    field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_b))
+    for k in range(n):
+        if takes[k] == LIMITED and little[k] != 0.0:
+            r[k] = 0.0
+    copy(r, reals(point.at_v, n))
+    return True
+
+
+@compiled
+def change_of_speed(problem, point):
+    """Set u = dV and tell its weighted norm; the ledger has its own account of an impact, and positions stand still."""
+    b, u, is_speed = reals(point.at_b, problem.n), reals(point.at_u, problem.n), indices(problem.at_is_speed, problem.n)
+    for k in range(problem.n):
+        u[k] = b[k] if is_speed[k] == 1 else 0.0
+    return weighted_norm(point, point.at_u)
+
+
+@compiled
+def change_zones_for(m):
+    """Fill `fired` with the guards of contacts and stops that the impulse sends into another zone.
+
+    All at once; once a pattern of zones has recurred in this settlement, the one of least index.
+    """
+    problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
+    n, ng = problem.n, problem.n_guards
+    y, b, loaded = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_y_probe, n)
+    takes, differential = indices(problem.at_takes_impulse, n), indices(problem.at_differential, n)
+    least_taken = least_impulse(problem, point)
+    for k in range(n):
+        loaded[k] = y[k]
+        if differential[k] == 1:
+            loaded[k] += b[k]
+        elif takes[k] > 0 and abs(b[k]) > least_taken:
+            loaded[k] = b[k] / (SHORT * (run.stop - run.start))
+    evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
+    evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
+    least = LEAST_APPROACH * move_on(m)
+    g, under, tolerance = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
+    ahead = reals(settling.at_wrong, ng)
+    may_hold, fired = indices(problem.at_may_hold, ng), indices(guards.at_fired, ng)
+    guards.n_fired = 0
+    for i in range(ng):
+        changes = may_hold[i] > 0 and under[i] > tolerance[i] and under[i] != g[i]
+        touches = may_hold[i] == UNLIMITED and abs(under[i]) <= tolerance[i]
+        if changes or (touches and ahead[i] - under[i] > least):
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
+    if settling.stage > 0 and guards.n_fired > 1:
+        keep_first(m.events)
+
+
+@compiled
+def move_on(m):
+    """Guards a little later than at `y_probe`, into `wrong`; the largest way of what dV (in u) moves till then."""
+    problem, run, point, matrices = m.problem, m.run, m.point, m.linear.matrices
+    n = problem.n
+    loaded, dv, moved, f = reals(point.at_y_probe, n), reals(point.at_u, n), reals(point.at_x, n), reals(point.at_f, n)
+    differential, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
+    values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
+    columns = indices(matrices.at_mass_columns, matrices.n_mass)
+    later, most = LATER * (run.stop - run.start), 0.0
+    for k in range(n):
+        moved[k] = loaded[k]
+        most = max(most, abs(dv[k]))
+    field_at(problem.call_rhs, (problem.context, point.t, point.at_x, point.at_f))
+    for e in range(matrices.n_mass):
+        k = rows[e]
+        if k == columns[e] and differential[k] == 1 and quadrature[k] == 0 and dv[k] == 0.0 and values[e] != 0.0:
+            moved[k] += later * f[k] / values[e]
+    evaluate_guards(problem, run, m.events.guards, point.t + later, point.at_x, m.events.settling.at_wrong)
+    return later * most
+
+
+@compiled
+def change_speeds(problem, point, matrices, back, supports):
+    """Add the change in u to the speeds and book what is lost, and what supports that move have given."""
+    n = problem.n
+    y, b, r, e = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
+    dv, lost = reals(point.at_u, n), reals(point.at_lost, n)
+    for k in range(n if back == NO_REBOUND else 0):
+        e[k] = 0.0
+    gained, loss = energies(point, matrices)
+    weight = 0.0
+    for k in range(n):
+        weight += abs(b[k] * r[k]) * (1.0 - e[k] ** 2)
+    if not supports:
+        loss = -gained
+    for k in range(n):
+        y[k] += dv[k]
+        if weight > 0.0:
+            lost[k] += loss * abs(b[k] * r[k]) * (1.0 - e[k] ** 2) / weight
+    if problem.dissipated_at >= 0:
+        y[problem.dissipated_at] += loss
+        y[problem.supplied_at] += gained + loss
+
+
+@compiled
+def energies(point, matrices):
+    """The change of kinetic energy that u makes, and what is lost: (1 - e^2) dV M dV / 2 with u = (1 + e) dV."""
+    y, dv = reals(point.at_y, point.n), reals(point.at_u, point.n)
+    differential = indices(point.at_differential, point.n)
+    values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
+    columns, e = indices(matrices.at_mass_columns, matrices.n_mass), reals(point.at_y_probe, point.n)
+    gained = loss = 0.0
+    for p in range(matrices.n_mass):
+        i, j = rows[p], columns[p]
+        if differential[i] == 1:
+            loss += 0.5 * values[p] * dv[i] * dv[j] * (1.0 - e[i]) / (1.0 + e[i])
+            gained += 0.5 * values[p] * (dv[i] * y[j] + y[i] * dv[j] + dv[i] * dv[j])
+    return gained, loss
+
+
+@compiled
+def any_support_moves(problem, point):
+    """True if a rigid row slips though all that the impulse moves is at rest: what it leans on moves."""
+    n = problem.n
+    y, dv, still = reals(point.at_y, n), reals(point.at_u, n), reals(point.at_y_probe, n)
+    for k in range(n):
+        still[k] = 0.0 if dv[k] != 0.0 else y[k]
+    slip_at(problem.call_slip, (problem.context, point.t, point.at_y_probe, point.at_x))
+    r, takes = reals(point.at_x, n), indices(problem.at_takes_impulse, n)
+    moves = False
+    for k in range(n):
+        moves = moves or (takes[k] >= UNLIMITED and r[k] != 0.0)
+    return moves

@@ -1,0 +1,111 @@
+"""How long the next step is to be, and what becomes of one that is accepted: the same for all methods."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from fairlead.integrate.codes import ARRIVE, GO_ON, MAX_EVENTS, MAX_STEPS, NOT_FINITE, RECORD
+from fairlead.integrate.events.growth import short_of_growth
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, reals
+from fairlead.integrate.point.controller import step_after_acceptance
+from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.point.meters import meter_piece
+
+DOUBT = 0.1
+"""How much shorter a step is tried when a guard that falls by the slopes at the point, where the zones were just
+settled, does not in the step: the interpolant of a long step is rough at its start. To settle there again
+would change nothing, and the next step be as long."""
+INSTANT = 1e-13
+"""Share of the time, or of the span, below which two time events are one: in a step as short matrices are rounding."""
+
+
+@compiled
+def over_budget(run, recorder):
+    """GO_ON, or which budget is used up."""
+    if run.steps >= run.max_steps:
+        return MAX_STEPS
+    return MAX_EVENTS if recorder.total_events >= run.max_events else GO_ON
+
+
+@compiled
+def propose(run, point):
+    """The next step size: what control wants, clipped to land on the next time event or the stop."""
+    run.t_land = min(run.stop, min(run.t_next, run.t_release))
+    rest = run.t_land - point.t
+    h = short_of_growth(run, point, min(run.h_next, run.max_step))
+    run.h_wanted = h
+    run.landing = 0
+    if h >= rest * (0.99 if run.adaptive == 1 else 1.0 - 1e-9):
+        run.landing = 1
+        return rest
+    if run.adaptive == 1 and h > 0.5 * rest:
+        return 0.5 * rest
+    return h
+
+
+@compiled
+def is_instant(run, point, guards, h):
+    """True if the next time event is this very instant but for rounding: nothing moves until then."""
+    if run.landing == 0 or run.t_land >= run.stop or h > INSTANT * max(abs(point.t), run.stop - run.start):
+        return False
+    run.crossed = 0
+    run.t_piece = run.t_land
+    copy(reals(point.at_y, point.n), reals(point.at_y_piece, point.n))
+    copy(reals(point.at_y, point.n), reals(point.at_y_end, point.n))
+    copy(reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards))
+    run.phase = ARRIVE
+    return True
+
+
+@compiled
+def smallest_step(run, point):
+    """The step floor here: what was set, but not below what t can resolve."""
+    return max(run.step_floor, 4e-15 * abs(point.t))
+
+
+@compiled
+def not_finite_here(problem, run, point, otherwise):
+    """NOT_FINITE, with the unknown in `worst`, if f is not finite here or a step later; else `otherwise`.
+
+    The trial itself does not tell whose law it was: one nan spreads to all unknowns in the first solve.
+    """
+    for fraction in range(2):
+        field_at(problem.call_rhs, (problem.context, point.t + fraction * run.h, point.at_y, point.at_f))
+        f = reals(point.at_f, problem.n)
+        for k in range(problem.n):
+            if not isfinite(f[k]):
+                point.worst = k
+                return NOT_FINITE
+    return otherwise
+
+
+@compiled
+def accept(m, h, crossed):
+    """Set the piece of the trial that is accepted: up to the crossing, or to the end."""
+    run, point, recorder = m.run, m.point, m.recorder
+    run.steps += 1
+    run.partial_steps += run.narrowed
+    if run.adaptive == 1:
+        run.h_next = step_after_acceptance(run, h)
+        if h < run.h_wanted:
+            run.h_next = max(run.h_next, run.h_wanted)
+    run.last_error = max(run.error, 1e-4)
+    run.retried = 0
+    run.mended = 0
+    run.crossed = 1 if crossed else 0
+    if crossed and run.theta < 1.0:
+        run.t_piece = point.t + run.theta * h
+        if run.landing == 1 and run.t_land - run.t_piece < smallest_step(run, point):
+            run.t_piece = run.t_land  # no step could cover what would be left
+        else:
+            run.landing = 0
+        interpolate(point, run.theta, point.at_y_piece)
+        if recorder.meters_off == 1:
+            meter_piece(m, h)
+    else:
+        run.t_piece = run.t_land if run.landing == 1 else point.t + h
+        copy(reals(point.at_y_end, point.n), reals(point.at_y_piece, point.n))
+        if recorder.meters_off == 1:
+            run.theta = 1.0
+            meter_piece(m, h)
+    run.phase = RECORD

@@ -1,0 +1,76 @@
+"""Back to the relations of positions that are kept: projection of positions and speeds after every step.
+
+    0 = J a + (dJ/dt) v        is solved with every stage; g(x) = 0 and J v = 0 follow but for the error of a step
+    C (dV, Lambda) = r         r = -g on the rows of relations, else 0; C of the consistent point (consistent.py)
+    x += dV                    for every position x and its speed: positions move as an impulse would move speeds,
+                               the least way by the kinetic energy, and what holds goes along
+    v += dV                    the same with r = -J v, and once more the algebraic unknowns
+
+(Eich, SIAM J. Numer. Anal. 30:1467, 1993; Lubich, Impact Comput. Sci. Eng. 3:212, 1991.) Twice in all: the first move
+leaves what is of second order. The size of the move is that of the error of one step. Before a step is accepted it is
+asked with the factors of that step, W dK = r, how far its end is off: beyond an error weight the step is shorter.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from fairlead.integrate.linear.systems import DONE, solve, solve_watched
+from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.point.controller import weigh, weighted_norm
+
+MOVES = 4
+"""Moves at most; two do, and after four what is left is what the positions are known to."""
+CLOSE = 1e-6
+"""A move below this, in error weights, is the last."""
+
+
+@compiled
+def way_back(problem, point, linear, h):
+    """How far, in error weights, the positions at the end of a trial step are off what is kept."""
+    n = problem.n
+    off, u = reals(point.at_b, n), reals(point.at_u, n)
+    field_at(problem.call_gap, (problem.context, point.t + h, point.at_y_end, point.at_b))
+    solve(linear, point.at_b)
+    position = indices(problem.at_move_position, problem.n_moves)
+    acceleration = indices(problem.at_move_acceleration, problem.n_moves)
+    u[:] = 0.0
+    for k in range(problem.n_moves):
+        if acceleration[k] >= 0:
+            u[position[k]] = off[acceleration[k]]
+    return weighted_norm(point, point.at_u)
+
+
+@compiled
+def project_positions(problem, point, linear):
+    """Move positions to where all relations are kept, with the factors of C; DONE or why not.
+
+    `moved` is then how far they moved, in error weights.
+    """
+    n = problem.n
+    r, y, way, u = reals(point.at_b, n), reals(point.at_y, n), reals(point.at_v, n), reals(point.at_u, n)
+    position = indices(problem.at_move_position, problem.n_moves)
+    speed = indices(problem.at_move_speed, problem.n_moves)
+    weigh(point, point.at_y)
+    u[:] = 0.0
+    for move in range(MOVES):
+        field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_b))
+        if move == 0:
+            status = solve_watched(linear, point.at_b)
+            if status != DONE:
+                return status
+        else:
+            solve(linear, point.at_b)
+        way[:] = 0.0
+        for k in range(problem.n_moves):
+            way[position[k]] = r[speed[k]]
+        size = weighted_norm(point, point.at_v)
+        if not isfinite(size):
+            break
+        for k in range(problem.n_moves):
+            y[position[k]] += way[position[k]]
+            u[position[k]] += way[position[k]]
+        if size <= CLOSE:
+            break
+    point.moved = weighted_norm(point, point.at_u)
+    return DONE

@@ -1,0 +1,85 @@
+"""Rebound: what an impact gives back, by Moreau's law with one coefficient for all that takes part.
+
+    v+ = v- + (1 + e) dV        dV of the impact without rebound (impulse.py); all impulses grow by 1 + e
+
+Bodies that an impulse joins take part in one impact. Its e is the least of the stops that meet in it; stops that
+touched before, and links, have none of their own. So no kinetic energy is created, however many impacts an instant has
+and whatever is redundant: with D = dV M dV
+
+    kinetic energy lost = (1 - e^2) D / 2 >= 0        (Moreau, Unilateral contact and dry friction, 1988, section 8)
+
+Several coefficients in one impact have no such proof (Newton's law may create energy then), which is why the least is
+taken. A stop that meets parts again at e times the speed; one that touched before, and links, stay at rest. A rebound
+below the error weights is none: a ball comes to rest. Friction under an impulsive normal force would be thrown back
+along the surface by this law; that is refused.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.foreign import compiled, indices, reals
+from fairlead.integrate.point.controller import weighted_norm
+
+OPEN = 2.0
+"""The coefficient of what nothing meets; larger than any."""
+NO_REBOUND, REBOUND, RUBS = 0, 1, 2
+REST = 10.0
+"""Rebound, in error weights, below which there is none."""
+LIMITED, UNLIMITED = 1, 2
+
+
+@compiled
+def rebound(problem, point, matrices, floor):
+    """Set `y_probe` = e of every unknown, and say whether anything rebounds; RUBS if friction takes part in that.
+
+    b holds dV and P, u holds dV, v the slip that is taken; `floor` is the least impulse that counts.
+    """
+    n = problem.n
+    b, r, e = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
+    given, takes = reals(problem.at_rebound, n), indices(problem.at_takes_impulse, n)
+    some = False
+    for k in range(n):
+        e[k] = OPEN
+        if takes[k] == UNLIMITED and r[k] != 0.0 and abs(b[k]) > floor:
+            e[k] = given[k]
+            some = some or given[k] > 0.0
+    if not some:
+        return NO_REBOUND
+    while spread(problem, point, matrices, floor):
+        pass
+    dv, back = reals(point.at_u, n), reals(point.at_x, n)
+    rubs = False
+    for k in range(n):
+        if e[k] == OPEN:
+            e[k] = 0.0
+        back[k] = e[k] * dv[k]
+        rubs = rubs or (takes[k] == LIMITED and abs(b[k]) > floor and e[k] > 0.0)
+    if weighted_norm(point, point.at_x) <= REST:
+        return NO_REBOUND
+    return RUBS if rubs else REBOUND
+
+
+@compiled
+def spread(problem, point, matrices, floor):
+    """Give the least e to all that an impulse or an inertia joins; True if any changed."""
+    n = problem.n
+    e, b, dv = reals(point.at_y_probe, n), reals(point.at_b, n), reals(point.at_u, n)
+    takes, differential = indices(problem.at_takes_impulse, n), indices(problem.at_differential, n)
+    starts, rows = indices(matrices.at_jacobian_starts, n + 1), indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    values, speed_of = reals(matrices.at_jacobian, matrices.n_jacobian), indices(problem.at_speed_of, n)
+    changed = False
+    for k in range(n):
+        if takes[k] > 0 and abs(b[k]) > floor:
+            for p in range(starts[k], starts[k + 1]):
+                i = speed_of[rows[p]]
+                joined = dv[i] != 0.0 if differential[i] == 1 else takes[i] > 0 and abs(b[i]) > floor
+                if joined and values[p] != 0.0 and e[i] != e[k]:
+                    e[i] = e[k] = min(e[i], e[k])
+                    changed = True
+    mass, i_of = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
+    j_of = indices(matrices.at_mass_columns, matrices.n_mass)
+    for p in range(matrices.n_mass):
+        i, j = i_of[p], j_of[p]
+        if mass[p] != 0.0 and differential[i] == 1 and dv[i] != 0.0 and dv[j] != 0.0 and e[i] != e[j]:
+            e[i] = e[j] = min(e[i], e[j])
+            changed = True
+    return changed

@@ -1,0 +1,397 @@
+"""The order of release: which held contacts let go when a load jumps, where friction falls as it lets go.
+
+An instant has no order, but a load that jumps was built up before it jumped. So between the point just before, x0, and
+full load the forces are built up in a fast time in which positions stand still and slips start from zero:
+
+    C x = r - (load that is still out),        x = (y', algebraic y),   C, r of the zones in force
+
+Let out[1] be what is still out at first. Along  C dx = out[1]  x goes linearly to full load, until a guard of a contact
+rises through zero. The contact changes its zone, which changes the equations: what its law jumps by,
+
+    out[2] = r - C x - out[1]                  without the rows that changed their meaning
+
+(of the contact, and of all that may close a circle with it: there a row says how they share what they hold)
+is a load too, and comes in before the rest of out[1] does, in a time that is fast beside that time. So levels of load
+lie one on another. A level that is all in is taken off, and the one below goes on, with C of the zones now in force.
+
+Slips. In a level of its own, whoever slips since a time s slips by
+
+    integral of the rate of its guard over the time of the level
+
+and is caught where that comes back to zero. In a level above, which takes no time beside it, it cannot be caught; when
+its level is taken off, its slip is none beside the slips of the level below, but its zone remains.
+
+Ties. Who is within the tolerance of its guard of a limit at which another lets go, and still rises, goes with it.
+
+What remains when all levels are off is the outcome. With stiction equal to sliding the outcome depends on no order
+(Gauss's principle of least constraint, a convex problem for given normal forces), and settling.py finds it faster; so
+this is done where some contact falls, and only when more than one of them is at its limit.
+
+At the start of a run nothing was before: forces that hold are built up from zero, on bodies that do not yet accelerate.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from fairlead.integrate.codes import LEVELS
+from fairlead.integrate.events.consistent import prepare_consistent, residual_here
+from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.linear.systems import DONE, add_mass_times, solve_watched
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
+from fairlead.integrate.point.controller import weigh, weighted_norm
+
+NUDGE, RISE = 1e-3, 1e-6
+"""How far, in weights, speeds are moved to see a guard rise; the rise, in its tolerances, that is above rounding."""
+NEVER = 2.0
+"""Share of the way after which nothing is reached: there are only shares up to 1."""
+TIE = 1e-6
+"""Shares of the way that count as one, of slips that come to zero; change of forces, in weights, that is none."""
+
+
+@compiled
+def order_matters(problem, events):
+    """True if more than one contact is in doubt, and friction of one of them falls where it lets go."""
+    guards = events.guards
+    if problem.falling == 0 or events.loads.ordered == 1:
+        return False
+    fired, machine = indices(guards.at_fired, problem.n_guards), indices(problem.at_guard_machine, problem.n_guards)
+    falls, may_hold = indices(problem.at_falls, problem.n_zones), indices(problem.at_may_hold, problem.n_guards)
+    for k in range(guards.n_fired):
+        if may_hold[fired[k]] > 0 and falls[machine[fired[k]]] == 1:
+            return True
+    zones = indices(problem.at_zones, problem.n_zones)
+    first = indices(events.settling.at_zones_history, problem.n_zones)
+    fell = False
+    for z in range(problem.n_zones):
+        fell = fell or (falls[z] == 1 and zones[z] != first[z])
+    return fell
+
+
+@compiled
+def remember(problem, point, loads):
+    """Keep the point just before a jump: unknowns, zones, and the load f."""
+    if problem.falling == 1:
+        copy(reals(point.at_y, problem.n), reals(loads.at_y_before, problem.n))
+        copy(indices(problem.at_zones, problem.n_zones), indices(loads.at_zones_just_before, problem.n_zones))
+        field_at(problem.call_rhs, (problem.context, point.t, point.at_y, loads.at_f_before))
+        problem.rhs += 1
+
+
+@compiled
+def add_ties(problem, run, point, events):
+    """Contacts whose friction falls and that come to their limits with one in `fired`, within a tolerance, go too."""
+    guards, settling = events.guards, events.settling
+    ng = problem.n_guards
+    fired, machine = indices(guards.at_fired, ng), indices(problem.at_guard_machine, ng)
+    may_hold = indices(problem.at_may_hold, ng)
+    falls, here = indices(problem.at_falls, problem.n_zones), reals(settling.at_wrong, ng)
+    tolerance = reals(guards.at_guard_tolerance, ng)
+    g, g_end, asked = reals(guards.at_g, ng), reals(guards.at_g_end, ng), False
+    for k in range(guards.n_fired):
+        asked = asked or (may_hold[fired[k]] > 0 and falls[machine[fired[k]]] == 1)
+    if not asked:
+        return
+    evaluate_guards(problem, run, guards, point.t, point.at_y, settling.at_wrong)
+    first = guards.n_fired
+    for i in range(ng):
+        ties = may_hold[i] > 0 and falls[machine[i]] == 1 and here[i] >= -tolerance[i]
+        if ties and g_end[i] - g[i] > RISE * tolerance[i]:
+            new = True
+            for k in range(first):
+                new = new and fired[k] != i
+            if new:
+                fired[guards.n_fired] = i
+                guards.n_fired += 1
+
+
+@compiled
+def begin_release(problem, point, linear, events):
+    """Back to the forces just before, with the zones in force: the load between is out.
+
+    Who is in doubt is asked again on the way, also when other pivots are needed first.
+    """
+    guards, settling, loads = events.guards, events.settling, events.loads
+    guards.n_fired = 0
+    nothing = loads.nothing_before == 1
+    status = from_nothing(problem, point) if nothing else accelerations_before(problem, point, linear, events)
+    if status != DONE:
+        return status
+    born, slips = indices(loads.at_born, guards.n_guards), reals(loads.at_fast_slip, guards.n_guards)
+    for i in range(guards.n_guards):
+        born[i], slips[i] = 0, 0.0
+    copy(indices(settling.at_zones, settling.n_zones), indices(settling.at_zones_before, settling.n_zones))
+    loads.levels = 0
+    loads.level_due = 1
+    loads.ordered = 1
+    loads.fastest = 0.0
+    return DONE
+
+
+@compiled
+def from_nothing(problem, point):
+    """At the start: nothing holds yet, and nothing accelerates."""
+    y, slope = reals(point.at_y, problem.n), reals(point.at_slope, problem.n)
+    holder = indices(problem.at_holder, problem.n)
+    for k in range(problem.n):
+        slope[k] = 0.0
+        if holder[k] >= 0:
+            y[k] = 0.0
+    return DONE
+
+
+@compiled
+def accelerations_before(problem, point, linear, events):
+    """Put the algebraic unknowns and the accelerations of the point just before into the point.
+
+    C dx = f - M y' of that point and its zones; the unknowns were consistent there up to the error of a step.
+    """
+    matrices, loads = linear.matrices, events.loads
+    n = problem.n
+    zones, now = indices(problem.at_zones, problem.n_zones), indices(events.settling.at_zones_before, problem.n_zones)
+    y, after, before = reals(point.at_y, n), reals(point.at_y_probe, n), reals(loads.at_y_before, n)
+    slope, v, differential = reals(point.at_slope, n), reals(point.at_v, n), indices(problem.at_differential, n)
+    copy(zones, now)
+    copy(y, after)
+    copy(indices(loads.at_zones_just_before, problem.n_zones), zones)
+    copy(before, y)
+    mass_at(problem.call_mass, (problem.context, matrices.at_mass))
+    status = prepare_consistent(problem, point, linear)
+    if status == DONE:
+        copy(reals(loads.at_f_before, n), reals(point.at_x, n))
+        for k in range(n):
+            v[k] = -slope[k] if differential[k] == 1 else 0.0
+        add_mass_times(matrices, point.at_v, point.at_x)
+        status = solve_watched(linear, point.at_x)
+    x = reals(point.at_x, n)
+    copy(now, zones)
+    for k in range(n):
+        if differential[k] == 1:
+            y[k] = after[k]
+        elif status == DONE:
+            y[k] += x[k]
+        if differential[k] == 1 and status == DONE:
+            slope[k] += x[k]
+    return status
+
+
+@compiled
+def release(m):
+    """Build up the load until somebody changes zone (`fired`), or all of it is in (no levels are left)."""
+    problem, run, point, linear, matrices, events = m.problem, m.run, m.point, m.linear, m.linear.matrices, m.events
+    guards, settling, loads = m.events.guards, m.events.settling, m.events.loads
+    mass_at(problem.call_mass, (problem.context, matrices.at_mass))
+    status = prepare_consistent(problem, point, linear)
+    if status != DONE:
+        return status
+    weigh(point, point.at_y)
+    if loads.level_due == 1:
+        open_level(problem, point, matrices, events)
+    while loads.levels > 0:
+        top = loads.levels - 1
+        if reals(loads.at_left, LEVELS)[top] < TIE:
+            close_level(problem, loads)
+            continue
+        copy(reals(loads.at_out + 8 * top * problem.n, problem.n), reals(point.at_x, problem.n))
+        status = solve_watched(linear, point.at_x)
+        if status != DONE:
+            return status
+        guards.n_fired = 0
+        look_along(problem, run, point, events)
+        s = NEVER if hardly_changes(point) else first_reached(problem, events)
+        go_along(problem, point, events, min(s, 1.0))
+        if s <= 1.0:
+            find_reached(problem, run, point, events)
+            if guards.n_fired > 0:
+                loads.level_due = 1
+                return DONE
+            settling.passes += 1  # a limit that is no straight line was not quite reached
+            if settling.passes >= run.max_passes:
+                loads.levels = 0
+        else:
+            close_level(problem, loads)
+    return DONE
+
+
+@compiled
+def open_level(problem, point, matrices, events):
+    """What the laws now in force jump by, beside what is out already, is a load of its own."""
+    loads = events.loads
+    n = problem.n
+    zones = indices(problem.at_zones, problem.n_zones)
+    before = indices(events.settling.at_zones_before, problem.n_zones)
+    holder, born = indices(problem.at_holder, n), indices(loads.at_born, problem.n_guards)
+    machine = indices(problem.at_guard_machine, problem.n_guards)
+    slips = reals(loads.at_fast_slip, problem.n_guards)
+    residual_here(problem, point, matrices, point.at_x)
+    r = reals(point.at_x, n)
+    in_circle, circle_changed = indices(problem.at_in_circle, n), False
+    for k in range(n):
+        if holder[k] >= 0 and in_circle[k] == 1:
+            circle_changed = circle_changed or zones[holder[k]] != before[holder[k]]
+    for level in range(loads.levels):
+        out = reals(loads.at_out + 8 * level * n, n)
+        for k in range(n):
+            own_changed = holder[k] >= 0 and zones[holder[k]] != before[holder[k]]
+            if own_changed or (circle_changed and in_circle[k] == 1):
+                out[k] = 0.0
+            r[k] -= out[k]
+    for i in range(problem.n_guards):
+        if machine[i] >= 0 and zones[machine[i]] != before[machine[i]]:
+            born[i], slips[i] = 0, 0.0
+    copy(zones, before)
+    if loads.levels < LEVELS:
+        copy(r, reals(loads.at_out + 8 * loads.levels * n, n))
+        reals(loads.at_left, LEVELS)[loads.levels] = 1.0
+        loads.levels += 1
+    else:
+        top = reals(loads.at_out + 8 * (LEVELS - 1) * n, n)
+        for k in range(n):
+            top[k] += r[k]
+    loads.level_due = 0
+
+
+@compiled
+def close_level(problem, loads):
+    """Take the uppermost level off: beside the slips of the one below, those that began in it are none."""
+    born, slips = indices(loads.at_born, problem.n_guards), reals(loads.at_fast_slip, problem.n_guards)
+    for i in range(problem.n_guards):
+        if born[i] == loads.levels:
+            born[i], slips[i] = 0, 0.0
+    loads.levels -= 1
+
+
+@compiled
+def hardly_changes(point):
+    """True if no force changes by more than rounding on the way x, as where a law goes over without a jump."""
+    x, u, differential = reals(point.at_x, point.n), reals(point.at_u, point.n), indices(point.at_differential, point.n)
+    for k in range(point.n):
+        u[k] = 0.0 if differential[k] == 1 else x[k]
+    return weighted_norm(point, point.at_u) <= TIE
+
+
+@compiled
+def look_along(problem, run, point, events):
+    """Guards at both ends of the way x, and their rates in the fast time there, by the slips of the accelerations."""
+    guards, loads = events.guards, events.loads
+    n, ng = problem.n, problem.n_guards
+    x, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
+    probe, u, fast = reals(point.at_y_probe, n), reals(point.at_u, n), indices(problem.at_is_speed, n)
+    largest = 0.0
+    for end in range(2):
+        for k in range(n):
+            u[k] = (slope[k] + end * x[k]) if fast[k] == 1 else 0.0
+        largest = max(largest, weighted_norm(point, point.at_u))
+    loads.fastest = max(largest, loads.fastest)
+    largest = max(largest, TIE * loads.fastest)  # what is so much slower than all before is rounding
+    d = NUDGE / largest if largest > 0.0 else 1.0
+    differential = indices(problem.at_differential, n)
+    tolerance = reals(guards.at_guard_tolerance, ng)
+    for end in range(2):
+        at_g, at_rate = (guards.at_g, loads.at_rate) if end == 0 else (guards.at_g_probe, loads.at_rate_end)
+        for k in range(n):
+            probe[k] = y[k] + (end * x[k] if differential[k] == 0 else 0.0)
+        evaluate_guards(problem, run, guards, point.t, point.at_y_probe, at_g)
+        for k in range(n):
+            if fast[k] == 1:
+                probe[k] = y[k] + d * (slope[k] + end * x[k])
+        evaluate_guards(problem, run, guards, point.t, point.at_y_probe, at_rate)
+        g, rate = reals(at_g, ng), reals(at_rate, ng)
+        for i in range(ng):
+            rise = rate[i] - g[i]
+            rate[i] = rise / d if abs(rise) > RISE * tolerance[i] else 0.0
+
+
+@compiled
+def first_reached(problem, events):
+    """Share of the way after which the first guard of a contact comes to zero; NEVER if none does."""
+    may_hold, least = indices(problem.at_may_hold, problem.n_guards), NEVER
+    for i in range(problem.n_guards):
+        if may_hold[i] > 0:
+            least = min(least, min(reached_by_load(events.guards, i), reached_by_slip(events, i)))
+    return least
+
+
+@compiled
+def reached_by_load(guards, i):
+    """Share of the way after which the forces bring guard i to zero."""
+    now, then = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_probe, guards.n_guards)[i]
+    tolerance = reals(guards.at_guard_tolerance, guards.n_guards)[i]
+    if now >= 0.0:
+        return 0.0 if then - now > RISE * tolerance else NEVER
+    return now / (now - then) if now < 0.0 < then else NEVER
+
+
+@compiled
+def reached_by_slip(events, i):
+    """Share of the way after which the fast slip brings guard i back to zero; of one that slips by more, NEVER."""
+    guards, loads = events.guards, events.loads
+    born = indices(loads.at_born, guards.n_guards)[i]
+    now, tolerance = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_guard_tolerance, guards.n_guards)[i]
+    if abs(now) > tolerance or 0 < born < loads.levels:
+        return NEVER
+    slip = reals(loads.at_fast_slip, guards.n_guards)[i] / reals(loads.at_left, LEVELS)[loads.levels - 1]
+    return first_root(slip, reals(loads.at_rate, guards.n_guards)[i], reals(loads.at_rate_end, guards.n_guards)[i])
+
+
+@compiled
+def first_root(value, rate, rate_end):
+    """Where value + rate s + (rate_end - rate) s^2/2, at most zero at s = 0, rises through zero; NEVER beyond 1."""
+    bend = rate_end - rate
+    if value >= 0.0:
+        if rate > 0.0 or (rate == 0.0 and bend > 0.0):
+            return 0.0
+        s = -2.0 * rate / bend if bend > 0.0 else NEVER
+    else:
+        under = rate * rate - 2.0 * bend * value
+        if under < 0.0:
+            return NEVER
+        below = rate + sqrt(under)  # of the two roots that one where it rises
+        s = -2.0 * value / below if below > 0.0 else NEVER
+    return s if s <= 1.0 else NEVER
+
+
+@compiled
+def find_reached(problem, run, point, events):
+    """Fill `fired` with the guards of contacts that are reached here, and with those that tie with them."""
+    guards, settling = events.guards, events.settling
+    ng, back = problem.n_guards, indices(events.loads.at_came_back, problem.n_guards)
+    g, g_end, here = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(settling.at_wrong, ng)
+    tolerance, fired = reals(guards.at_guard_tolerance, ng), indices(guards.at_fired, ng)
+    may_hold = indices(problem.at_may_hold, ng)
+    evaluate_guards(problem, run, guards, point.t, point.at_y, settling.at_wrong)
+    for i in range(ng):
+        if may_hold[i] == 0:
+            continue
+        rises = g_end[i] - g[i] > RISE * tolerance[i]
+        if back[i] == 1 or (rises and here[i] >= -tolerance[i]):
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
+
+
+@compiled
+def go_along(problem, point, events, s):
+    """Move by the share s of the way; add up the slips, and mark those that have come back to zero."""
+    guards, loads = events.guards, events.loads
+    n, ng, top = problem.n, problem.n_guards, loads.levels - 1
+    x, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
+    out = reals(loads.at_out + 8 * top * n, n)
+    g, tolerance = reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng)
+    may_hold = indices(problem.at_may_hold, ng)
+    rate, rate_end, slips = reals(loads.at_rate, ng), reals(loads.at_rate_end, ng), reals(loads.at_fast_slip, ng)
+    born, back = indices(loads.at_born, ng), indices(loads.at_came_back, ng)
+    left = reals(loads.at_left, LEVELS)
+    for i in range(ng):
+        back[i] = 0
+        if may_hold[i] > 0 and abs(g[i]) <= tolerance[i] and (born[i] == 0 or born[i] == loads.levels):
+            back[i] = 1 if reached_by_slip(events, i) <= s + TIE else 0
+            slips[i] = min(slips[i] + left[top] * s * (rate[i] + 0.5 * s * (rate_end[i] - rate[i])), 0.0)
+            born[i] = loads.levels if slips[i] < 0.0 else 0
+    differential = indices(problem.at_differential, n)
+    for k in range(n):
+        if differential[k] == 1:
+            slope[k] += s * x[k]
+        else:
+            y[k] += s * x[k]
+        out[k] *= 1.0 - s
+    left[top] *= 1.0 - s

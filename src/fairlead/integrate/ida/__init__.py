@@ -1,0 +1,1 @@
+"""The engine `ida`: steps by SUNDIALS IDA, all the rest as in `rodas`."""

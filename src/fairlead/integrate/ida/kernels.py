@@ -1,0 +1,152 @@
+"""What the `ida` engine calls from Python, compiled: residual, linear system, guards, the judgement of a step.
+
+    residual   r = M y' - f(t, y)
+    matrix     cj M - J, factorised as `rodas` does it
+
+All take the address of the struct first (memory/arena.py) and work on arrays at the addresses they are given.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.codes import BEFORE, RECORD, SETTLE, STEP_FLOOR
+from fairlead.integrate.events.crossing import COMPANION, CROSSING, NONE, first_crossing
+from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.pace import not_finite_here
+from fairlead.integrate.events.release import remember
+from fairlead.integrate.events.settling import begin_settling
+from fairlead.integrate.linear.systems import add_mass_times, factorise_step, solve
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, memory_at, reals
+from fairlead.integrate.one_step import rough
+from fairlead.integrate.point.controller import weigh, weighted_norm
+from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.record.rows import write_row
+
+
+def residual(address, t, at_y, at_rate, at_r):
+    """Set r = M y' - f(t, y)."""
+    m = memory_at(address)
+    problem = m.problem
+    field_at(problem.call_rhs, (problem.context, t, at_y, at_r))
+    problem.rhs += 1
+    r = reals(at_r, problem.n)
+    for k in range(problem.n):
+        r[k] = -r[k]
+    add_mass_times(m.linear.matrices, at_rate, at_r)
+
+
+def prepare(address, t, at_y, cj):
+    """J at (t, y), and the factors of cj M - J; 0, or why they fail (linear.py)."""
+    m = memory_at(address)
+    problem = m.problem
+    jacobian_at(problem.call_jacobian, (problem.context, t, at_y, m.linear.matrices.at_jacobian, m.point.at_ft))
+    problem.jacobians += 1
+    return factorise_step(m.linear, cj)
+
+
+def solve_prepared(address, at_b, at_x):
+    """Solve (cj M - J) x = b by the factors of `prepare`."""
+    m = memory_at(address)
+    problem = m.problem
+    copy(reals(at_b, problem.n), reals(at_x, problem.n))
+    solve(m.linear, at_x)
+
+
+def multiply(address, cj, at_v, at_product):
+    """Set product = (cj M - J) v with the J of `prepare` and this cj."""
+    m = memory_at(address)
+    matrices = m.linear.matrices
+    product, v = reals(at_product, matrices.n), reals(at_v, matrices.n)
+    product[:] = 0.0
+    add_mass_times(matrices, at_v, at_product)
+    for k in range(matrices.n):
+        product[k] *= cj
+    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
+    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    values = reals(matrices.at_jacobian, matrices.n_jacobian)
+    for j in range(matrices.n):
+        for p in range(starts[j], starts[j + 1]):
+            product[rows[p]] -= values[p] * v[j]
+
+
+def guards(address, t, at_y, at_g):
+    """Guards at (t, y), as all engines see them."""
+    m = memory_at(address)
+    evaluate_guards(m.problem, m.run, m.events.guards, t, at_y, at_g)
+
+
+def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor):
+    """Judge the step from the point to (t_end, y_end, y'_end) by the trigger and companion rules; set its piece.
+
+    1 if it is to be taken again, shorter: it is cut at a crossing where it does not satisfy the equations. Else 0.
+    `rooted` are guards whose rise through zero at t_end was located by the integrator; what the rules of
+    crossing.py see earlier in the step (a double crossing, a guard that begins at zero) comes first. A step of
+    `floor` is not taken again.
+    """
+    m = memory_at(address)
+    problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
+    h = t_end - point.t
+    run.h = h
+    run.landing = 1 if t_end >= run.t_land else 0
+    prepare_cubic(point, h, at_y_end, at_rate_end)
+    found = first_crossing(m, h)
+    if found == COMPANION:
+        run.rejected_companion += 1
+        run.companion = 1
+        write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
+        remember(problem, point, m.events.loads)
+        begin_settling(problem, run, point, m.events)
+        run.phase = SETTLE
+        return 0
+    if found == NONE and n_rooted > 0:
+        copy(indices(at_rooted, n_rooted), indices(guards.at_fired, n_rooted))
+        guards.n_fired = n_rooted
+        run.theta = 1.0
+    crossed = found == CROSSING or n_rooted > 0
+    if crossed and h > 2.0 * floor:
+        weigh(point, point.at_y_end)
+        if rough(problem, run, point, m.linear, h):
+            guards.n_fired = 0
+            return 1
+    accept(run, point, h, crossed)
+    copy(reals(at_rate_end, point.n), reals(point.at_slope, point.n))
+    return 0
+
+
+@compiled
+def prepare_cubic(point, h, at_y_end, at_rate_end):
+    """Set `y_end` and the D of interpolant.py for the cubic with these values and rates at both ends."""
+    n = point.n
+    y, end, D = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n)
+    rate, rate_end, given = reals(point.at_slope, n), reals(at_rate_end, n), reals(at_y_end, n)
+    for k in range(n):
+        end[k] = given[k]
+        change = end[k] - y[k]
+        D[k] = h * rate[k] - change
+        D[n + k] = change - D[k] - h * rate_end[k]
+        D[2 * n + k] = 0.0
+
+
+@compiled
+def accept(run, point, h, crossed):
+    """Set the piece that is accepted: up to the crossing, or to the end."""
+    run.steps += 1
+    run.last_error = 1.0
+    run.retried = 0
+    run.crossed = 1 if crossed else 0
+    if crossed and run.theta < 1.0:
+        run.landing = 0
+        run.t_piece = point.t + run.theta * h
+        interpolate(point, run.theta, point.at_y_piece)
+    else:
+        run.t_piece = run.t_land if run.landing == 1 else point.t + h
+        copy(reals(point.at_y_end, point.n), reals(point.at_y_piece, point.n))
+    run.phase = RECORD
+
+
+def find_culprit(address):
+    """Why no step succeeds at the point: NOT_FINITE if f is not ahead, else STEP_FLOOR; the unknown in `worst`."""
+    m = memory_at(address)
+    point = m.point
+    weigh(point, point.at_y)
+    weighted_norm(point, point.at_slope)
+    return not_finite_here(m.problem, m.run, point, STEP_FLOOR)

@@ -1,0 +1,57 @@
+"""Fresh pivots when the planned ones lose accuracy: SuperLU chooses, the loop replays its choice."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from fairlead.integrate.linear.condensing import core_entries, lay_out
+from fairlead.integrate.linear.ordering import Plan, inverse, sparse_plan
+from fairlead.integrate.memory.arena import Memory
+from fairlead.integrate.problem import Problem
+
+
+def replan(memory: Memory, problem: Problem) -> bool:
+    """Give the loop fresh pivots for the matrix it could not factorise; False if that matrix is singular."""
+    plan = None if memory.number["dense"] else fresh_plan(memory, problem)  # a full matrix has all pivots to choose
+    if plan is None:
+        return False
+    factors = {name: np.zeros(len(plan.arrays[f"{name}_rows"])) for name in ("lower", "upper")}
+    memory.replace(plan.arrays | factors)
+    memory.number["core_valid"] = 0
+    memory.number["replans"] += 1
+    return True
+
+
+def fresh_plan(memory: Memory, problem: Problem) -> Plan | None:
+    """The plan with the pivots that partial pivoting takes for the core in memory, or None.
+
+    That is the matrix whose factorisation failed, in the units of the error weights, so that the
+    comparison of pivots does not depend on units. None means that it is singular.
+    """
+    import scipy.sparse
+    import scipy.sparse.linalg
+
+    array = memory.array
+    row_order, column_order = array["row_order"], array["column_order"]
+    core = len(row_order)
+    matrix = scipy.sparse.csc_array(
+        (array["matrix"], array["matrix_rows"], array["matrix_starts"]), shape=(core, core)
+    )
+    if not np.all(np.isfinite(array["matrix"])):
+        return None
+    scaled = matrix * array["row_scale"][:core, None] * array["column_scale"][column_order][None, :]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            factors = scipy.sparse.linalg.splu(scipy.sparse.csc_array(scaled), permc_spec="COLAMD")
+        except RuntimeError:
+            return None
+    pivots = np.abs(factors.U.diagonal())
+    if not pivots.min() > 1e-14:
+        return None
+    new_rows = row_order[inverse(factors.perm_r.astype(np.int64), core)[:core]]
+    new_columns = column_order[inverse(factors.perm_c.astype(np.int64), core)[:core]]
+    layout = lay_out(problem)
+    return sparse_plan(problem, layout, core_entries(problem, layout), new_rows, new_columns)

@@ -1,0 +1,64 @@
+"""The structs of events: guards, settlements, the order of release."""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.struct import Struct
+
+GUARDS = Struct(
+    copies=("n_guards", "guard_machine",),
+    integers=(
+        "n_fired",
+    ),
+    reals={
+        # at the point, at both ends of a bracket, at a probe
+        "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
+        "g_ahead": "n_guards", "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
+        "guard_inertia": "n_guards", "blocked_until": "n_zones",
+    },
+    indices={
+        "fired": "n_guards",
+    },
+)  # fmt: skip
+"""Guards at the point, along a step and at its end; which of them fired."""
+
+SETTLING = Struct(
+    copies=("n_guards", "n_zones", "guard_machine", "zones",),
+    integers=(
+        "passes", "one_by_one", "stalls",
+        # which violators change, since which pass, the fewest there were, passes since
+        "stage", "stage_from", "fewest", "waited", "switches", "settling_passes",
+    ),
+    numbers=(
+        "t_last_switch", "look", "least_look", "nearness",
+    ),
+    reals={
+        "wrong": "n_guards", "last_toggle": "n_zones", "rank": "n_zones",
+    },
+    indices={
+        "rim": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones", "streak": "n_zones",
+        "chatters": "n_zones", "switches_by_machine": "n_zones",
+    },
+)  # fmt: skip
+"""A settlement: which violators change, since which pass, who chatters."""
+
+LOADS = Struct(
+    integers=(
+        # whether the order was asked for in this settlement, levels of load that are still out, whether zones have
+        # changed since the last of them, whether there was nothing before
+        "ordered", "levels", "level_due", "nothing_before",
+    ),
+    numbers=(
+        "fastest",
+    ),
+    reals={
+        # the point just before, loads that are out and the shares that are left, rates of guards by slips at both ends
+        # of a way, slips in the time of a level
+        "y_before": "n", "f_before": "n", "out": "levels_n", "left": "levels", "rate": "n_guards",
+        "rate_end": "n_guards", "fast_slip": "n_guards",
+    },
+    indices={
+        # the level in which a slip began, guards that it has brought back to zero
+        "born": "n_guards", "came_back": "n_guards", "zones_just_before": "n_zones",
+    },
+)  # fmt: skip
+"""The order of release at a jump of load (release.py)."""

@@ -1,0 +1,41 @@
+"""The struct of a problem in the memory of a run."""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.struct import Struct
+
+PROBLEM = Struct(
+    calls=(
+        "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
+        "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes", "call_gap",
+    ),
+    integers=(
+        # sizes
+        "n", "n_algebraic", "n_guards", "n_zones", "n_outputs",
+        # whether guards have inertias
+        "weighs_guards",
+        # impacts: whether any row takes impulses; unknowns of the energy ledger (-1: there is none)
+        "takes_impulses", "rebounds", "n_moves", "n_balanced", "dissipated_at", "supplied_at",
+        # whether friction of a contact falls as it lets go
+        "falling", "linear", "n_quadratures", "samples",
+        # how often it was asked
+        "rhs", "jacobians", "guards",
+    ),
+    reals={
+        "rebound": "n",
+    },
+    indices={
+        # relations of positions: a position, its speed, and its acceleration where that is an unknown
+        "move_position": "n_moves", "move_speed": "n_moves", "move_acceleration": "n_moves",
+        # nodes without inertia: their positions and speeds
+        "balanced_position": "n_balanced", "balanced_speed": "n_balanced",
+        # the speed of an acceleration that is an unknown; of others they themselves
+        "speed_of": "n", "differential": "n", "quadrature": "n", "takes_impulse": "n",
+        # the position of each speed (-1: none)
+        "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
+        # by row who decides whether it holds
+        "holder": "n", "in_circle": "n", "falls": "n_zones", "is_speed": "n", "zones": "n_zones",
+        "guard_machine": "n_guards",
+    },
+)  # fmt: skip
+"""What a problem is: sizes, the addresses of its functions, facts about its unknowns; and how often it was asked."""

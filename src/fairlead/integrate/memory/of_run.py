@@ -1,0 +1,73 @@
+"""The structs of a run, whatever its method: where it is, and what it records."""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.struct import Struct
+
+RUN = Struct(
+    integers=(
+        "max_passes", "max_steps", "max_events",
+        # settings
+        "adaptive", "on_chatter",
+        # where the run is
+        "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "stop_asked", "dropped",
+        # the step at which to look whether less would do, whether this is a part, whether its rim has changed
+        "narrow_at", "narrowed", "woken",
+        # counters
+        "steps", "rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
+        "rejected_diverged", "rejected_singular", "located", "time_events", "partial_steps",
+    ),
+    numbers=(
+        "start", "stop", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "error_exponent", "h",
+        "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_release", "growth",
+        "t_growth", "fixed_step",
+    ),
+    indices={
+        "rejections_by_unknown": "n",
+    },
+)  # fmt: skip
+"""The settings of a run, the trial step [t, t + h] and what has become of it, and counts."""
+
+POINT = Struct(
+    copies=("n", "differential", "quadrature",),
+    integers=(
+        "worst", "projections",
+    ),
+    numbers=(
+        "t", "moved", "most_moved",
+    ),
+    reals={
+        # the point, its derivative, the trial end, a point inside the step
+        "y": "n", "slope": "n", "y_end": "n", "y_piece": "n", "y_probe": "n", "f": "n", "ft": "n", "b": "n", "x": "n",
+        "u": "n", "v": "n", "residual": "n", "error_vector": "n", "weight": "n", "curvature": "n", "D": "three_n",
+        "absolute": "n", "relative": "n", "cap": "n",
+        # energy lost in impacts, by the row that held
+        "lost": "n",
+        # the point as it was settled at the start
+        "begun": "n",
+    },
+    indices={
+        "unweighed": "n",
+    },
+)  # fmt: skip
+"""The point t, y that a run has reached, the end of the step from it, weights, and vectors to work with."""
+
+RECORDER = Struct(
+    integers=(
+        "row_capacity", "event_capacity", "on_grid", "between", "most_inside", "meters_off", "rows", "events",
+        "total_events", "grid_next", "inside", "inside_next", "rows_slip", "any_stiff", "shown_apart",
+    ),
+    numbers=(
+        "every", "least_gap", "t_row",
+    ),
+    reals={
+        # of an event, how far from y it is shown
+        "apart": "n", "row_t": "row_capacity", "row_values": "rows_outputs", "event_t": "event_capacity",
+    },
+    indices={
+        "is_stiff": "n", "row_side": "row_capacity", "event_machine": "event_capacity",
+        "event_before": "event_capacity", "event_after": "event_capacity", "event_guard": "event_capacity",
+        "event_position": "event_capacity",
+    },
+)  # fmt: skip
+"""What is to be recorded, what was, and the buffers for it."""

@@ -1,0 +1,118 @@
+"""Quadratures, as the energy ledger, of steps in which the method does them badly: once more, from the states.
+
+In a method with stages a quadrature follows a stiff unknown no better than the stages do, and its dense output
+worse: where a bound contact had crept for a tenth of a second and then broke away, it was off by a hundred times
+what had passed meanwhile. The method knows: its own error estimate of the quadrature is large then. Nothing
+depends on a quadrature, so it may as well be had from the states inside the accepted piece,
+
+    q(t_piece) = q(t0) + piece * sum_k w_k f_q(t_k, y_k)
+
+by the rule of Gauss with three nodes (order 6). The y_k are not those of the dense output: a slip of 1e-5 m/s that is
+known to a thousandth gives a force of 10 N to no more than 0.01 N, and each step the same way, where the slope of the
+dense output gives it to five digits and more. So the dense output is moved by its residual through the factors of W,
+
+    W delta = f(t_k, y) - M y',
+
+which takes a stiff unknown to where it goes with the slopes of the others, and others by less than their error. No node
+is an end of the piece, since there the slope of the dense output is rough. Elsewhere the stages do better.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.linear.systems import add_mass_times, solve
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.point.interpolant import interpolate
+
+OFF = 10.0
+"""In weights for all of the run so far, of which a step may miss its share by time: then the ledger is off by some ten
+accuracies after however many steps that all err the same way. The method finds itself worse than it is where nothing
+is stiff; at one, such runs would pay for nothing."""
+LITTLE = 0.1
+"""What has passed, in the unit of the quadrature, below which the error is no longer measured by it."""
+APART = 0.5 * 0.6**0.5
+"""Distance of the outer nodes from the middle of the piece, in pieces."""
+
+
+@compiled
+def meter_piece(m, h):
+    """Write the quadratures at the end of the piece [t, t + theta h] into `y_piece`, and follow it inside.
+
+    Inside the piece the dense output becomes the cubic with the rates of the three nodes.
+    """
+    problem, point, linear, stepping = m.problem, m.point, m.linear, m.stepping
+    n, theta = point.n, m.run.theta
+    quadrature = indices(point.at_quadrature, n)
+    y, piece, y_end = reals(point.at_y, n), reals(point.at_y_piece, n), reals(point.at_y_end, n)
+    D = reals(point.at_D, 3 * n)
+    first, middle, last = reals(point.at_u, n), reals(point.at_v, n), reals(point.at_f, n)
+    rates_inside(problem, point, linear, stepping, theta * (0.5 - APART), h)
+    copy(last, first)
+    rates_inside(problem, point, linear, stepping, theta * 0.5, h)
+    copy(last, middle)
+    rates_inside(problem, point, linear, stepping, theta * (0.5 + APART), h)
+    for k in range(n):
+        if quadrature[k] == 1:
+            size = theta * h / inertia_of(m.linear.matrices, k)
+            slope = size * (last[k] - first[k]) / (2.0 * APART)
+            bend = size * (last[k] - 2.0 * middle[k] + first[k]) / (2.0 * APART**2)
+            # The integral of middle + slope (s - 1/2) + bend (s - 1/2)^2 is a s + b s^2 + c s^3, s = 1 at the end.
+            a = size * middle[k] - 0.5 * slope + 0.25 * bend
+            b = 0.5 * (slope - bend)
+            c = bend / 3.0
+            piece[k] = y[k] + a + b + c
+            a, b, c = a / theta, b / theta**2, c / theta**3
+            y_end[k] = y[k] + a + b + c
+            D[k], D[n + k], D[2 * n + k] = -b - c, -c, 0.0
+
+
+@compiled
+def rates_inside(problem, point, linear, stepping, theta, h):
+    """Into `f`: the rates at theta of the step, of the dense output moved by its residual."""
+    rule = stepping.rule
+    n = problem.n
+    y, y_end, D = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n)
+    probe = reals(point.at_y_probe, n)
+    v, b, f = reals(point.at_x, n), reals(point.at_b, n), reals(point.at_f, n)
+    holds = indices(stepping.exchange.at_holds, n)
+    rest = 1.0 - theta
+    interpolate(point, theta, point.at_y_probe)
+    for k in range(n):
+        inner = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
+        inner_slope = D[n + k] + 2.0 * theta * D[2 * n + k]
+        v[k] = -(y_end[k] - y[k] + (rest - theta) * inner + theta * rest * inner_slope) / h
+    field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_y_probe, point.at_f))
+    for _ in range(1 + 3 * rule.locates):  # a parabola is further off than the dense output of `rodas`
+        copy(f, b)
+        add_mass_times(linear.matrices, point.at_x, point.at_b)
+        for k in range(n):
+            if holds[k] == 1:
+                b[k] = 0.0
+        solve(linear, point.at_b)
+        for k in range(n):
+            probe[k] += b[k]
+        field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_y_probe, point.at_f))
+    problem.rhs += 2 + 3 * rule.locates
+
+
+@compiled
+def judge_meters(run, point, recorder):
+    """Set `meters_off` if the method itself finds a quadrature wrong in this step by its share of OFF."""
+    error, quadrature = reals(point.at_error_vector, point.n), indices(point.at_quadrature, point.n)
+    weight = reals(point.at_weight, point.n)
+    y = reals(point.at_y_end, point.n)
+    share = OFF * run.h / (point.t + run.h - run.start)
+    recorder.meters_off = 0
+    for k in range(point.n):
+        if quadrature[k] == 1 and abs(error[k]) > share * weight[k] * max(LITTLE, abs(y[k])):
+            recorder.meters_off = 1
+
+
+@compiled
+def inertia_of(matrices, k):
+    """The entry of M on the diagonal of column k."""
+    starts, rows = indices(matrices.at_mass_starts, matrices.n + 1), indices(matrices.at_mass_rows, matrices.n_mass)
+    mass, found = reals(matrices.at_mass, matrices.n_mass), 1.0
+    for p in range(starts[k], starts[k + 1]):
+        if rows[p] == k:
+            found = mass[p]
+    return found

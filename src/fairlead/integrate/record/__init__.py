@@ -1,0 +1,1 @@
+"""What a run records: rows on a grid, at steps, between them and at events."""

@@ -1,0 +1,131 @@
+"""What the loop writes down: rows of outputs and zone changes, into buffers that Python empties."""
+
+from __future__ import annotations
+
+from math import inf
+
+from fairlead.integrate.codes import GRID, INSIDE, INSIDE_PASSED, ORDINARY, PARABOLA, PASSED
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.record.between import balance_stiff, take_slip_away
+
+
+@compiled
+def write_row(problem, recorder, t, at_y, side):
+    """One row: time, outputs in the zones in force (y itself where there are none), side of an event."""
+    row = recorder.rows
+    reals(recorder.at_row_t, recorder.row_capacity)[row] = t
+    indices(recorder.at_row_side, recorder.row_capacity)[row] = side
+    at_values = recorder.at_row_values + 8 * row * problem.n_outputs
+    if problem.call_outputs != 0:
+        field_at(problem.call_outputs, (problem.context, t, at_y, at_values))
+    else:
+        copy(reals(at_y, problem.n_outputs), reals(at_values, problem.n_outputs))
+    recorder.rows = row + 1
+    recorder.t_row = t
+
+
+@compiled
+def write_event(point, settling, recorder, machine, before, after, guard):
+    """One zone change at the point, in the pass now running."""
+    k = recorder.events
+    reals(recorder.at_event_t, recorder.event_capacity)[k] = point.t
+    indices(recorder.at_event_machine, recorder.event_capacity)[k] = machine
+    indices(recorder.at_event_before, recorder.event_capacity)[k] = before
+    indices(recorder.at_event_after, recorder.event_capacity)[k] = after
+    indices(recorder.at_event_guard, recorder.event_capacity)[k] = guard
+    indices(recorder.at_event_position, recorder.event_capacity)[k] = settling.passes
+    recorder.events = k + 1
+    recorder.total_events += 1
+
+
+@compiled
+def there_is_room(problem, recorder):
+    """True if the next pass of a settlement fits whatever happens in it, and the rows around it."""
+    events = recorder.events + problem.n_zones + problem.n_guards
+    return recorder.rows + 4 <= recorder.row_capacity and events <= recorder.event_capacity
+
+
+@compiled
+def record_piece(m):
+    """Rows inside the accepted piece (t, t_piece], by the dense output; False when the buffer is full.
+
+    The point at an event itself is not interpolated: its two sides are written on arrival.
+    """
+    problem, run, point, recorder = m.problem, m.run, m.point, m.recorder
+    if recorder.inside_next == 0:
+        recorder.inside = rows_inside(run, point, m.events.settling, recorder)
+        recorder.inside_next = 1
+    if recorder.inside > 0 and recorder.inside_next == 1 and recorder.t_row < point.t:
+        if recorder.rows + 4 > recorder.row_capacity:
+            return False
+        write_row(problem, recorder, point.t, point.at_y, PASSED)
+    end = run.t_piece - 1e-12 * max(abs(run.t_piece), recorder.every)
+    reach = run.t_piece + 1e-12 * max(abs(run.t_piece), recorder.every)
+    while True:
+        t = run.start + recorder.grid_next * recorder.every if recorder.on_grid == 1 else inf
+        t_inside = inf
+        if recorder.inside_next <= recorder.inside:
+            t_inside = point.t + (run.t_piece - point.t) * (recorder.inside_next / (recorder.inside + 1))
+        if t > reach and t_inside == inf:
+            recorder.inside_next = 0
+            return True
+        if recorder.rows + 4 > recorder.row_capacity:
+            return False
+        if t_inside < t:
+            write_between(m, t_inside, INSIDE if recorder.on_grid == 0 else INSIDE_PASSED)
+            recorder.inside_next += 1
+            continue
+        if t >= end:
+            write_row(problem, recorder, min(t, run.t_piece), shown_end(m), ORDINARY)  # never later than an event there
+        else:
+            write_between(m, t, ORDINARY if recorder.between == 0 else GRID)
+        recorder.grid_next += 1
+
+
+@compiled
+def write_between(m, t, side):
+    """One row of the dense output."""
+    problem, run, point, recorder = m.problem, m.run, m.point, m.recorder
+    interpolate(point, (t - point.t) / run.h, point.at_y_probe)
+    if recorder.rows_slip == 1:
+        take_slip_away(problem, point, m.linear, m.stepping.exchange, t, point.at_y_probe)
+    if recorder.any_stiff == 1:
+        balance_stiff(m, t, (t - point.t) / run.h, point.at_y_probe)
+    write_row(problem, recorder, t, point.at_y_probe, side)
+
+
+@compiled
+def shown_end(m):
+    """Address of the end of the piece as it is recorded."""
+    run, point, recorder = m.run, m.point, m.recorder
+    if recorder.any_stiff == 0:
+        return point.at_y_piece
+    copy(reals(point.at_y_piece, point.n), reals(point.at_y_probe, point.n))
+    whole = recorder.most_inside == PARABOLA and m.stepping.rule.locates == 0
+    theta = 1.0 if whole else (run.t_piece - point.t) / run.h
+    balance_stiff(m, run.t_piece, theta, point.at_y_probe)
+    return point.at_y_probe
+
+
+@compiled
+def rows_inside(run, point, settling, recorder):
+    """How many rows the piece has inside that are no grid points: those that its curve goes through, or none.
+
+    Without a grid all steps have them; with one, long steps in the middle of which an unknown is off the straight line
+    by more than its weight. A step of `stepping` in which something switched has none: it has the laws of its end.
+    """
+    if recorder.between == 0 or run.t_piece <= point.t or (recorder.most_inside == PARABOLA and settling.passes > 0):
+        return 0
+    if recorder.on_grid == 0:
+        return recorder.most_inside
+    if run.t_piece - point.t < 2.0 * recorder.least_gap:
+        return 0
+    interpolate(point, 0.5 * (run.t_piece - point.t) / run.h, point.at_y_probe)
+    y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_y_probe, point.n)
+    weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
+    curved = False
+    for k in range(point.n):
+        off = abs(middle[k] - 0.5 * (y[k] + end[k]))
+        curved = curved or (unweighed[k] == 0 and off > weight[k])
+    return recorder.most_inside if curved else 0

@@ -1,0 +1,1 @@
+"""The engine `rodas`: Rosenbrock methods, every switch located."""

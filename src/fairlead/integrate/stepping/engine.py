@@ -1,0 +1,29 @@
+"""The engine `stepping`, as Python knows it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fairlead.integrate.codes import MIDDLE, PARABOLA
+from fairlead.integrate.engine import Engine
+from fairlead.integrate.problem import Instance, Run
+
+
+def stepping_numbers(run: Run, problem: Instance) -> Mapping[str, float]:
+    """What `stepping` sets differently, or alone."""
+    return {
+        "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
+        "error_exponent": 1.0 / 3.0, "linear": int(problem.linear), "most_inside": PARABOLA,
+        "samples": int(problem.samples),
+        "has_limits": int(np.any(problem.limit_guard)),
+        "n_quadratures": int(np.count_nonzero(problem.quadrature)),
+        "locates": int(run.fixed_step is None and run.theta == MIDDLE and len(problem.zones) <= run.most_located),
+    }  # fmt: skip
+
+
+STEPPING = Engine(
+    "stepping", "fairlead.integrate.stepping.method", ("stepping",), stepping_numbers, plans_contacts=True,
+    works_on_parts=True,
+)  # fmt: skip

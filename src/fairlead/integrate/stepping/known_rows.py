@@ -1,0 +1,187 @@
+"""Rows of J and M that machines hold, kept for every zone a machine has been in.
+
+A machine that holds a row changes, when it switches, that row of J and M alone. Where f is linear between switches,
+the constant c of a row that slides, 0 = J_i u + c, is kept as well, and a row not yet known is that of a machine of the
+same kind: laws then tell whether it is. Elsewhere it would change the iteration, and what it leaves of the residual,
+by which machine was asked. A settlement forgets all: a time event may have changed the laws.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.codes import KNOWN_ZONES
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
+
+ROW, CONSTANT = 1, 2
+"""What is known of a machine in a zone: nothing (0), its rows of J and M, and the constant too."""
+OF_KIND = 4
+"""A row taken from a machine of the same kind."""
+
+
+@compiled
+def learn_rows(problem, matrices, stepping):
+    """Keep the rows of J and M that machines hold, in the zones in force; J and M are those of these zones."""
+    exchange = stepping.exchange
+    zones, own = indices(problem.at_zones, problem.n_zones), indices(exchange.at_own_row, problem.n_zones)
+    known = indices(exchange.at_known, exchange.n_known)
+    copy(zones, indices(exchange.at_zones_linearised, problem.n_zones))
+    listed = indices(exchange.at_exchanged_machines, problem.n_zones)
+    kind = indices(stepping.contacts.at_own_kind, problem.n_zones)
+    of_kind = indices(exchange.at_known_of_kind, exchange.n_known)
+    exchange.n_exchanged = 0
+    for z in range(problem.n_zones):
+        if own[z] < 0 or zones[z] < 0 or zones[z] >= KNOWN_ZONES:
+            continue
+        listed[exchange.n_exchanged] = z
+        exchange.n_exchanged += 1
+        place = zones[z] * problem.n_zones + z
+        if known[place] > 0 and problem.linear == 1:
+            continue
+        known[place] = max(known[place], ROW)
+        of_kind[zones[z] * problem.n_zones + kind[z]] = z + 1
+        move_row(matrices, exchange, z, z, True)
+
+
+@compiled
+def move_row(matrices, exchange, z, like, learn):
+    """Keep the row of machine z for the zone it is in, or put into J and M what was kept of machine `like`."""
+    zone = indices(exchange.at_zones, exchange.n_zones)[z]
+    starts = indices(exchange.at_own_slope_starts, exchange.n_zones + 1)
+    entries = indices(exchange.at_own_slopes, exchange.n_own_slopes)
+    values = reals(matrices.at_jacobian, matrices.n_jacobian)
+    kept = reals(exchange.at_known_slopes, KNOWN_ZONES * exchange.n_own_slopes)
+    move_entries(starts, entries, values, kept, z, zone * exchange.n_own_slopes + starts[like], learn)
+    starts = indices(exchange.at_own_mass_starts, exchange.n_zones + 1)
+    entries = indices(exchange.at_own_masses, exchange.n_own_masses)
+    values = reals(matrices.at_mass, matrices.n_mass)
+    kept = reals(exchange.at_known_masses, KNOWN_ZONES * exchange.n_own_masses)
+    move_entries(starts, entries, values, kept, z, zone * exchange.n_own_masses + starts[like], learn)
+
+
+@compiled
+def move_entries(starts, entries, values, kept, z, place, learn):
+    """Move the entries of machine z between a matrix and what is kept from `place` on."""
+    for e in range(starts[z], starts[z + 1]):
+        at = place + e - starts[z]
+        if learn:
+            kept[at] = values[entries[e]]
+        else:
+            values[entries[e]] = kept[at]
+
+
+@compiled
+def row_of(problem, stepping, z):
+    """The machine whose row is known for the zone of machine z: itself, or one like it, or -1."""
+    exchange = stepping.exchange
+    zone = indices(problem.at_zones, problem.n_zones)[z]
+    if zone < 0 or zone >= KNOWN_ZONES or indices(exchange.at_own_row, problem.n_zones)[z] < 0:
+        return -1
+    if indices(exchange.at_known, exchange.n_known)[zone * problem.n_zones + z] > 0:
+        return z
+    if problem.linear == 0 or (exchange.distrusted & OF_KIND) != 0:
+        return -1
+    kind = indices(stepping.contacts.at_own_kind, problem.n_zones)
+    return indices(exchange.at_known_of_kind, exchange.n_known)[zone * problem.n_zones + kind[z]] - 1
+
+
+@compiled
+def take_row(problem, matrices, stepping, z):
+    """Put the row of machine z for the zone it is in into J and M; it must be known."""
+    exchange = stepping.exchange
+    like = row_of(problem, stepping, z)
+    move_row(matrices, exchange, z, like, False)
+    if like != z:
+        exchange.guessed |= OF_KIND
+        move_row(matrices, exchange, z, z, True)
+        zone = indices(exchange.at_zones, exchange.n_zones)[z]
+        indices(exchange.at_known, exchange.n_known)[zone * exchange.n_zones + z] = ROW
+
+
+@compiled
+def row_holds(matrices, exchange, z):
+    """1 if the row of machine z has an entry in M; also marks it if that is of a node without mass."""
+    starts = indices(exchange.at_own_mass_starts, exchange.n_zones + 1)
+    entries = indices(exchange.at_own_masses, exchange.n_own_masses)
+    values = reals(matrices.at_mass, matrices.n_mass)
+    columns = indices(exchange.at_own_mass_columns, exchange.n_own_masses)
+    differential, found = indices(matrices.at_differential, matrices.n), 0
+    for e in range(starts[z], starts[z + 1]):
+        if values[entries[e]] != 0.0:
+            found = 1
+            if differential[columns[e]] == 0:
+                indices(exchange.at_of_massless, matrices.n)[indices(exchange.at_own_row, exchange.n_zones)[z]] = 1
+                exchange.massless = 1
+    return found
+
+
+@compiled
+def learn_constants(point, matrices, stepping):
+    """Keep the constants of the rows just exchanged or evaluated that do not hold, from the residual b at `y_end`."""
+    exchange = stepping.exchange
+    changed = indices(exchange.at_exchanged_machines, exchange.n_zones)
+    zones = indices(exchange.at_zones, exchange.n_zones)
+    constants = reals(exchange.at_known_constants, exchange.n_known)
+    known = indices(exchange.at_known, exchange.n_known)
+    b, own = reals(point.at_b, point.n), indices(exchange.at_own_row, exchange.n_zones)
+    holds = indices(exchange.at_holds, point.n)
+    for c in range(exchange.n_exchanged):
+        z = changed[c]
+        place = zones[z] * exchange.n_zones + z
+        if known[place] == ROW and holds[own[z]] == 0:
+            constants[place] = b[own[z]] - linear_part(point, matrices, stepping, z)
+            known[place] = CONSTANT
+
+
+@compiled
+def residual_of_row(point, matrices, stepping, z, h):
+    """The entry of b in the row of machine z: by the constant, or where it holds by the slip, in `residual`."""
+    exchange = stepping.exchange
+    row = indices(exchange.at_own_row, exchange.n_zones)[z]
+    if indices(exchange.at_holds, point.n)[row] == 1:
+        return reals(point.at_residual, point.n)[row] / h + linear_part(point, matrices, stepping, z)
+    zone = indices(exchange.at_zones, exchange.n_zones)[z]
+    constants = reals(exchange.at_known_constants, exchange.n_known)
+    return constants[zone * exchange.n_zones + z] + linear_part(point, matrices, stepping, z)
+
+
+@compiled
+def linear_part(point, matrices, stepping, z):
+    """J_i u in the row of machine z, with u at the theta point; of a row that holds J_i has entries of forces alone."""
+    exchange = stepping.exchange
+    y, y_end = reals(point.at_y, point.n), reals(point.at_y_end, point.n)
+    differential = indices(point.at_differential, point.n)
+    starts = indices(exchange.at_own_slope_starts, exchange.n_zones + 1)
+    entries = indices(exchange.at_own_slopes, exchange.n_own_slopes)
+    columns = indices(exchange.at_own_slope_columns, exchange.n_own_slopes)
+    values, total = reals(matrices.at_jacobian, matrices.n_jacobian), 0.0
+    for e in range(starts[z], starts[z + 1]):
+        k = columns[e]
+        u = y_end[k] if differential[k] == 0 else y[k] + stepping.rule.theta_now * (y_end[k] - y[k])
+        total += values[entries[e]] * u
+    return total
+
+
+@compiled
+def rows_tell(problem, exchange):
+    """True if f is linear, and the residual of the rows just exchanged known without it."""
+    if problem.linear == 0 or (exchange.distrusted & CONSTANT) != 0 or exchange.driven == 1 or exchange.massless == 1:
+        return False
+    changed = indices(exchange.at_exchanged_machines, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_zones)
+    known, own = indices(exchange.at_known, exchange.n_known), indices(exchange.at_own_row, problem.n_zones)
+    holds, caught, all_known = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n), True
+    for c in range(exchange.n_exchanged):
+        z = changed[c]
+        if holds[own[z]] == 1:
+            all_known = all_known and caught[own[z]] == 1
+        else:
+            all_known = all_known and known[zones[z] * problem.n_zones + z] == CONSTANT
+    return all_known
+
+
+@compiled
+def forget_rows(exchange):
+    """Nothing is known of any row."""
+    known, of_kind = indices(exchange.at_known, exchange.n_known), indices(exchange.at_known_of_kind, exchange.n_known)
+    for k in range(exchange.n_known):
+        known[k] = 0
+        of_kind[k] = 0

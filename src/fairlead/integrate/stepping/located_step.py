@@ -1,0 +1,160 @@
+"""A step of `stepping` in the zones of its start, cut at the first switch inside: while there are few machines.
+
+What a switch inside a step makes wrong is written in docs/stepping.md. A step that ends at the switch has none of it,
+and costs a settlement. So steps of the same rule (theta_step.py, third_order.py) are taken with frozen zones, guards
+are judged on the dense output as `rodas` judges them (crossing.py), and what fires is settled.
+
+    forces     means over the step, so those of its middle; at its end the line through this middle and the one
+               before says what they are, and between its ends a straight line
+    error      the third difference of all differential unknowns, speeds among them; of a force that holds the bend
+    energy     from the states at the nodes of Gauss (meters.py)
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.codes import BEFORE, SETTLE
+from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossing
+from fairlead.integrate.events.pace import DOUBT, smallest_step
+from fairlead.integrate.events.release import remember
+from fairlead.integrate.events.settling import all_fall, begin_settling
+from fairlead.integrate.linear.systems import add_mass_times, solve
+from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.point.controller import weigh, weighted_norm
+from fairlead.integrate.record.between import STIFF, take_slip_away
+from fairlead.integrate.record.rows import write_row
+
+CAREFUL = 10.0
+"""A step is allowed a tenth of a weight: errors of one sign add up, and energy is to be right to ten accuracies of what
+passed. With one weight one in ten random networks of springs missed that (tests/hard, random networks)."""
+HOLD_SHARE = 0.025
+"""Share of the bend of a holding force that counts as its error."""
+LITTLE = 0.1
+"""Weights of a force that the stop of a slip that counts as none may seem to be."""
+FOLLOWED = 0.1
+"""Share of the way to the balance that is left as error where it was gone."""
+JUDGED, ACCEPTED, CUT = 0, 1, 2
+
+
+@compiled
+def stops_little(m):
+    """True if contacts that hold begin the step with a slip that counts as none: it is taken away, by an impulse.
+
+    A step would take it away by a mean force m v/h, which says nothing about what holds.
+    """
+    problem, point, exchange = m.problem, m.point, m.stepping.exchange
+    if problem.call_drift == 0:
+        return False
+    slip, holder = reals(point.at_residual, problem.n), indices(problem.at_holder, problem.n)
+    holds, weight = indices(exchange.at_holds, problem.n), reals(point.at_weight, problem.n)
+    inertia = reals(m.stepping.contacts.at_held_inertia, problem.n_zones)
+    field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_residual))
+    weigh(point, point.at_y)
+    found = False
+    for k in range(problem.n):
+        if holds[k] == 1 and holder[k] >= 0:
+            found = found or inertia[holder[k]] * abs(slip[k]) > LITTLE * m.run.h * weight[k]
+    if found:
+        take_slip_away(problem, point, m.linear, exchange, point.t, point.at_y)
+        m.events.guards.n_fired = 0
+    return found
+
+
+@compiled
+def error_of_located(point, stepping, h):
+    """Size of the error of a step in weights, from the differences in `error_vector` and the slopes of forces."""
+    rule = stepping.rule
+    error, slope = reals(point.at_error_vector, point.n), reals(rule.at_mean_slope, point.n)
+    before = reals(rule.at_slope_before, point.n)
+    holds, differential = indices(stepping.exchange.at_holds, point.n), indices(point.at_differential, point.n)
+    for k in range(point.n):
+        if holds[k] == 1 and differential[k] == 0:
+            error[k] = HOLD_SHARE * h * (slope[k] - before[k])
+    return CAREFUL * weighted_norm(point, point.at_error_vector)
+
+
+@compiled
+def balance_end(m, h):
+    """Put what follows at once where the laws of the end balance; the error, in weights, of what may follow in a step.
+
+    Algebraic unknowns are on the line through this middle and the one before, and an unknown with a stiff law rings
+    about its balance by a third of the bend of what it follows. The residual f - M y' at the end, through the factors
+    of the step, says how far they are off; y' there is the mean slope and half the change from the one before.
+    """
+    problem, point, matrices, rule = m.problem, m.point, m.linear.matrices, m.stepping.rule
+    n = problem.n
+    y_end, slope, before = reals(point.at_y_end, n), reals(rule.at_mean_slope, n), reals(rule.at_slope_before, n)
+    b, v, error = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
+    differential, holds = indices(problem.at_differential, n), indices(m.stepping.exchange.at_holds, n)
+    watched = indices(m.method.at_watched, n)
+    ahead = 0.5 * h / (rule.gap + 0.5 * h)
+    for k in range(n):
+        v[k] = -slope[k] - ahead * (slope[k] - before[k]) if differential[k] == 1 else 0.0
+        if differential[k] == 0:
+            y_end[k] += 0.5 * h * slope[k]
+    field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_b))
+    problem.rhs += 1
+    add_mass_times(matrices, point.at_v, point.at_b)
+    for k in range(n):
+        error[k] = 0.0
+        if holds[k] == 1:
+            b[k] = 0.0
+    solve(m.linear, point.at_b)
+    for k in range(n):
+        if differential[k] == 0:
+            y_end[k] += b[k]
+        elif watched[k] == 1:
+            error[k] = b[k]
+            if follows(matrices, k, h):
+                y_end[k] += b[k]
+                error[k] *= FOLLOWED
+    return weighted_norm(point, point.at_error_vector)
+
+
+@compiled
+def follows(matrices, k, h):
+    """True if unknown k follows what drives it within the step h."""
+    place, mass = indices(matrices.at_diagonal_slope, matrices.n)[k], indices(matrices.at_diagonal_mass, matrices.n)[k]
+    if place < 0 or mass < 0:
+        return False
+    inertia = reals(matrices.at_mass, matrices.n_mass)[mass]
+    return -reals(matrices.at_jacobian, matrices.n_jacobian)[place] * h > STIFF * inertia > 0.0
+
+
+@compiled
+def remember_middle(point, rule, h):
+    """Algebraic unknowns in the middle of a step that is accepted."""
+    y, slope = reals(point.at_y, point.n), reals(rule.at_mean_slope, point.n)
+    differential = indices(point.at_differential, point.n)
+    mean = reals(rule.at_mean_before, point.n)
+    for k in range(point.n):
+        if differential[k] == 0:
+            start = y[k] if rule.gap == 0.0 else mean[k]
+            mean[k] = start + slope[k] * (rule.gap + 0.5 * h)
+
+
+@compiled
+def judge_guards(m, h):
+    """JUDGED where the point at the start is settled instead, or the step made shorter; else ACCEPTED or CUT."""
+    run, point = m.run, m.point
+    found = first_crossing(m, h)
+    if found != COMPANION:
+        return CUT if found == CROSSING else ACCEPTED
+    run.rejected_companion += 1
+    if run.judged == 1 and DOUBT * h >= smallest_step(run, point) and all_fall(m.problem, run, point, m.events):
+        m.events.guards.n_fired = 0
+        run.h_next = DOUBT * h
+        run.retried += 1
+        return JUDGED
+    settle_start(m)
+    return JUDGED
+
+
+@compiled
+def settle_start(m):
+    """Settle the point at the start of a step that is given up; guards in `fired` fire."""
+    problem, run, point = m.problem, m.run, m.point
+    run.companion = 1
+    write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
+    remember(problem, point, m.events.loads)
+    begin_settling(problem, run, point, m.events)
+    run.phase = SETTLE

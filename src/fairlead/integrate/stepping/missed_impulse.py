@@ -1,0 +1,159 @@
+"""The impulse that a step misses of a switch inside it, because it has the zones of its end for all of it.
+
+A speed wrong by that is wrong from then on, by order h where a law jumps. A step that ends at the switch misses
+nothing. So it is taken again up to there where the error counts. The place s h of a switch is that of its guard's
+zero between the start and the end the step would have without a switch.
+
+    turned round    A contact that slid with the force F, and whose slip comes to zero, ends the step held or sliding
+                    the other way, under a mean force p. Had it turned, the mean would be F s - F (1 - s). Where that
+                    lies beyond p, seen from F, the contact cannot have held: more than F pulls, and h times the
+                    difference is missed.
+    bent            A law without a force of its own among the unknowns (a stop, a rope, a contact that binds) says
+                    other forces after the switch. Straight on either side of s, it misses h s (f_old - f_new)/2, both
+                    at the start of the step.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.point.meters import inertia_of
+from fairlead.integrate.stepping.jumps import share
+from fairlead.integrate.stepping.overload import error_of_speed, response_of
+
+AT_ONCE = 1e-2
+"""A switch within this share of a step happens at its start."""
+NOTHING = 1e-6
+"""Share of a step so near its start that what follows a table there by a stiff law has no difference to follow."""
+SHORT_OF = 1e-2
+"""Share of a step by which it ends short of a stop or a rope: right there no zone is the right one, and they cycle."""
+
+
+@compiled
+def forget_switches(contacts):
+    """Before a step: nothing has switched in it."""
+    switched = indices(contacts.at_switched, contacts.n_zones)
+    after = reals(contacts.at_switched_after, contacts.n_zones)
+    for k in range(contacts.n_switched):
+        after[switched[k]] = 0.0
+    contacts.n_switched = 0
+
+
+@compiled
+def note_switches(guards, stepping):
+    """Of the machines whose guards are in `fired` those that leave their zone for the first time, and when."""
+    exchange, contacts = stepping.exchange, stepping.contacts
+    fired, machine, rows = (
+        indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards),
+        indices(contacts.at_hold_row, exchange.n_zones),
+    )  # fmt: skip
+    zones, before, holds = (
+        indices(exchange.at_zones, exchange.n_zones), indices(contacts.at_zones_at_start, exchange.n_zones),
+        indices(exchange.at_holds, exchange.n),
+    )  # fmt: skip
+    switched = indices(contacts.at_switched, exchange.n_zones)
+    after = reals(contacts.at_switched_after, exchange.n_zones)
+    for k in range(guards.n_fired):
+        i, z = fired[k], machine[fired[k]]
+        if z < 0 or after[z] > 0.0 or zones[z] != before[z] or (rows[z] >= 0 and holds[rows[z]] == 1):
+            continue
+        s = share(guards, i)
+        if 0.0 < s < 1.0:
+            switched[contacts.n_switched] = z
+            after[z] = s
+            contacts.n_switched += 1
+
+
+@compiled
+def impulse_is_missed(problem, point, matrices, stepping, h):
+    """True if a switch inside the step makes an error that counts; the step should end at `t_switch`."""
+    rule = stepping.rule
+    turned = first_turned(point, matrices, stepping.contacts, h)
+    bent = first_bent(problem, point, matrices, stepping, h)
+    first = min(turned, bent)
+    rule.t_switch = point.t + first * h
+    kink = first_kink(stepping)
+    if bent == first and bent == (1.0 - SHORT_OF) * kink and kink < 1.0:
+        rule.t_bent = point.t + kink * h
+        if kink < AT_ONCE:
+            rule.t_switch = point.t + 2.0 * kink * h
+    return first < 1.0
+
+
+@compiled
+def first_turned(point, matrices, contacts, h):
+    """The share of the step after which a slip turned round, of the first whose error counts; 1 without one."""
+    switched = indices(contacts.at_switched, contacts.n_zones)
+    after = reals(contacts.at_switched_after, contacts.n_zones)
+    rows, inertia = indices(contacts.at_hold_row, contacts.n_zones), reals(contacts.at_held_inertia, contacts.n_zones)
+    y, y_end = reals(point.at_y, point.n), reals(point.at_y_end, point.n)
+    first = 1.0
+    for k in range(contacts.n_switched):
+        z = switched[k]
+        s = after[z]
+        if rows[z] < 0 or inertia[z] <= 0.0 or s >= first or s < AT_ONCE:
+            continue
+        force, mean = y[rows[z]], y_end[rows[z]]
+        missed = force * (2.0 * s - 1.0) - mean
+        if missed * force > 0.0 and error_of_speed(point, matrices, contacts, h, z, 2.0 * abs(missed), h) > 1.0:
+            first = s
+            point.worst = rows[z]
+    return first
+
+
+@compiled
+def first_kink(stepping):
+    """The share of the step after which a table first went on in its next piece; 1 without one.
+
+    A step that goes over a kink on purpose (stepping_trial.over_kink) has none, for it is implicit.
+    """
+    contacts = stepping.contacts
+    switched = indices(contacts.at_switched, contacts.n_zones)
+    after = reals(contacts.at_switched_after, contacts.n_zones)
+    rows, kinks = indices(contacts.at_hold_row, contacts.n_zones), indices(contacts.at_only_kinks, contacts.n_zones)
+    first = 1.0
+    for k in range(contacts.n_switched):
+        z = switched[k]
+        if rows[z] < 0 and kinks[z] == 1 and stepping.rule.theta_now < 1.0 and after[z] >= NOTHING:
+            first = min(first, after[z])
+    return first
+
+
+@compiled
+def first_bent(problem, point, matrices, stepping, h):
+    """The share of the step after which a law without a force of its own first switched, if the error counts; or 1."""
+    contacts = stepping.contacts
+    switched, after = indices(contacts.at_switched, problem.n_zones), reals(contacts.at_switched_after, problem.n_zones)
+    rows, first, last = indices(contacts.at_hold_row, problem.n_zones), first_kink(stepping), 0.0
+    if first < 1.0:
+        last = first
+    for k in range(contacts.n_switched):
+        s = after[switched[k]]
+        if rows[switched[k]] < 0 and s >= AT_ONCE:
+            first, last = min(first, s), max(last, s)
+    if first == 1.0:
+        return 1.0
+    zones, kept, before = (
+        indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones),
+        indices(contacts.at_zones_at_start, problem.n_zones),
+    )  # fmt: skip
+    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
+    copy(zones, kept)
+    copy(before, zones)
+    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_residual))
+    copy(kept, zones)
+    problem.rhs += 2
+    new, old = reals(point.at_x, problem.n), reals(point.at_residual, problem.n)
+    weight = reals(point.at_weight, problem.n)
+    position = indices(problem.at_position_of, problem.n)
+    for v in range(problem.n):
+        x = position[v]
+        if x < 0 or old[v] == new[v]:
+            continue
+        inertia = inertia_of(matrices, v)
+        if inertia > 0.0:
+            error = 0.5 * last * h * abs(old[v] - new[v]) / inertia
+            if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
+                point.worst = v
+                return (1.0 - SHORT_OF) * first
+    return 1.0
+
