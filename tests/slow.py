@@ -37,6 +37,8 @@ LEFT_TO_TEST_ALL = (
     "tests/models/test_effects_advice.py::test_the_advice_holds_*",
     "tests/models/test_effects_advice.py::test_an_effect_that_matters_*",
     "tests/models/test_cost.py::test_a_scene_that_is_sensitive_*",
+    # a loop of its own is compiled for it
+    "tests/integrate/test_own_method.py::*",
     # treatments that are there to be seen failing, and random ones
     "tests/models/test_hazards.py::test_h4_in_a_chain_*",
     "tests/models/test_hazards.py::test_h6_*",

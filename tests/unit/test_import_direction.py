@@ -87,8 +87,8 @@ def test_every_stage_imports_only_what_lies_before_it() -> None:
 
 
 ROOMS = ("memory", "linear", "point", "record", "events", "rodas", "stepping", "ida")
-"""Rooms of the integrator; each imports only those before it. Files beside them are shapes that know no room (problem.py,
-facts.py, ...), the loop with the trial of a method of one step, which know rooms up to events, or run.py and its helpers."""
+"""Rooms of the integrator; each imports only those before it. Files beside them are shapes, which know no room, the
+loop with the trial of a method of one step, which know rooms up to events, or run.py and its helpers."""
 OF_METHODS = {"rodas", "stepping", "ida"}
 SHAPES = {"problem", "facts", "counters", "codes", "engine"}
 LOOP = {"loop", "one_step"}
@@ -96,7 +96,7 @@ LOOP = {"loop", "one_step"}
 
 def room(name: str) -> str:
     """The room, or the file beside them, of a module of the integrator."""
-    return (name.split(".") + ["", "", ""])[2]
+    return [*name.split("."), "", "", ""][2]
 
 
 def test_rooms_of_the_integrator_import_only_those_before_them() -> None:
