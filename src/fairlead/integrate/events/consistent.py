@@ -19,14 +19,13 @@ from fairlead.integrate.events.balance import ROUNDS, close_balance
 from fairlead.integrate.events.impulse import ROUNDED as ROUNDED_IMPULSE
 from fairlead.integrate.events.impulse import change_of_speed, impact
 from fairlead.integrate.events.position import project_positions
+from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
 from fairlead.integrate.linear.systems import (
     DONE,
     SINGULAR,
-    add_mass_times,
     factorise_consistent,
     solve,
     solve_watched,
-    times_jacobian,
 )
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh, weighted_norm
@@ -253,5 +252,5 @@ def slope_change(point, linear):
     n = point.n
     curvature, ft = reals(point.at_curvature, n), reals(point.at_ft, n)
     copy(ft, curvature)
-    times_jacobian(linear.matrices, point.at_slope, point.at_curvature)
+    add_slopes_times(linear.matrices, point.at_slope, point.at_curvature)
     solve(linear, point.at_curvature)

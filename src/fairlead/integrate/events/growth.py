@@ -15,7 +15,8 @@ from __future__ import annotations
 
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.settling import RISE
-from fairlead.integrate.linear.systems import solve, times_jacobian
+from fairlead.integrate.linear.products import add_slopes_times
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.point.controller import weighted_norm
 from fairlead.integrate.point.even_steps import COARSE, rounded
@@ -46,7 +47,7 @@ def watch_growth(m):
         return
     b = reals(point.at_b, point.n)
     b[:] = 0.0
-    times_jacobian(m.linear.matrices, point.at_curvature, point.at_b)
+    add_slopes_times(m.linear.matrices, point.at_curvature, point.at_b)
     solve(m.linear, point.at_b)
     far, early = reals(guards.at_g_left, guards.n_guards), reals(guards.at_g_early, guards.n_guards)
     late = reals(guards.at_g_late, guards.n_guards)

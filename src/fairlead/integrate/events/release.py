@@ -37,7 +37,9 @@ from math import sqrt
 from fairlead.integrate.codes import LEVELS
 from fairlead.integrate.events.consistent import prepare_consistent, residual_here
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.linear.systems import DONE, add_mass_times, solve_watched
+from fairlead.integrate.events.patterns import remember_pattern
+from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.systems import DONE, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
@@ -206,6 +208,7 @@ def release(m):
                 loads.level_due = 1
                 return DONE
             settling.passes += 1  # a limit that is no straight line was not quite reached
+            remember_pattern(run, settling)
             if settling.passes >= run.max_passes:
                 loads.levels = 0
         else:

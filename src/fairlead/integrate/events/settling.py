@@ -24,6 +24,7 @@ from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.patterns import recurs, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
 from fairlead.integrate.linear.systems import DONE
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
@@ -120,6 +121,7 @@ def begin_settling(problem, run, point, events):
     settling.look = 0.0
     settling.nearness = 1.0
     copy(indices(settling.at_zones, settling.n_zones), indices(settling.at_zones_history, settling.n_zones))
+    remember_pattern(run, settling)
     watch_progress(problem, run, point, events)
 
 
@@ -157,23 +159,9 @@ def change_zones(m):
         copy(zones, indices(settling.at_zones_history + 8 * settling.passes * nz, nz))
     if m.events.loads.levels > 0:
         settling.stage_from = settling.passes
+        remember_pattern(run, settling)
     elif recurs(run, settling):
         next_stage(problem, m.events)
-
-
-@compiled
-def recurs(run, settling):
-    """True if the zones now in force were already in force in this stage of the settlement."""
-    nz = settling.n_zones
-    zones = indices(settling.at_zones, nz)
-    for k in range(settling.stage_from, min(settling.passes, run.max_passes)):
-        earlier = indices(settling.at_zones_history + 8 * k * nz, nz)
-        z = 0
-        while z < nz and earlier[z] == zones[z]:
-            z += 1
-        if z == nz:
-            return True
-    return False
 
 
 @compiled

@@ -14,7 +14,8 @@ from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import not_finite_here
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
-from fairlead.integrate.linear.systems import add_mass_times, factorise_step, solve
+from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
+from fairlead.integrate.linear.systems import factorise_step, solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, memory_at, reals
 from fairlead.integrate.one_step import rough
 from fairlead.integrate.point.controller import weigh, weighted_norm
@@ -55,17 +56,12 @@ def multiply(address, cj, at_v, at_product):
     """Set product = (cj M - J) v with the J of `prepare` and this cj."""
     m = memory_at(address)
     matrices = m.linear.matrices
-    product, v = reals(at_product, matrices.n), reals(at_v, matrices.n)
+    product = reals(at_product, matrices.n)
     product[:] = 0.0
     add_mass_times(matrices, at_v, at_product)
     for k in range(matrices.n):
         product[k] *= cj
-    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
-    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
-    values = reals(matrices.at_jacobian, matrices.n_jacobian)
-    for j in range(matrices.n):
-        for p in range(starts[j], starts[j + 1]):
-            product[rows[p]] -= values[p] * v[j]
+    add_jacobian_times(matrices, -1.0, at_v, at_product)
 
 
 def guards(address, t, at_y, at_g):

@@ -179,26 +179,3 @@ def solve_dense(factors, at_b):
                 b[i] -= a[k * n + i] * value
     for i in range(n):
         b[i] *= column_scale[i]
-
-
-@compiled
-def add_mass_times(matrices, at_v, at_b):
-    """Add M v to b, for the n doubles at the two addresses."""
-    rows, columns = indices(matrices.at_mass_rows, matrices.n_mass), indices(matrices.at_mass_columns, matrices.n_mass)
-    values, v, b = reals(matrices.at_mass, matrices.n_mass), reals(at_v, matrices.n), reals(at_b, matrices.n)
-    for p in range(matrices.n_mass):
-        b[rows[p]] += values[p] * v[columns[p]]
-
-
-@compiled
-def times_jacobian(matrices, at_v, at_b):
-    """Add J v to b over the differential columns, for the n doubles at the two addresses."""
-    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
-    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
-    values = reals(matrices.at_jacobian, matrices.n_jacobian)
-    differential = indices(matrices.at_differential, matrices.n)
-    v, b = reals(at_v, matrices.n), reals(at_b, matrices.n)
-    for j in range(matrices.n):
-        if differential[j] == 1:
-            for p in range(starts[j], starts[j + 1]):
-                b[rows[p]] += values[p] * v[j]

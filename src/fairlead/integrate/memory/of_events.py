@@ -32,7 +32,7 @@ SETTLING = Struct(
         "t_last_switch", "look", "least_look", "nearness",
     ),
     reals={
-        "wrong": "n_guards", "last_toggle": "n_zones", "rank": "n_zones",
+        "wrong": "n_guards", "last_toggle": "n_zones", "rank": "n_zones", "patterns_met": "passes",
     },
     indices={
         "rim": "n_zones", "zones_before": "n_zones", "zones_history": "passes_zones", "streak": "n_zones",

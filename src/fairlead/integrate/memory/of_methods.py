@@ -43,7 +43,6 @@ RULE = Struct(
     reals={
         # slopes of this step, of the one before and of the one before that; algebraic unknowns in its middle
         "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "mean_before": "n", "move": "n",
-        "patterns_met": "passes",
     },
     indices={
         # unknowns whose error sets the step

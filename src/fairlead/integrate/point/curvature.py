@@ -13,6 +13,7 @@ is larger the rest.
 
 from __future__ import annotations
 
+from fairlead.integrate.linear.products import sizes_through_jacobian
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weighted_norm
 from fairlead.integrate.point.meters import inertia_of
@@ -29,10 +30,10 @@ def bend_beyond_rounding(point, matrices):
     once, twice, u = reals(point.at_v, n), reals(point.at_x, n), reals(point.at_u, n)
     for k in range(n):
         u[k] = ROUNDED * abs(y[k])
-    through_jacobian(matrices, point.at_u, point.at_v)
+    sizes_through_jacobian(matrices, point.at_u, point.at_v)
     for k in range(n):
         once[k] = once[k] / inertia_of(matrices, k) if differential[k] == 1 else 0.0
-    through_jacobian(matrices, point.at_v, point.at_x)
+    sizes_through_jacobian(matrices, point.at_v, point.at_x)
     for k in range(n):
         u[k] = 0.0
         if differential[k] == 1 and curvature[k] != 0.0:
@@ -40,17 +41,3 @@ def bend_beyond_rounding(point, matrices):
             if not u[k] >= 0.0:
                 u[k] = curvature[k]
     return weighted_norm(point, point.at_u)
-
-
-@compiled
-def through_jacobian(matrices, at_from, at_to):
-    """Set to = |J| from."""
-    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
-    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
-    slopes, given = reals(matrices.at_jacobian, matrices.n_jacobian), reals(at_from, matrices.n)
-    to = reals(at_to, matrices.n)
-    to[:] = 0.0
-    for k in range(matrices.n):
-        if given[k] != 0.0:
-            for p in range(starts[k], starts[k + 1]):
-                to[rows[p]] += abs(slopes[p]) * given[k]

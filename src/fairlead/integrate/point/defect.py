@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from fairlead.integrate.linear.systems import add_mass_times, solve
+from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 
 

@@ -12,7 +12,8 @@ their speed this is done once for the start of the step and once for its bend, e
 
 from __future__ import annotations
 
-from fairlead.integrate.linear.systems import add_mass_times, solve
+from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 
 STIFF = 100.0

@@ -15,6 +15,7 @@ through most of as many in this one. Both are guesses; the guards judge what com
 from __future__ import annotations
 
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
+from fairlead.integrate.events.patterns import recurs, remember_pattern
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 
 HANDED_ON, RUNS_ON = 0.8, 0.7
@@ -38,7 +39,7 @@ def begin_set(problem, run, settling, stepping):
     for e in range(exchange.n_hold_mass):
         caught[row[e]] = 0
     copy(indices(settling.at_zones, settling.n_zones), indices(stepping.contacts.at_zones_at_start, settling.n_zones))
-    reals(rule.at_patterns_met, run.max_passes + 1)[0] = pattern_of_zones(problem)
+    remember_pattern(run, settling)
 
 
 @compiled
@@ -85,7 +86,7 @@ def expect_fronts(m, h):
         m.stepping.exchange.zones_differ = 1
         contacts.expecting = 1
         m.events.settling.passes = 1
-        reals(rule.at_patterns_met, run.max_passes + 1)[1] = pattern_of_zones(problem)
+        remember_pattern(run, m.events.settling)
 
 
 @compiled
@@ -158,7 +159,7 @@ def follow_guards(m, h, cascade):
     m.stepping.exchange.zones_differ = 1
     settling.passes += 1
     settling.settling_passes += 1
-    if settling.one_by_one < 2 and recurs(problem, run, settling, m.stepping.rule):
+    if settling.one_by_one < 2 and recurs(run, settling):
         settling.one_by_one += 1
         number_machines(events, guards.at_g_end)
         settling.stage_from = settling.passes
@@ -289,24 +290,3 @@ def learn_from_neighbours(run, guards, contacts):
                     known[i] = zones[z] + 1
                     found += 1
                     break
-
-
-@compiled
-def pattern_of_zones(problem):
-    """A number that stands for the zones in force; two patterns share one by accident once in 10^15."""
-    zones = indices(problem.at_zones, problem.n_zones)
-    number = 0
-    for z in range(problem.n_zones):
-        number = (number * 1099511628211 + zones[z] + 1) & 0xFFFFFFFFFFFFF
-    return float(number)
-
-
-@compiled
-def recurs(problem, run, settling, rule):
-    """True if the zones now in force were already in force in this step; remembers them."""
-    met, now = reals(rule.at_patterns_met, run.max_passes + 1), pattern_of_zones(problem)
-    found = False
-    for k in range(settling.stage_from, settling.passes):
-        found = found or met[k] == now
-    met[settling.passes] = now
-    return found

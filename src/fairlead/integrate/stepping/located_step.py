@@ -17,7 +17,8 @@ from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossi
 from fairlead.integrate.events.pace import DOUBT, smallest_step
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import all_fall, begin_settling
-from fairlead.integrate.linear.systems import add_mass_times, solve
+from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.record.between import STIFF, take_slip_away

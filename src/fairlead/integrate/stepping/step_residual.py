@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import MIDDLE
-from fairlead.integrate.linear.systems import add_mass_times
+from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 
 PASSED = 1e-3

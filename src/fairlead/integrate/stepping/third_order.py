@@ -19,7 +19,8 @@ the step in place of differences over several steps, so that it survives a switc
 
 from __future__ import annotations
 
-from fairlead.integrate.linear.systems import add_mass_times, solve
+from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 
 
@@ -45,7 +46,7 @@ def refine_end(problem, point, linear, exchange, h):
         v[k] = (y[k] - y_end[k]) / (3.0 * h) if moves else 0.0
         b[k] = (f0[k] + f1[k]) / 6.0
     add_mass_times(matrices, point.at_v, point.at_b)
-    take_slopes_times(matrices, point.at_u, point.at_b)
+    add_jacobian_times(matrices, -1.0, point.at_u, point.at_b)
     for k in range(n):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
@@ -107,15 +108,3 @@ def meter_step(problem, point, h):
     for k in range(n):
         if quadrature[k] == 1:
             y_end[k] = y[k] + h * rate[k]
-
-
-@compiled
-def take_slopes_times(matrices, at_v, at_b):
-    """Subtract J v from b, for the n doubles at the two addresses."""
-    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
-    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
-    slopes, v, b = reals(matrices.at_jacobian, matrices.n_jacobian), reals(at_v, matrices.n), reals(at_b, matrices.n)
-    for j in range(matrices.n):
-        if v[j] != 0.0:
-            for p in range(starts[j], starts[j + 1]):
-                b[rows[p]] -= slopes[p] * v[j]

@@ -1,0 +1,36 @@
+"""Patterns of zones: whether those in force were met before, in a settlement or in a step that looks for its zones.
+
+A settlement, or such a step, that comes upon a pattern again goes in a circle, and changes fewer zones at a time from
+there on. Patterns are compared by one number each; two share one by accident once in 10^15.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.foreign import compiled, indices, reals
+
+
+@compiled
+def number_of_zones(settling):
+    """A number that stands for the zones in force."""
+    zones, number = indices(settling.at_zones, settling.n_zones), 0
+    for z in range(settling.n_zones):
+        number = (number * 1099511628211 + zones[z] + 1) & 0xFFFFFFFFFFFFF
+    return float(number)
+
+
+@compiled
+def remember_pattern(run, settling):
+    """Keep the zones in force as those after `passes` passes."""
+    if settling.passes <= run.max_passes:
+        reals(settling.at_patterns_met, run.max_passes + 1)[settling.passes] = number_of_zones(settling)
+
+
+@compiled
+def recurs(run, settling):
+    """True if the zones in force were so after an earlier pass of this stage; remembers them."""
+    met, now, found = reals(settling.at_patterns_met, run.max_passes + 1), number_of_zones(settling), False
+    for k in range(settling.stage_from, min(settling.passes, run.max_passes)):
+        found = found or met[k] == now
+    if settling.passes <= run.max_passes:
+        met[settling.passes] = now
+    return found
