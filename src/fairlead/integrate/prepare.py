@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -316,7 +316,7 @@ def moved_at_once(problem: Problem) -> Integers:
     return chosen
 
 
-def write_numbers(memory: Memory, values: dict[str, float]) -> None:
+def write_numbers(memory: Memory, values: Mapping[str, float]) -> None:
     """Set single values of the struct by name."""
     for name, value in values.items():
         memory.number[name] = value

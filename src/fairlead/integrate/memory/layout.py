@@ -56,7 +56,7 @@ LAYOUT = np.dtype(
 def _places(kind: np.dtype, base: int = 0) -> Iterator[tuple[str, int, np.dtype]]:
     """Every field of a struct of structs with its place in bytes, where it is at home first."""
     for name in kind.names or ():
-        inside, at, *_ = (kind.fields or {})[name]
+        inside, at = kind[name], kind.fields[name][1] if kind.fields else 0
         if inside.names:
             yield from _places(inside, base + at)
         else:
