@@ -11,17 +11,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from fairlead.errors import FairleadError, ModelError, RunError, RunInterrupted, RunWarning, UsageError
 from fairlead.simulate import Model, describe_type, json_schema, load
 
 if TYPE_CHECKING:
-    from fairlead.results import Result
+    from fairlead.result import Result
 
-__all__ = ["Model", "Result", "describe_type", "json_schema", "load"]
+__all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInterrupted", "RunWarning", "UsageError",
+           "describe_type", "json_schema", "load"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:
     if name == "Result":
-        from fairlead.results import Result
+        from fairlead.result import Result
 
         return Result
     raise AttributeError(f"module 'fairlead' has no attribute {name!r}")

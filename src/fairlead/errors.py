@@ -14,6 +14,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 MOST_FAULTS_PRINTED = 100
 LONGEST_VALUE_SHOWN = 60
@@ -72,6 +73,37 @@ class UsageError(FairleadError):
     """A command that cannot be carried out as typed, such as a run into a finished directory."""
 
     exit_code = 2
+
+
+class RunError(FairleadError):
+    """A run that failed or was cut short: `result` is the `Result` of what was computed until then.
+
+    `run(check=False)` returns that result instead. The exit code is that of `fairlead run`: 3 for a failure, 4 for a
+    budget that is used up, 130 after Ctrl-C.
+    """
+
+    exit_code = 3
+
+    def __init__(self, result: Any) -> None:
+        self.result = result
+        self.exit_code = {"budget": 4, "interrupted": 130}.get(result.status, 3)
+        super().__init__(result)
+
+    def __str__(self) -> str:
+        run, where = self.result.run, f" and in {self.result.path}" if self.result.path else ""
+        said = str(run.get("sentence") or "the run ended early").rstrip()
+        return (
+            f"{run.get('name', 'the model')}: {self.result.status}: {said}\n"
+            f"    What was computed is in `.result` of this error{where}; run(check=False) returns it."
+        )
+
+
+class RunInterrupted(RunError, KeyboardInterrupt):  # noqa: N818 - as KeyboardInterrupt, which it is
+    """Ctrl-C during a run: what was computed is in `result`, and whoever handles a KeyboardInterrupt handles this."""
+
+
+class RunWarning(UserWarning):
+    """A remark on a run: what `check` would remark, chatter, an energy ledger that does not close, a broken limit."""
 
 
 class NumericalError(FairleadError):

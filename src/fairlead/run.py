@@ -37,7 +37,8 @@ from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
-from fairlead.results import MemoryRun, Result, RunDirectory, Signal, Sink
+from fairlead.result import Result
+from fairlead.results import MemoryRun, RunDirectory, Signal, Sink
 from fairlead.system.out_of_range import beyond_their_tables
 
 if TYPE_CHECKING:
@@ -207,7 +208,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         sink.finish(_status(outcome), summary)
-    return sink.result()
+    return Result.of(sink.result())
 
 
 def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, Any], *, force: bool) -> Sink:

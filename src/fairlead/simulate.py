@@ -15,10 +15,11 @@ import functools
 import os
 import pathlib
 import time
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Unpack
 
-from fairlead.errors import Fault, ModelError, UsageError
+from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError
 
 if TYPE_CHECKING:
     from fairlead.analysis.statics import Statics
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from fairlead.netlist.includes import Sources
     from fairlead.netlist.keywords import RunKeywords
     from fairlead.netlist.netlist import Netlist
-    from fairlead.results import Result
+    from fairlead.result import Result
     from fairlead.system.system import System
 
 STAGES = ("netlist", "component", "flatten", "system")
@@ -173,14 +174,18 @@ class Model:
         return found
 
     def run(self, out: str | os.PathLike[str] | Place | None = Place.RESULTS, force: bool = False,
-            progress: Progress | None = None, profile: bool = False,
+            progress: Progress | None = None, profile: bool = False, check: bool = True,
             **settings: Unpack[RunKeywords]) -> Result:  # fmt: skip
         """Simulate; results go to the directory `out` (results/NAME when it is not given) as the run goes.
 
         `out=None` touches no disk: the result stays in memory. `settings` replace those of the netlist's `run`
         block (`stop="5 s"`, `accuracy=1e-6`, ...): quantities, or numbers in SI. The model is compiled once, whatever
-        they are and however often it is run. Raises ModelError for settings that a netlist could not have, and for
-        those that the model cannot be run with; UsageError where the results may not go.
+        they are and however often it is run.
+
+        A run that fails or is cut short raises RunError, whose `result` holds what was computed; with `check=False`
+        that result is returned, and `result.ok`, `.status` and `.run["sentence"]` tell how it ended. Remarks on the
+        run (`result.remarks`) are given to `warnings` as RunWarning. Raises ModelError for settings that a netlist
+        could not have, and for those that the model cannot be run with; UsageError where the results may not go.
         """
         from fairlead.netlist.keywords import with_keywords
         from fairlead.run import run
@@ -189,10 +194,15 @@ class Model:
         netlist = with_keywords(self.netlist.run, settings)
         system = self.system
         path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
-        return run(
+        result = run(
             self.netlist, netlist, system, None if path is None else pathlib.Path(path),
             force=force, progress=progress, profile=profile, begun=begun,
         )  # fmt: skip
+        for remark in result.remarks:
+            warnings.warn(remark, RunWarning, stacklevel=2)
+        if check and not result.ok:
+            raise (RunInterrupted if result.status == "interrupted" else RunError)(result)
+        return result
 
     def with_values(self, **values: float | str) -> Model:
         """A model with other values of scene parameters (`mu=0.6`) and settings (`**{"pad.normal_force": "20 N"}`).

@@ -76,7 +76,7 @@ class Play:
             model = fairlead.load(self._file(scene), set={**self._treatment(), **settings})
             self._would_auto(model)
             self.runs += 1
-            result = model.run(out=self.folder / f"run{self.runs}", max_wall=left, **self._engine())
+            result = model.run(out=self.folder / f"run{self.runs}", max_wall=left, check=False, **self._engine())
         except FairleadError as error:
             raise Broken("stopped", f"refused: {error}") from None
         if result.status == "interrupted":

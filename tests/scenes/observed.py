@@ -63,7 +63,7 @@ def every_step(text: str) -> str:
 def observed(model: Any, accuracy: float, engine: str = "rodas", **settings: Any) -> Observed:
     """Run a model. Raises FairleadError when it is refused."""
     settings = {"max_wall": WALL, **settings}
-    result = model.run(out=None, engine=engine, accuracy=accuracy, **settings)
+    result = model.run(out=None, engine=engine, accuracy=accuracy, check=False, **settings)
     names = [signal.name for signal in result.signals]
     values = result.columns()
     return Observed(

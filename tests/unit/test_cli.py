@@ -216,7 +216,7 @@ def test_json_of_a_run_is_its_record_and_directory(command: Command) -> None:
 def test_options_of_a_run_reach_the_model(command: Command) -> None:
     model = StandIn()
     command("run", "belt", "--out", "there", "--force", "--profile", model=model)
-    options = {"out": pathlib.Path("there"), "force": True, "progress": None, "profile": True}
+    options = {"out": pathlib.Path("there"), "force": True, "progress": None, "profile": True, "check": False}
     assert model.calls[-1] == ("run", options)
 
 

@@ -95,7 +95,7 @@ def test_a_controller_that_reads_a_port_by_itself_sees_its_motion(simulate, libr
 )  # fmt: skip
 def test_what_goes_wrong_in_a_controller_ends_the_run_with_its_place(scene, library, tmp_path, change, told):
     model = scene(SCENE, (library(PULLER + COUNTING.replace(*change)),))
-    result = model.run(out=tmp_path / "run")
+    result = model.run(out=tmp_path / "run", check=False)
     assert result.status == "failed"
     reached = result.t[-1] if len(result.t) else 0.0  # some fail in their first sample
     assert reached == pytest.approx(result.run["end_time"])  # and nothing that was computed is lost

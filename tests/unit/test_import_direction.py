@@ -34,7 +34,7 @@ ALLOWED = {
     "interruption": set(),
     "report": {"errors", "quantities", "results", "analysis"},
 }
-LAST = {"", "run", "renewal", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before
+LAST = {"", "result", "run", "renewal", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before
 
 
 def source_files() -> dict[str, pathlib.Path]:

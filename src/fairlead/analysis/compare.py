@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import itertools
 import pathlib
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -19,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fairlead.analysis.treatments import kinds_of_treatment
-from fairlead.errors import FairleadError, Fault, Location, ModelError
+from fairlead.errors import FairleadError, Fault, Location, ModelError, RunWarning
 from fairlead.netlist.settings_file import Setting
 
 if TYPE_CHECKING:
@@ -106,7 +107,9 @@ def _run(
     more = {} if accuracy is None else {"accuracy": max(accuracy, 1e-12)}
     try:
         model = load(settings)
-        result = model.run(out=out, force=True, max_wall=max_wall, **more)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RunWarning)
+            result = model.run(out=out, force=True, max_wall=max_wall, check=False, **more)
     except FairleadError as error:
         return None, str(error)
     if result.status == "finished":

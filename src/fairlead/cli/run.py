@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import warnings
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -9,6 +10,7 @@ import typer
 from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import console, echo
+from fairlead.errors import RunWarning
 
 if TYPE_CHECKING:
     from fairlead import Model, Result
@@ -17,8 +19,6 @@ EXIT_CODES = {"finished": OK, "interrupted": INTERRUPTED, "budget": BUDGET}
 """How the status in run.json ends the process; any other status is a numerical failure."""
 LARGE = 100e6
 """Bytes of results from which on a run says how to have fewer."""
-OPEN = 0.1
-"""An energy ledger that misses more than this share of what passed is not that of a run to be trusted."""
 
 
 def run(
@@ -51,8 +51,9 @@ def run(
 
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
-    with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress:
-        result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile)
+    with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
+        warnings.simplefilter("ignore", RunWarning)  # told below the table
+        result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile, check=False)
     _compare_with_statics(model, result)
     written = _write_extras(model, result, csv=csv, report=report)
     if as_json:
@@ -139,26 +140,7 @@ def _fewer(result: "Result") -> str:
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
     """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
-    from fairlead.analysis.chattering import remark as of_chatter
-    from fairlead.analysis.energy import unjudged
-    from fairlead.analysis.strains import remark
+    from fairlead.analysis.told import told
 
-    for said in outcome.get("remarks") or ():
-        echo(f"warning: {said}", err=True)
-    if outcome["status"] != "finished":
-        echo(f"{outcome['status']}: {outcome.get('sentence', 'the run ended early')}", err=True)
-    reaction = outcome.get("settings", {}).get("chatter", "")
-    if said := of_chatter(outcome.get("chattering", ()), outcome.get("dwell", 0.0), reaction):
-        echo(f"warning: {said}", err=True)
-    closure = (outcome.get("energy") or {}).get("closure")
-    if outcome["status"] == "finished" and closure is not None and not closure <= OPEN:
-        echo(
-            f"warning: the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this "
-            "run. Ask for a finer accuracy, or look for a number far from all others.", err=True,
-        )  # fmt: skip
-    if silent := unjudged(outcome.get("energy")):
-        echo(f"note: {silent}", err=True)
-    if strained := remark(outcome.get("strains")):
-        echo(f"warning: {strained}", err=True)
-    for broken in outcome.get("limits_broken") or ():
-        echo(f"limit broken: {broken}", err=True)
+    for kind, text in told(outcome):
+        echo(f"{outcome['status'] if kind == 'end' else kind}: {text}", err=True)

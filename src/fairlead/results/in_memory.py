@@ -39,18 +39,6 @@ class MemorySeries:
         return self._values[:, [self._position[name] for name in names]]
 
 
-class MemoryResult(Result):
-    """The result of a run that was not written: all that a `Result` can do, but it has no `path`."""
-
-    def __init__(self, run: Mapping[str, Any], series: MemorySeries, events: list[Event]) -> None:
-        """Take the record, the rows and the zone changes of a run."""
-        super().__init__(None, run, series)
-        self._events = events
-
-    def _read_events(self) -> list[Event]:
-        return self._events
-
-
 class MemoryRun(Sink):
     """Keeps the signals and events of one run."""
 
@@ -68,7 +56,8 @@ class MemoryRun(Sink):
         """What was recorded. Raises FairleadError while the run goes on."""
         if self._open:
             raise FairleadError(f"{self._named()} has not finished.")
-        return MemoryResult(run_file.as_read(self._record), MemorySeries(self.signals, self._blocks), self._events)
+        series = MemorySeries(self.signals, self._blocks)
+        return Result(None, run_file.as_read(self._record), series, self._events)
 
     def _take(self, block: Block) -> None:
         self._blocks.append(block)

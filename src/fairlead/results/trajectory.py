@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -80,16 +80,20 @@ class Result:
     damaged are told by name: DamagedResultsError; what else there is can still be read.
     """
 
-    def __init__(self, path: Path | None, run: Mapping[str, Any], series: Series) -> None:
+    def __init__(
+        self, path: Path | None, run: Mapping[str, Any], series: Series, events: list[Event] | None = None
+    ) -> None:  # fmt: skip
+        """Take a run and its rows; `events` are its zone changes where they are not in the directory."""
         self.path = path
         self.run = dict(run)
         self._series = series
+        self._given_events = events
         self._signals = {signal.name: signal for signal in series.signals}
         self._cache: dict[str, NDArray[np.float64]] = {}
         self._own = None if path is None else run_file.Watched(path, run)
 
     @classmethod
-    def open(cls, path: str | Path) -> Result:
+    def open(cls, path: str | Path) -> Self:
         """Open a run directory, of a finished, running, failed or killed run.
 
         Raises UsageError when there is no such directory or no series in it, DamagedResultsError when one of the
@@ -158,6 +162,8 @@ class Result:
         return self._mine(self._read_events)
 
     def _read_events(self) -> list[Event]:
+        if self._given_events is not None:
+            return self._given_events
         require_intact(self.folder / EVENT_FILE, self.run)
         return read_events(self.folder / EVENT_FILE)
 
@@ -181,6 +187,11 @@ class Result:
     def status(self) -> str:
         """How the run ended: finished, interrupted, budget, failed, killed; or running."""
         return str(self.run["status"])
+
+    @property
+    def ok(self) -> bool:
+        """True if the run reached its stop."""
+        return self.status == "finished"
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         return self._columns([name])[:, 0]
