@@ -60,7 +60,8 @@ def run(mu: float, method: str, accuracy: float, elements: int) -> Row:
 
     settings = {"mu": mu, "method": method, "element": f"{15 / elements} m", "run.accuracy": accuracy}
     with tempfile.TemporaryDirectory() as folder:
-        result = fairlead.load("single_bend", set={k: str(v) for k, v in settings.items()}).run(out=f"{folder}/run", check=False)
+        model = fairlead.load("single_bend", set={k: str(v) for k, v in settings.items()})
+        result = model.run(out=f"{folder}/run", check=False)
         return row(result, mu, method, accuracy, elements)
 
 

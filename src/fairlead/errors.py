@@ -98,7 +98,7 @@ class RunError(FairleadError):
         )
 
 
-class RunInterrupted(RunError, KeyboardInterrupt):  # noqa: N818 - as KeyboardInterrupt, which it is
+class RunInterrupted(RunError, KeyboardInterrupt):
     """Ctrl-C during a run: what was computed is in `result`, and whoever handles a KeyboardInterrupt handles this."""
 
 

@@ -17,22 +17,25 @@ import pathlib
 import time
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
+from fairlead.brief import in_a_line
 from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError
 
 if TYPE_CHECKING:
-    from fairlead.analysis.statics import Statics
     from fairlead.component.instantiate import Assembly
     from fairlead.flatten.flat_model import FlatModel
     from fairlead.netlist.includes import Sources
     from fairlead.netlist.keywords import RunKeywords
     from fairlead.netlist.netlist import Netlist
     from fairlead.result import Result
+    from fairlead.statics import StaticsOfLines
     from fairlead.system.system import System
 
 STAGES = ("netlist", "component", "flatten", "system")
+LONGEST_NAME = 60
 Progress = Callable[[float, float, Any], None]
+S = TypeVar("S")
 
 
 class Place(enum.Enum):
@@ -73,7 +76,7 @@ class Model:
         netlist, self._faults = worked_out(sources, overrides)
         if netlist is None:
             raise ModelError(self._faults)
-        self.netlist: Netlist = netlist
+        self.netlist: Netlist = _shown_in_a_line(netlist)
 
     @functools.cached_property
     def assembly(self) -> Assembly:
@@ -84,7 +87,7 @@ class Model:
         assembly, faults = instantiate(self.netlist, known_types(self.libraries))
         if faults or self._faults:
             self.check()
-        return assembly
+        return _shown_in_a_line(assembly)
 
     @functools.cached_property
     def flattened(self) -> FlatModel:
@@ -109,7 +112,7 @@ class Model:
         """The compiled model."""
         from fairlead.system.compile import compile
 
-        return compile(self.flat)
+        return _shown_in_a_line(compile(self.flat))
 
     def check(self) -> list[Fault]:
         """Go through all stages without running; returns warnings, raises ModelError for mistakes.
@@ -139,7 +142,7 @@ class Model:
         if faults:
             faults += without_echoes(untraceable(flat), faults)
         else:
-            self.assembly, self.flattened = assembly, flat
+            self.assembly, self.flattened = _shown_in_a_line(assembly), flat
             try:
                 self.flat = laid_under_statics(flat)
                 assert self.system is not None
@@ -160,18 +163,19 @@ class Model:
 
         return draw(self.flat, format)
 
-    def statics(self, speed: float | None = None) -> list[Statics]:
+    def statics(self, speed: float | None = None) -> StaticsOfLines:
         """Every line on a route, solved for steady motion and for rest; nothing is compiled.
 
         `speed` [m/s] is taken both ways instead of what the references say. Raises UsageError without such a line.
         """
         from fairlead.analysis.statics import statics
+        from fairlead.statics import Statics, StaticsOfLines
 
         found = statics(self.flat, speed)
         if not found:
             what = f"{self.netlist.name} has no line on a route, so there is nothing to solve."
             raise UsageError(f"{what}\n    A line is laid on a route by joining their paths; see docs/routes.md.")
-        return found
+        return StaticsOfLines(map(Statics.of, found))
 
     def run(self, out: str | os.PathLike[str] | Place | None = Place.RESULTS, force: bool = False,
             progress: Progress | None = None, profile: bool = False, check: bool = True,
@@ -227,7 +231,18 @@ class Model:
 
     def __repr__(self) -> str:
         """Name and size of the netlist."""
-        return f"<Model {self.netlist.name}: {len(self.netlist.components)} components>"
+        return f"<Model {self.netlist.name[:LONGEST_NAME]}: {len(self.netlist.components)} components>"
+
+    def _repr_html_(self) -> str:
+        from fairlead.model_page import as_html
+
+        return as_html(self.netlist)
+
+
+def _shown_in_a_line(stage: S) -> S:
+    """The same stage; its class shows itself in a line from now on, since its fields fill many screens."""
+    type(stage).__repr__ = in_a_line  # type: ignore[method-assign]
+    return stage
 
 
 def _as_text(values: Mapping[str, float | str]) -> dict[str, str]:

@@ -89,7 +89,9 @@ def test_warnings_of_runs_can_be_silenced_by_their_category(scene):
 def test_ctrl_c_is_a_run_error_and_a_keyboard_interrupt_with_the_rows_so_far(scene):
     model = scene(BLOCK, **{"run.stop": "1000 s", "run.max_steps": "100000000", "record.every": "1 s"})
 
-    def press(*_, pressed=[]):
+    pressed = []
+
+    def press(*_):
         if not pressed:
             pressed.append(True)
             signal.raise_signal(signal.SIGINT)

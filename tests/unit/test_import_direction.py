@@ -25,16 +25,19 @@ ALLOWED = {
     "netlist": {"errors", "quantities"},
     "component": {"errors", "quantities", "netlist"},
     "components": {"errors", "quantities", "component"},
-    "flatten": {"errors", "quantities", "netlist", "component", "components"},
+    "flatten": {"brief", "errors", "quantities", "netlist", "component", "components"},
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native", "patterns"},
     "integrate": {"errors", "native", "processor"},
-    "results": {"errors", "quantities", "patterns"},
-    "analysis": {"errors", "quantities", "netlist", "component", "flatten", "system", "results", "patterns", "sealed"},
+    "results": {"brief", "errors", "quantities", "patterns"},
+    "analysis": {"brief", "errors", "quantities", "netlist", "component", "flatten", "system", "results", "patterns",
+                 "sealed"},
     "choice": set(),
+    "brief": set(),
     "interruption": set(),
     "report": {"errors", "quantities", "results", "analysis"},
 }
-LAST = {"", "result", "run", "renewal", "simulate", "testing", "cli", "__main__", "models"}  # may import all that lies before
+# May import all that lies before:
+LAST = {"", "model_page", "result", "run", "renewal", "simulate", "statics", "testing", "cli", "__main__", "models"}
 
 
 def source_files() -> dict[str, pathlib.Path]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fairlead.analysis.laid_route import Device, LaidRoute
 from fairlead.analysis.pieces import Laid, bearing, pieces, tail
 from fairlead.analysis.sliding import Piece, beyond
+from fairlead.brief import in_a_line
 
 Range = tuple[float, float]
 ANY: Range = (-math.inf, math.inf)
@@ -20,6 +21,8 @@ ANY: Range = (-math.inf, math.inf)
 @dataclass(frozen=True)
 class HeldPassage:
     """Tensions that can be held in a device [N], at its inboard and its outboard end."""
+
+    __repr__ = in_a_line
 
     name: str
     device: Device | None
@@ -31,6 +34,8 @@ class HeldPassage:
 @dataclass(frozen=True)
 class Held:
     """The line at rest at the time t, when `way` has been paid out. `holds` is false when nothing can hold it."""
+
+    __repr__ = in_a_line
 
     route: LaidRoute
     t: float

@@ -13,6 +13,7 @@ from typing import Any
 from fairlead.analysis.machines import Machine, machine
 from fairlead.analysis.schedule import Schedule, scaled
 from fairlead.analysis.tracing import trace
+from fairlead.brief import in_a_line
 from fairlead.component.along import OfLine, OfRoute
 from fairlead.component.declare import ROTATIONAL
 from fairlead.component.instantiate import Line, PortRef
@@ -28,6 +29,8 @@ class Device:
 
     `clamps` add up to the load of each belt of a deployer [N/m]; None where a signal adds what cannot be told.
     """
+
+    __repr__ = in_a_line
 
     name: str
     begin: float
@@ -78,6 +81,8 @@ def coefficient(curve: Any, slip: float) -> float:
 @dataclass(frozen=True)
 class LaidRoute:
     """One line on one route. `inboard` acts at `first`, where the line leaves the drum or begins."""
+
+    __repr__ = in_a_line
 
     flat: FlatModel
     line: Line

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fairlead.brief import in_a_line
 from fairlead.component.piecewise import PiecewisePolynomial, Sine, linear_table
 from fairlead.component.values import Wave, steady
 
@@ -29,6 +30,8 @@ class Stretch:
 @dataclass(frozen=True)
 class Schedule:
     """A speed over the time of a run; `by` says who gives it."""
+
+    __repr__ = in_a_line
 
     wave: Wave
     begin: float

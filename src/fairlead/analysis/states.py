@@ -10,11 +10,14 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.laid_route import Device, LaidRoute
 from fairlead.analysis.sliding import Piece, beyond
+from fairlead.brief import in_a_line
 
 
 @dataclass(frozen=True)
 class Passage:
     """The line in one device, or in the span between two (`device` None): tension [N] over the route [m]."""
+
+    __repr__ = in_a_line
 
     name: str
     device: Device | None
@@ -74,6 +77,8 @@ class Drive:
 @dataclass(frozen=True)
 class State:
     """One steady state. `speed` and `acceleration` outboard positive; `way` is what was paid out since the start."""
+
+    __repr__ = in_a_line
 
     route: LaidRoute
     t: float

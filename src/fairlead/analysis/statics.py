@@ -23,6 +23,7 @@ from fairlead.analysis.pieces import Laid, bearing, pieces, tail
 from fairlead.analysis.schedule import STILL, Schedule
 from fairlead.analysis.sliding import Piece, along
 from fairlead.analysis.states import Drive, Passage, State
+from fairlead.brief import in_a_line
 from fairlead.flatten.flat_model import FlatModel
 
 POINTS = 33  # along a piece, beside the connectors in it
@@ -33,6 +34,8 @@ WANTED = 1.5  # clamp capacity over the force needed, physics 4.5
 @dataclass(frozen=True)
 class Statics:
     """All states of one line: those its references imply."""
+
+    __repr__ = in_a_line
 
     route: LaidRoute
     schedule: Schedule | None

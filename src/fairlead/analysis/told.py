@@ -35,8 +35,8 @@ def told(run: Mapping[str, Any]) -> Iterator[Told]:
         yield Told("warning", said)
     closure = (run.get("energy") or {}).get("closure")
     if run["status"] == "finished" and closure is not None and not closure <= OPEN:
-        yield Told("warning", f"the energy ledger does not close, {closure:.2g} of what passed is missing: do not "
-                              "trust this run. Ask for a finer accuracy, or look for a number far from all others.")  # fmt: skip
+        missing = f"the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this run."
+        yield Told("warning", f"{missing} Ask for a finer accuracy, or look for a number far from all others.")
     if silent := unjudged(run.get("energy")):
         yield Told("note", silent)
     if strained := of_strains(run.get("strains")):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from fairlead.brief import in_a_line
 from fairlead.component.declare import Domain
 from fairlead.component.instantiate import Assembly, Instance, PortRef
 
@@ -56,6 +57,8 @@ class Group:
 @dataclass(frozen=True)
 class FlatModel:
     """All that is needed to write equations; `str()` lists it."""
+
+    __repr__ = in_a_line
 
     assembly: Assembly
     instances: tuple[Instance, ...]

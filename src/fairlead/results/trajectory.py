@@ -22,11 +22,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
-from fairlead.errors import FairleadError, UsageError, did_you_mean, listing
+from fairlead.errors import FairleadError, UsageError, did_you_mean, listing, shown
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.kept import earlier
+from fairlead.results.kept_lists import Events, RunRecord, Signals
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import require_intact
 from fairlead.results.signal import Signal, matching
@@ -85,7 +86,7 @@ class Result:
     ) -> None:  # fmt: skip
         """Take a run and its rows; `events` are its zone changes where they are not in the directory."""
         self.path = path
-        self.run = dict(run)
+        self.run: dict[str, Any] = RunRecord(run)
         self._series = series
         self._given_events = events
         self._signals = {signal.name: signal for signal in series.signals}
@@ -114,10 +115,10 @@ class Result:
         result._refuse_another()
         return result
 
-    @property
-    def signals(self) -> tuple[Signal, ...]:
+    @cached_property
+    def signals(self) -> Signals:
         """All recorded signals, in the order of recording."""
-        return self._series.signals
+        return Signals(self._series.signals)
 
     @cached_property
     def t(self) -> NDArray[np.float64]:
@@ -157,9 +158,9 @@ class Result:
         return Extremes(float(values[low]), float(self.t[low]), float(values[high]), float(self.t[high]))
 
     @cached_property
-    def events(self) -> list[Event]:
+    def events(self) -> Events:
         """Zone changes in order: (t, component, zone_from, zone_to, guard)."""
-        return self._mine(self._read_events)
+        return Events(self._mine(self._read_events))
 
     def _read_events(self) -> list[Event]:
         if self._given_events is not None:
@@ -306,7 +307,7 @@ class Result:
 
     def __repr__(self) -> str:
         return (
-            f"Result({self._place!r}: {self.run.get('name', 'run')}, {self.status}, {self._reach()}, "
+            f"Result({self._place!r}: {shown(self.run.get('name', 'run'))}, {self.status}, {self._reach()}, "
             f"{len(self.signals)} signals, zone changes: {len(self.events)})"
         )
 

@@ -1,0 +1,68 @@
+"""Lists of a result that may be very long: they show their size and their first entries, and are lists otherwise."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from fairlead.brief import brief
+from fairlead.results.events import Event
+from fairlead.results.signal import Signal
+from fairlead.results.table import Table
+
+if TYPE_CHECKING:
+    import pandas
+
+
+
+class Events(list[Event]):
+    """Zone changes in order, each (t, component, zone_from, zone_to, guard)."""
+
+    def table(self) -> Table:
+        """The same as a table."""
+        return Table(f"{len(self)} zone changes", Event._fields, ("s", "", "", "", ""), tuple(map(tuple, self)))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same with columns t, component, zone_from, zone_to, guard."""
+        return self.table().to_pandas()
+
+    def __repr__(self) -> str:
+        return repr(self.table())
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()
+
+
+class Signals(tuple[Signal, ...]):
+    """Recorded signals, in the order of recording."""
+
+    __slots__ = ()
+
+    def table(self) -> Table:
+        """Names, units and descriptions."""
+        rows = tuple((one.name, one.unit, one.description) for one in self)
+        return Table(f"{len(self)} signals", ("signal", "unit", "description"), ("", "", ""), rows)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same with columns signal, unit, description."""
+        return self.table().to_pandas()
+
+    def __repr__(self) -> str:
+        return repr(self.table())
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()
+
+
+class RunRecord(dict[str, Any]):
+    """The contents of run.json."""
+
+    def table(self) -> Table:
+        """Its entries, long ones by kind and size."""
+        rows = tuple((name, brief(value)) for name, value in self.items())
+        return Table("run.json", ("entry", "value"), ("", ""), rows)
+
+    def __repr__(self) -> str:
+        return repr(self.table())
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()

@@ -1,0 +1,106 @@
+"""A small table: what `result.margins()`, `.limits`, `.energy` and `model.statics()` are made of.
+
+    table["margin"]         a column, as a list
+    table[0]                a row, as a dict; `for row in table` goes through them
+    table.to_pandas()       a pandas.DataFrame; units are in `.attrs["units"]`
+    table                   itself, in a notebook or at a prompt, no longer than a screen
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING, Any, overload
+
+from fairlead.errors import printable
+
+if TYPE_CHECKING:
+    import pandas
+
+MOST_ROWS = 24
+"""Shown of a longer table; all are in `to_pandas()`."""
+WIDEST, WIDEST_CELL = 110, 36
+LONGEST_CELL = 200  # of a page, which breaks lines
+
+
+@dataclass(frozen=True, repr=False)
+class Table:
+    """Rows of equal length under named columns, with the unit of each column ("" for none).
+
+    A cell is a text, a number, True or False, or None where there is nothing to tell.
+    """
+
+    title: str
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    rows: tuple[tuple[Any, ...], ...]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return (dict(zip(self.columns, row, strict=True)) for row in self.rows)
+
+    @overload
+    def __getitem__(self, which: str) -> list[Any]: ...
+    @overload
+    def __getitem__(self, which: int) -> dict[str, Any]: ...
+
+    def __getitem__(self, which: str | int) -> Any:
+        """The column of that name, or the row of that number. Raises KeyError, IndexError."""
+        if isinstance(which, int):
+            return dict(zip(self.columns, self.rows[which], strict=True))
+        if which not in self.columns:
+            raise KeyError(f"{which}: the columns are {', '.join(self.columns)}")
+        at = self.columns.index(which)
+        return [row[at] for row in self.rows]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """All rows; `frame.attrs["units"]` maps columns to units."""
+        import pandas
+
+        frame = pandas.DataFrame(list(self.rows), columns=list(self.columns))
+        frame.attrs["units"] = dict(zip(self.columns, self.units, strict=True))
+        return frame
+
+    def __repr__(self) -> str:
+        named = zip(self.columns, self.units, strict=True)
+        head = [_cut(_text(f"{name} [{unit}]" if unit else name)) for name, unit in named]
+        cells = [head, *([_cut(_text(cell)) for cell in row] for row in self.rows[:MOST_ROWS])]
+        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+        lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
+        lines = [line if len(line) <= WIDEST else f"{line[: WIDEST - 3]}..." for line in lines]
+        return "\n".join([_cut(_text(self.title), WIDEST), *(line.rstrip() for line in lines), *_left_out(self.rows)])
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{escape(name)}{_unit(unit)}</th>" for name, unit in zip(self.columns, self.units))
+        body = "".join(f"<tr>{''.join(f'<td>{escape(_cut(_text(cell), LONGEST_CELL))}</td>' for cell in row)}</tr>"
+                       for row in self.rows[:MOST_ROWS])  # fmt: skip
+        more = "".join(f"<p>{escape(line)}</p>" for line in _left_out(self.rows))
+        title = f"<caption><b>{escape(_cut(_text(self.title), WIDEST))}</b></caption>"
+        return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+def _left_out(rows: Sequence[Any]) -> list[str]:
+    left = len(rows) - MOST_ROWS
+    return [f"... and {left} more rows; .to_pandas() has all {len(rows)}"] if left > 0 else []
+
+
+def _unit(unit: str) -> str:
+    return f" [{escape(unit)}]" if unit else ""
+
+
+def _text(cell: Any) -> str:
+    if cell is None:
+        return ""
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if isinstance(cell, float):
+        return "any" if math.isinf(cell) else f"{cell:.6g}"
+    return " ".join(printable(str(cell)).split())
+
+
+def _cut(text: str, most: int = WIDEST_CELL) -> str:
+    return text if len(text) <= most else f"{text[: most - 3]}..."
