@@ -12,8 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from fairlead.errors import UsageError
+from fairlead.errors import FairleadError, UsageError
+from fairlead.report import figures, page
 from fairlead.results import Result, RunDirectory, Signal, lock, placing, run_file
+from fairlead.results.claim import Claim
 
 SIGNALS = (Signal("block.v", "m/s", "speed of the block"),)
 KILLED = 17
@@ -115,6 +117,54 @@ def test_an_earlier_result_says_that_its_run_was_replaced(tmp_path: Path) -> Non
     (tmp_path / "run.json").unlink()
     with pytest.raises(UsageError, match="is not there any more"):
         assert late.t is None
+
+
+@pytest.mark.parametrize("goes_on", [False, True])
+def test_what_a_run_returns_is_its_own_when_another_takes_the_directory_at_its_end(tmp_path, monkeypatch, goes_on):
+    """The other one waits for the lock, and has it as soon as it is free: there was a KeyError, from its run.json."""
+    run = RunDirectory.create(tmp_path, SIGNALS, {"name": "old"})
+    run.append([0.0], [[1.0]], [0])
+    free = Claim.release
+
+    def taken_at_once(claim: Claim, *, finished: bool) -> None:
+        monkeypatch.setattr(Claim, "release", free)
+        claim.release(finished=finished)
+        if goes_on:
+            others.append(RunDirectory.create(tmp_path, SIGNALS, {"name": "new"}, force=True))
+        else:
+            write(tmp_path, "new", 2.0)
+
+    others: list[RunDirectory] = []
+    monkeypatch.setattr(Claim, "release", taken_at_once)
+    run.finish("finished", {"steps": 3})
+    result = run.result()
+    assert (result.run["name"], result.status, result.run["steps"]) == ("old", "finished", 3)
+    for read in (lambda: result["block.v"], lambda: result.events, lambda: result.folder):
+        with pytest.raises(UsageError, match="was replaced by another one, begun at"):
+            read()
+    for other in others:
+        other.finish("finished", {})
+
+
+def test_a_run_that_goes_on_has_no_result_yet(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path, SIGNALS, {"name": "old"})
+    with pytest.raises(FairleadError, match="has not finished"):
+        run.result()
+    run.finish("finished", {})
+
+
+def test_no_files_are_made_of_a_result_in_the_directory_of_the_run_that_replaced_it(tmp_path: Path) -> None:
+    write(tmp_path, "old", 1.0)
+    early = Result.open(tmp_path)
+    assert contents(early) == OLD  # read, so that a figure could be drawn
+    write(tmp_path, "new", 2.0)
+    for make in (figures.draw, page.write):
+        with pytest.raises(UsageError, match="was replaced by another one"):
+            make(early)
+    with pytest.raises(UsageError, match="was replaced by another one"):
+        early.to_csv(tmp_path / "series.csv")
+    assert not (tmp_path / "series.csv").exists()
+    assert not (tmp_path / "report.html").exists()
 
 
 def test_a_run_that_goes_on_is_not_replaced_by_force(tmp_path: Path) -> None:

@@ -51,6 +51,7 @@ class RunDirectory(Sink):
         self._bytes = 0
         self._flushed = clock.monotonic()
         self._pause = FLUSH_PERIOD
+        self._result: Result | None = None
         run_file.write(self.path, {**self._record, "status": run_file.CLAIMED})
         claimed.clear()
         self._series = SeriesWriter(self.path / SERIES_FILE, signals)
@@ -98,8 +99,14 @@ class RunDirectory(Sink):
         self._pause = max(FLUSH_PERIOD, (self._flushed - start) / LARGEST_SHARE_OF_FLUSHING)
 
     def result(self) -> Result:
-        """What was recorded, read back from the directory."""
-        return Result.open(self.path)
+        """What was recorded, of a run that is finished; also when another run has taken the directory since.
+
+        Raises FairleadError while the run goes on. Signals are read from the directory when they are asked for; those
+        of another run never are.
+        """
+        if self._result is None:
+            raise FairleadError(f"{self._named()} has not finished.")
+        return self._result
 
     def _take(self, block: Block) -> None:
         self._blocks.append(block)
@@ -118,6 +125,7 @@ class RunDirectory(Sink):
             with _disk(self.path):
                 self._own.check()
                 self._write_all(status, summary)
+                self._result = Result.open(self.path)  # as long as nobody else can write here
                 self._claim.release(finished=status == FINISHED)
         finally:
             self._claim.release(finished=False)

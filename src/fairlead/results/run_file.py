@@ -88,7 +88,8 @@ def refuse_another(directory: Path, record: Mapping[str, Any]) -> None:
         begun = shown(now_there.get("started") or "an unknown time")
         raise UsageError(
             f"The run in {directory} was replaced by another one, begun at {begun}.\n"
-            "    Open the directory again, or give each run a directory of its own with --out."
+            "    To read the new one, open the directory again. Next time give each run a directory of its own\n"
+            "    (--out, in Python out=), or keep it in memory (out=None)."
         )
 
 

@@ -170,10 +170,11 @@ class Result:
 
     @property
     def folder(self) -> Path:
-        """The directory of the run. Raises UsageError for a run that stayed in memory."""
+        """The directory of the run. Raises UsageError for a run that stayed in memory, or has been replaced there."""
         if self.path is None:
             what = f"The run of {self.run.get('name', 'this model')} stayed in memory, so it has no folder."
             raise UsageError(f"{what}\n    Run it without out=None, or with out=FOLDER, to have files of it.")
+        self._refuse_another()
         return self.path
 
     def named(self, file: str) -> Path:
@@ -262,6 +263,7 @@ class Result:
         if self.path is None or Path(path).parent.resolve() != self.path.resolve():
             to_csv(self, path, names)
             return
+        self._refuse_another()
         with placing(Path(path)) as part:
             to_csv(self, part, names)
 
