@@ -16,9 +16,12 @@ import os
 import pathlib
 import time
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
+import numpy as np
+
+from fairlead.arguments import Arguments
 from fairlead.brief import in_a_line
 from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError
 
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
     from fairlead.system.system import System
 
 STAGES = ("netlist", "component", "flatten", "system")
+DRAWINGS = ("mermaid", "dot", "svg")
 LONGEST_NAME = 60
 Progress = Callable[[float, float, Any], None]
 S = TypeVar("S")
@@ -44,18 +48,24 @@ class Place(enum.Enum):
     RESULTS = "results/NAME"
 
 
-def load(path: str | os.PathLike[str], set: Mapping[str, str] | None = None, libraries: Iterable[str] = ()) -> Model:
+def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = None,
+         libraries: Iterable[str | os.PathLike[str]] = ()) -> Model:  # fmt: skip
     """Read a netlist, by path or by the name of a bundled model. Raises ModelError with every mistake.
 
-    `set` overrides scene parameters (`mu`) and settings (`pad.normal_force`, `run.stop`); `libraries`
-    are Python files with component classes of the user, whose code is run.
+    `set` overrides scene parameters (`mu`) and settings (`pad.normal_force`, `run.stop`), with texts as after `--set`
+    or numbers in SI; `libraries` are Python files with component classes of the user, whose code is run.
     """
     from fairlead.netlist.load import read
 
+    asked = Arguments("load")
+    asked.path("path", path)
+    asked.values_by_name("set", set)
+    asked.texts("libraries", libraries, '"parts.py"')
+    asked.refuse()
     sources, faults = read(path)
     if sources is None:
         raise ModelError(faults)
-    return Model(sources, dict(set or {}), tuple(libraries))
+    return Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries))
 
 
 class Model:
@@ -153,25 +163,31 @@ class Model:
         return [*remarks(self.flat), *engine_remarks(self.netlist.run, self.system)]
 
     def describe(self, stage: str = "flatten") -> str:
-        """What the model has become after a stage."""
+        """What the model has become after a stage: netlist, component, flatten or system. Raises ModelError."""
+        _one_of("Model.describe", "stage", stage, STAGES)
         return str({"netlist": lambda: self.netlist, "component": lambda: self.assembly,
                     "flatten": lambda: self.flat, "system": lambda: self.system}[stage]())  # fmt: skip
 
     def graph(self, format: str = "mermaid") -> str:
-        """The wiring as Mermaid, DOT or SVG text."""
+        """The wiring as `mermaid`, `dot` or `svg` text. Raises ModelError."""
+        _one_of("Model.graph", "format", format, DRAWINGS)
         from fairlead.flatten.drawing import draw
 
         return draw(self.flat, format)
 
-    def statics(self, speed: float | None = None) -> StaticsOfLines:
+    def statics(self, speed: float | str | None = None) -> StaticsOfLines:
         """Every line on a route, solved for steady motion and for rest; nothing is compiled.
 
-        `speed` [m/s] is taken both ways instead of what the references say. Raises UsageError without such a line.
+        `speed` (`"0.5 m/s"`, or a number of m/s) is taken both ways instead of what the references say. Raises
+        UsageError without such a line.
         """
         from fairlead.analysis.statics import statics
         from fairlead.statics import Statics, StaticsOfLines
 
-        found = statics(self.flat, speed)
+        asked = Arguments("Model.statics")
+        given = None if speed is None else asked.above_zero("speed", speed, "m/s")
+        asked.refuse()
+        found = statics(self.flat, given)
         if not found:
             what = f"{self.netlist.name} has no line on a route, so there is nothing to solve."
             raise UsageError(f"{what}\n    A line is laid on a route by joining their paths; see docs/routes.md.")
@@ -195,7 +211,16 @@ class Model:
         from fairlead.run import run
 
         begun = time.perf_counter()
-        netlist = with_keywords(self.netlist.run, settings)
+        asked = Arguments("Model.run")
+        asked.path("out", "results" if isinstance(out, Place) else out, none="None to keep the result in memory")
+        for name, value in (("force", force), ("profile", profile), ("check", check)):
+            asked.yes_or_no(name, value)
+        asked.function("progress", progress, ("the fraction done", "the time reached [s]", "None"))
+        try:
+            netlist = with_keywords(self.netlist.run, settings)
+        except ModelError as error:
+            raise ModelError([*asked.faults, *error.faults]) from None
+        asked.refuse()
         system = self.system
         path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
         result = run(
@@ -218,6 +243,9 @@ class Model:
         """
         from fairlead.renewal import renew
 
+        asked = Arguments("Model.with_values")
+        asked.values_by_name("values", values)
+        asked.refuse()
         new = Model(self._sources, {**self._overrides, **_as_text(values)}, self.libraries)
         if new._faults:
             new.check()
@@ -245,9 +273,18 @@ def _shown_in_a_line(stage: S) -> S:
     return stage
 
 
+def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
+    """Raise ModelError for a word that is not among those allowed."""
+    asked = Arguments(call)
+    asked.one_of(name, value, allowed)
+    asked.refuse()
+
+
 def _as_text(values: Mapping[str, float | str]) -> dict[str, str]:
     """Values as a command line has them; a text keeps its place, if it knows it."""
-    return {name: value if isinstance(value, str) else str(value) for name, value in values.items()}
+    texts = {True: "true", False: "false"}
+    return {name: value if isinstance(value, str) else texts[bool(value)] if isinstance(value, bool | np.bool_) else
+            str(value) for name, value in values.items()}  # fmt: skip
 
 
 def _in_order(faults: Iterable[Fault]) -> list[Fault]:

@@ -29,10 +29,11 @@ ALLOWED = {
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native", "patterns"},
     "integrate": {"errors", "native", "processor"},
     "results": {"brief", "errors", "quantities", "patterns"},
-    "analysis": {"brief", "errors", "quantities", "netlist", "component", "flatten", "system", "results", "patterns",
-                 "sealed"},
+    "analysis": {"arguments", "brief", "errors", "quantities", "netlist", "component", "flatten", "system", "results",
+                 "patterns", "sealed"},
     "choice": set(),
     "brief": set(),
+    "arguments": {"errors", "quantities"},
     "interruption": set(),
     "report": {"errors", "quantities", "results", "analysis"},
 }

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fairlead.analysis.treatments import kinds_of_treatment
+from fairlead.arguments import Arguments
 from fairlead.errors import FairleadError, Fault, Location, ModelError, RunWarning
 from fairlead.netlist.settings_file import Setting
 
@@ -59,15 +60,20 @@ class Comparison:
 
 def compare(
     load: Load, vary: Mapping[str, Sequence[str]], *, settings: Mapping[str, str] | None = None,
-    out: str | pathlib.Path = "results/compare", signals: str = "*", max_wall: float = 60.0,
+    out: str | pathlib.Path = "results/compare", signals: str = "*",
+    max_wall: float | str = 60.0,
 ) -> Comparison:  # fmt: skip
     """Run every combination of the values in `vary` on the model that `load(settings)` gives.
 
-    A run ends after `max_wall` seconds at the latest.
+    A run ends after `max_wall` (`"2 min"`, or seconds) at the latest.
 
     The reference is exact hold at a hundredth of the accuracy where the treatment is varied, else the first
     combination. Raises ModelError for every mistake in what is varied, before anything runs.
     """
+    asked = Arguments("compare")
+    asked.path("out", out)
+    wall = asked.above_zero("max_wall", max_wall, "s")
+    asked.refuse()
     folder, fixed = pathlib.Path(out), dict(settings or {})
     vary = {name: [Setting(value, VARIED) for value in values] for name, values in vary.items()}
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
@@ -75,12 +81,12 @@ def compare(
     kinds = kinds_of_treatment(load({**fixed, **chosen[0]}))
     exact = {name: kinds.exact if name.split(".")[-1] == kinds.key else values[0] for name, values in vary.items()}
     accuracy = load({**fixed, **exact}).netlist.run.accuracy
-    reference, failed = _run(load, {**fixed, **exact}, folder / "reference", max_wall, accuracy * FINER)
+    reference, failed = _run(load, {**fixed, **exact}, folder / "reference", wall, accuracy * FINER)
     if reference is not None and reference.status != "finished":
         reference = None
     rows = []
     for number, values in enumerate(chosen):
-        result, row = _run(load, {**fixed, **values}, folder / f"run{number}", max_wall, None)
+        result, row = _run(load, {**fixed, **values}, folder / f"run{number}", wall, None)
         rows.append(_row(", ".join(values.values()), result, row, reference, signals))
     label = f"{', '.join(exact.values())} at accuracy {max(accuracy * FINER, 1e-12):g}"
     return Comparison(

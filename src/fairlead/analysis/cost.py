@@ -41,6 +41,7 @@ from fairlead.analysis.mesh_errors import MeshErrors
 from fairlead.analysis.references import References
 from fairlead.analysis.study import Reference, Row, Study
 from fairlead.analysis.timed_run import Load
+from fairlead.arguments import Arguments
 
 TIGHTER = 1e-2  # accuracy of references over the smallest of the ladder
 TIGHTEST = 1e-9
@@ -48,20 +49,24 @@ PROBE = 0.04  # share of the budget in which a scene must finish, or else it is 
 
 
 def cost(
-    load: Load, ladder: Ladder | None = None, *, budget: float = 60.0, signals: Sequence[str] = ("*",),
+    load: Load, ladder: Ladder | None = None, *, budget: float | str = 60.0, signals: Sequence[str] = ("*",),
     kept: KeptRuns | None = None, libraries: Iterable[str] = (), full: bool = False, note: Note | None = None,
 ) -> Study:  # fmt: skip
-    """Study a scene within `budget` seconds. Raises ModelError, UsageError when the scene or the ladder is wrong.
+    """Study a scene within `budget` (`"2 min"`, or seconds).
 
+    Raises ModelError, UsageError when the scene, the ladder or the budget is wrong.
     `signals` are patterns of the recorded outputs to compare; `kept` holds runs made before; with `full` the span is
     never shortened; `note` is told what is being done.
     """
+    asked = Arguments("cost")
+    seconds = asked.above_zero("budget", budget, "s")
+    asked.refuse()
     ladder = checked(ladder or Ladder())
     model = load({})
     names, units, all_names = outputs(model, signals)
     span = (model.netlist.run.start, model.netlist.run.stop)
     tight = max(TIGHTEST, TIGHTER * min(ladder.accuracies))
-    runs = BoxedRuns(load, model.netlist.digest, names, span, budget, tight, kept or KeptRuns(None),
+    runs = BoxedRuns(load, model.netlist.digest, names, span, seconds, tight, kept or KeptRuns(None),
                      tuple(libraries), full, note or (lambda _: None))  # fmt: skip
     made = Study(model.netlist.name, span, True, names, units)
     references = References(runs, units, made.remarks)

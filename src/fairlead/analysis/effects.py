@@ -26,6 +26,7 @@ from fairlead.analysis.kept_runs import KeptRuns, key_of
 from fairlead.analysis.sameness import same
 from fairlead.analysis.switches import Switch, all_off, switches
 from fairlead.analysis.timed_run import BRIEF, Load, Timed, in_turns, on_grid, timed_run
+from fairlead.arguments import Arguments
 from fairlead.errors import FairleadError, NumericalError
 
 SHARE = 0.1  # of the budget that the scene as it is may take; a longer one is looked at over less time
@@ -52,30 +53,33 @@ class Effects:
 
 
 def effects(
-    load: Load, *, budget: float = 60.0, signals: Sequence[str] = ("*",), kept: KeptRuns | None = None,
+    load: Load, *, budget: float | str = 60.0, signals: Sequence[str] = ("*",), kept: KeptRuns | None = None,
     libraries: Iterable[str] = (), note: Note | None = None,
 ) -> Effects:  # fmt: skip
-    """Switch all that a scene can switch, within `budget` seconds; laws compiled for the first time are not counted.
+    """Switch all that a scene can switch, within `budget` (`"2 min"`, or seconds), beside compiling new laws.
 
     Raises ModelError, UsageError for a wrong scene or pattern, NumericalError when the scene as it is does not run.
     """
+    asked = Arguments("effects")
+    seconds = asked.above_zero("budget", budget, "s")
+    asked.refuse()
     model = load({})
     names, units, _ = outputs(model, signals)
     run = model.netlist.run
     note = note or (lambda _: None)
     note("the scene as it is")
     runner = _Runner(load, kept or KeptRuns(None), model.netlist.digest, tuple(libraries), names, (run.start, run.stop))
-    base, whole = runner.run({}, SHARE * budget), True
-    runner.end = time.perf_counter() + budget
+    base, whole = runner.run({}, SHARE * seconds), True
+    runner.end = time.perf_counter() + seconds
     runner.compiled = {block.kernel.variant for block in model.system.blocks}
     if base.status == "budget" and base.reached > run.start:
         runner.span = (run.start, run.start + float(f"{0.9 * (base.reached - run.start):.1g}"))
-        base, whole = runner.run({}, budget), False
+        base, whole = runner.run({}, seconds), False
     if not base.finished:
         raise NumericalError(f"{model.netlist.name} itself does not run: {base.reason or base.status}")
     found = Effects(model.netlist.name, runner.span, whole, base, Size.of(model.system), 0.0)
     try:
-        tight = runner.run({"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}, budget)
+        tight = runner.run({"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}, seconds)
         if tight.finished:
             off = worst(output_errors(names, units, base.values, tight.values))
             found.floor = off.relative if off is not None else 0.0

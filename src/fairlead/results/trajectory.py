@@ -13,6 +13,7 @@ How it is used:
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -94,12 +95,14 @@ class Result:
         self._own = None if path is None else run_file.Watched(path, run)
 
     @classmethod
-    def open(cls, path: str | Path) -> Self:
+    def open(cls, path: str | os.PathLike[str]) -> Self:
         """Open a run directory, of a finished, running, failed or killed run.
 
         Raises UsageError when there is no such directory or no series in it, DamagedResultsError when one of the
         two cannot be read.
         """
+        if not isinstance(path, str | os.PathLike):
+            raise UsageError(f"Result.open: path = {shown(path)} is not a path.\n    {run_file.GIVE}")
         path = Path(path)
         run = run_file.load(path)
         status = run_file.status(path, run)
@@ -223,7 +226,11 @@ class Result:
 
         Raises FairleadError for a time that the run did not reach.
         """
-        times, values = np.asarray(t, dtype="f8"), self[name]
+        values = self[name]
+        try:
+            times = np.asarray(t, dtype="f8")
+        except (TypeError, ValueError):
+            raise UsageError(f"t = {shown(t)} is no time: give a number of seconds, or an array of them.") from None
         if not len(self.t) or not np.all((times >= self.t[0]) & (times <= self.t[-1])):
             reached = f"from {self.t[0]:g} s to {self.t[-1]:g} s" if len(self.t) else "at no time"
             raise FairleadError(f"{name} was recorded {reached}; there is no value at t = {times} s.")
@@ -240,20 +247,20 @@ class Result:
 
         return pandas.DataFrame(self.events, columns=list(Event._fields))
 
-    def to_xarray(self, names: Iterable[str] | None = None) -> xarray.Dataset:
-        """Return the signals (all, or those named) as a dataset along `time`, with units and `side`."""
+    def to_xarray(self, names: str | Iterable[str] | None = None) -> xarray.Dataset:
+        """Return the signals (all, or those of a name or pattern) as a dataset along `time`, with `side`."""
         from fairlead.results.export import to_xarray
 
-        return to_xarray(self, names)
+        return to_xarray(self, self._chosen(names))
 
-    def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
-        """Return the signals (all, or those named) as columns over time [s]; units are in `.attrs`."""
+    def to_pandas(self, names: str | Iterable[str] | None = None) -> pandas.DataFrame:
+        """Return the signals (all, or those of a name or pattern) as columns over time [s]; units are in `.attrs`."""
         from fairlead.results.export import to_pandas
 
-        return to_pandas(self, names)
+        return to_pandas(self, self._chosen(names))
 
-    def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
-        """Write the signals (all, or those named) with units in the header; every digit is kept.
+    def to_csv(self, path: str | Path, names: str | Iterable[str] | None = None) -> None:
+        """Write the signals (all, or those of a name or pattern) with units in the header; every digit is kept.
 
         In the run directory a link of that name is replaced, and what it points to stays as it is.
         """
@@ -261,15 +268,15 @@ class Result:
         from fairlead.results.placing import placing
 
         if self.path is None or Path(path).parent.resolve() != self.path.resolve():
-            to_csv(self, path, names)
+            to_csv(self, path, self._chosen(names))
             return
         self._refuse_another()
         with placing(Path(path)) as part:
-            to_csv(self, part, names)
+            to_csv(self, part, self._chosen(names))
 
-    def columns(self, names: Iterable[str] | None = None) -> NDArray[np.float64]:
-        """Return several signals (all, or those named) side by side, (n, m)."""
-        return self._columns(list(self._signals) if names is None else list(names))
+    def columns(self, names: str | Iterable[str] | None = None) -> NDArray[np.float64]:
+        """Return several signals (all, or those of a name or pattern) side by side, (n, m)."""
+        return self._columns(self._chosen(names))
 
     def _columns(self, names: list[str]) -> NDArray[np.float64]:
         missing = list(dict.fromkeys(self._signal(name).name for name in names if name not in self._cache))
@@ -297,7 +304,23 @@ class Result:
         if self._own is not None:
             self._own.check()
 
+    def _chosen(self, names: str | Iterable[str] | None) -> list[str]:
+        """The names of signals: all, one or several, each a name or a pattern. Raises UnknownSignalError."""
+        if names is None:
+            return list(self._signals)
+        given = [names] if isinstance(names, str) else list(names)
+        found = [one for each in given
+                 for one in ([each] if each in self._signals else self._fitting(each))]  # fmt: skip
+        return list(dict.fromkeys(found))
+
+    def _fitting(self, pattern: str) -> list[str]:
+        if not isinstance(pattern, str) or not (found := matching(self._signals, pattern)):
+            return [self._signal(pattern).name]
+        return found
+
     def _signal(self, name: str) -> Signal:
+        if not isinstance(name, str):
+            raise UnknownSignalError(f"{shown(name)} is not the name of a signal, which is a text.")
         if name in self._signals:
             return self._signals[name]
         several = matching(self._signals, name)
