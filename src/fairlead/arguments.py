@@ -72,6 +72,10 @@ class Arguments:
             self.faults.append(Fault(self.place, f"{name} = {error.what}", error.allowed))
             return math.nan
 
+    def pair(self, name: str, value: object, example: str) -> None:
+        """Not two numbers in rising order, which is a mistake."""
+        self._wrong(name, value, "are not two numbers, the first below the second", f"Write it as {example}.")
+
     def one_of(self, name: str, value: object, allowed: Collection[str]) -> None:
         """One of some words."""
         if value not in allowed:

@@ -2,13 +2,25 @@
 
     result = fairlead.load("belt").run()
     result["block.x"]           everything of `fairlead.results.Result`: signals, events, exports
-    result.remarks              what the run has to say beside its numbers
+    result.margins()            how near it came to the limits of its lines
+    result.limits               those of the netlist, with what came nearest
+    result.energy               where the energy went
+    result.switches()           who changed zone how often
+    result.plot("block.*")      a figure
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import fairlead.results as results
 from fairlead.analysis.told import remarks
+from fairlead.results.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class Result(results.Result):
@@ -26,3 +38,53 @@ class Result(results.Result):
     def remarks(self) -> tuple[str, ...]:
         """What the run has to say: what `check` would remark, chatter, an open energy ledger, broken limits."""
         return remarks(self.run)
+
+    def margins(self) -> Table:
+        """How near the lines came to what they bear, by station and over the run, with time and place of the worst.
+
+        Columns: line, station ("line" over all of it), quantity, value, unit, margin (what it bears over what it had;
+        None where nothing is asked), t [s], signal, place [m]. What was not recorded is named under the table. Raises
+        DamagedResultsError.
+        """
+        from fairlead.analysis.result_tables import margins
+
+        return margins(self)
+
+    @property
+    def limits(self) -> Table:
+        """The limits of the netlist: signal, what is allowed, the value that came nearest, when, and if it is broken.
+
+        Raises DamagedResultsError.
+        """
+        from fairlead.analysis.result_tables import limits
+
+        return limits(self)
+
+    @property
+    def energy(self) -> Table:
+        """The ledger of the run [J]: supplied, dissipated, stored, lost in impacts by part, and what is missing."""
+        from fairlead.analysis.result_tables import energy
+
+        return energy(self)
+
+    def switches(self, pattern: str = "*") -> Table:
+        """Zone changes counted by component and zones: how many, the first and the last time [s].
+
+        `pattern` picks components (`line.outer[*]`). Those that changed most come first.
+        """
+        from fairlead.analysis.result_tables import switches
+
+        return switches(self, pattern)
+
+    def plot(
+        self, names: str | Iterable[str] | None = None, *, title: str = "",
+        between: tuple[float, float] | None = None, file: str | Path | None = None,
+    ) -> Figure:  # fmt: skip
+        """Draw signals (all, or those of names or patterns) over time, a panel for each unit; a matplotlib Figure.
+
+        A notebook shows it. Elements of a line share a colour scale, zone changes are ticks at the top. `between`
+        limits the time [s], `file` also writes it (PNG, SVG or PDF). Raises UnknownSignalError, UsageError.
+        """
+        from fairlead.report.plot import plot
+
+        return plot(self, self.chosen(names), title, between, file)

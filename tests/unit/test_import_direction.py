@@ -35,7 +35,7 @@ ALLOWED = {
     "brief": set(),
     "arguments": {"errors", "quantities"},
     "interruption": set(),
-    "report": {"errors", "quantities", "results", "analysis"},
+    "report": {"arguments", "errors", "quantities", "results", "analysis"},
 }
 # May import all that lies before:
 LAST = {"", "model_page", "result", "run", "renewal", "simulate", "statics", "testing", "cli", "__main__", "models"}

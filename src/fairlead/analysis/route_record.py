@@ -33,5 +33,6 @@ def _record(laid: LaidRoute) -> dict[str, Any]:
     return {
         "line": laid.line.path, "route": laid.route.path, "layers": list(line.layers), "outer": line.outer,
         "nodes": line.mesh.elements + 1, "ruck_force": line.ruck_force, "side_wall": line.side_wall,
-        "stations": stations, "rigid_from": rigid_from if math.isfinite(rigid_from) else None,
+        "places": list(line.mesh.places), "stations": stations,
+        "rigid_from": rigid_from if math.isfinite(rigid_from) else None,
     }  # fmt: skip

@@ -81,20 +81,21 @@ def draw(result: Result, plots: Iterable[Any] = ()) -> list[Path]:
             mark = {"Software": "fairlead"}
             # Figure.savefig draws twice, the first time for the layout alone, which the second finds by itself.
             drawn = io.BytesIO()
-            FigureCanvasAgg(_figure(result, picture)).print_png(drawn, metadata=mark, pil_kwargs=FAST)
+            FigureCanvasAgg(figure_of(result, picture)).print_png(drawn, metadata=mark, pil_kwargs=FAST)
             place(path, drawn.getvalue())
             paths.append(path)
     return paths
 
 
-def _figure(result: Result, picture: Picture) -> Figure:
+def figure_of(result: Result, picture: Picture, kind: Any = None) -> Figure:
+    """Draw one figure, of the class `kind`."""
     from matplotlib.figure import Figure
 
     about = {signal.name: signal for signal in result.signals}
     signals = [about[name] for name in picture.signals]
     panels = _by_family(signals) if picture.map else _by_unit(signals)
     height = TITLE_HEIGHT + PANEL_HEIGHT * len(panels)
-    figure = Figure(figsize=(WIDTH, height), dpi=DOTS_PER_INCH, layout="constrained")
+    figure: Figure = (kind or Figure)(figsize=(WIDTH, height), dpi=DOTS_PER_INCH, layout="constrained")
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, shown in zip(axes, panels, strict=True):
         if picture.map:

@@ -5,17 +5,21 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.errors import UsageError, shown
 from fairlead.results.layout import SIDE, SIDE_SIGNAL, TIME
 from fairlead.results.signal import Signal
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+Side = Literal["left", "right", "both"]
+SIDES = get_args(Side)
 
 
 class Record(Protocol):
@@ -42,35 +46,51 @@ class Record(Protocol):
         """Return the unit of a signal."""
 
 
-def to_xarray(result: Record, names: Iterable[str] | None = None) -> xarray.Dataset:
+def rows_of(result: Record, side: Side) -> NDArray[np.int64]:
+    """The numbers of the rows that an export has: all (`both`), or of several at one time the first or the last.
+
+    Raises UsageError for another word.
+    """
+    if side not in SIDES:
+        raise UsageError(f"side = {shown(side)} is none of {', '.join(SIDES)}.")
+    new = np.diff(result.t) > 0.0
+    if side == "both" or not len(result.t):
+        return np.arange(len(result.t))
+    return np.flatnonzero(np.append(new, True) if side == "right" else np.append(True, new))
+
+
+def to_xarray(result: Record, names: Iterable[str] | None = None, side: Side = "both") -> xarray.Dataset:
     """Return signals along the coordinate `time`, one variable each, with `units` and `long_name`.
 
-    Time repeats at an event; `side` tells the two rows apart. Select one of them before
-    interpolating, for instance `data.isel(time=data.side.values >= 0)`.
+    Time repeats at an event; `side` tells the two rows apart. With `left` or `right` every time occurs once, with the
+    values before or after the event, as `interp`, `reindex` and `sel(method="nearest")` want it.
     """
     import xarray
 
-    chosen = _chosen(result, names)
+    chosen, rows = _chosen(result, names), rows_of(result, side)
     about = {signal.name: signal for signal in result.signals}
     variables = {
         name: (TIME, values, {"units": about[name].unit, "long_name": about[name].description or name})
-        for name, values in zip(chosen, result.columns(chosen).T, strict=True)
+        for name, values in zip(chosen, result.columns(chosen)[rows].T, strict=True)
     }
     coordinates = {
-        TIME: (TIME, result.t, {"units": "s", "long_name": "time"}),
-        SIDE: (TIME, result.side, {"long_name": SIDE_SIGNAL.description}),
+        TIME: (TIME, result.t[rows], {"units": "s", "long_name": "time"}),
+        SIDE: (TIME, result.side[rows], {"long_name": SIDE_SIGNAL.description}),
     }
     simple = {key: value for key, value in result.run.items() if isinstance(value, str | int | float)}
     return xarray.Dataset(variables, coordinates, attrs=simple)
 
 
-def to_pandas(result: Record, names: Iterable[str] | None = None) -> pandas.DataFrame:
-    """Return signals as columns, indexed by time [s]; `frame.attrs["units"]` maps names to units."""
+def to_pandas(result: Record, names: Iterable[str] | None = None, side: Side = "both") -> pandas.DataFrame:
+    """Return signals as columns, indexed by time [s]; `frame.attrs["units"]` maps names to units.
+
+    With `side` left or right every time occurs once, with the values before or after an event.
+    """
     import pandas
 
-    chosen = _chosen(result, names)
-    index = pandas.Index(result.t, name="time [s]")
-    frame = pandas.DataFrame(result.columns(chosen), index=index, columns=chosen)
+    chosen, rows = _chosen(result, names), rows_of(result, side)
+    index = pandas.Index(result.t[rows], name="time [s]")
+    frame = pandas.DataFrame(result.columns(chosen)[rows], index=index, columns=chosen)
     frame.attrs["units"] = {name: result.unit(name) for name in chosen}
     return frame
 

@@ -69,6 +69,7 @@ class Route(_Entry):
     side_wall: FiniteFloat | None
     stations: list[Station]
     rigid_from: FiniteFloat | None = None
+    places: Annotated[list[FiniteFloat], Field(max_length=MOST_NODES)] = []
 
 
 class Limit(_Entry):

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 24
 """Shown of a longer table; all are in `to_pandas()`."""
 WIDEST, WIDEST_CELL = 110, 36
+MOST_NOTES = 6
 LONGEST_CELL = 200  # of a page, which breaks lines
 
 
@@ -36,6 +37,8 @@ class Table:
     columns: tuple[str, ...]
     units: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]
+    notes: tuple[str, ...] = ()
+    """What is to be said of it, shown below."""
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -72,15 +75,19 @@ class Table:
         widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
         lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
         lines = [line if len(line) <= WIDEST else f"{line[: WIDEST - 3]}..." for line in lines]
-        return "\n".join([_cut(_text(self.title), WIDEST), *(line.rstrip() for line in lines), *_left_out(self.rows)])
+        return "\n".join([_cut(_text(self.title), WIDEST), *(line.rstrip() for line in lines), *self._below()])
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{escape(name)}{_unit(unit)}</th>" for name, unit in zip(self.columns, self.units))
         body = "".join(f"<tr>{''.join(f'<td>{escape(_cut(_text(cell), LONGEST_CELL))}</td>' for cell in row)}</tr>"
                        for row in self.rows[:MOST_ROWS])  # fmt: skip
-        more = "".join(f"<p>{escape(line)}</p>" for line in _left_out(self.rows))
+        more = "".join(f"<p>{escape(line)}</p>" for line in self._below())
         title = f"<caption><b>{escape(_cut(_text(self.title), WIDEST))}</b></caption>"
         return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+    def _below(self) -> list[str]:
+        notes = [_cut(f"note: {_text(note)}", WIDEST) for note in self.notes[:MOST_NOTES]]
+        return [*_left_out(self.rows), *notes]
 
 
 def _left_out(rows: Sequence[Any]) -> list[str]:

@@ -17,7 +17,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,18 +27,19 @@ from fairlead.errors import FairleadError, UsageError, did_you_mean, listing, sh
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
+from fairlead.results.export import Side
 from fairlead.results.kept import earlier
 from fairlead.results.kept_lists import Events, RunRecord, Signals
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import require_intact
 from fairlead.results.signal import Signal, matching
 from fairlead.results.store import SERIES_FILE
+from fairlead.results.table import Table
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-Side = Literal["left", "right", "both"]
 T = TypeVar("T")
 
 
@@ -247,17 +248,56 @@ class Result:
 
         return pandas.DataFrame(self.events, columns=list(Event._fields))
 
-    def to_xarray(self, names: str | Iterable[str] | None = None) -> xarray.Dataset:
-        """Return the signals (all, or those of a name or pattern) as a dataset along `time`, with `side`."""
+    def to_xarray(self, names: str | Iterable[str] | None = None, side: Side = "both") -> xarray.Dataset:
+        """Return the signals (all, or those of a name or pattern) as a dataset along `time`, with units.
+
+        The time of an event occurs twice, and `side` tells the rows apart. With `side="right"` (or `"left"`) every
+        time occurs once, with the values after (before) the event, as `interp`, `reindex` and `sel(method="nearest")`
+        want it. Raises UnknownSignalError, UsageError.
+        """
         from fairlead.results.export import to_xarray
 
-        return to_xarray(self, self._chosen(names))
+        return to_xarray(self, self.chosen(names), side)
 
-    def to_pandas(self, names: str | Iterable[str] | None = None) -> pandas.DataFrame:
-        """Return the signals (all, or those of a name or pattern) as columns over time [s]; units are in `.attrs`."""
+    def to_pandas(self, names: str | Iterable[str] | None = None, side: Side = "both") -> pandas.DataFrame:
+        """Return the signals (all, or those of a name or pattern) as columns over time [s]; units are in `.attrs`.
+
+        `side` as in `to_xarray`. Raises UnknownSignalError, UsageError.
+        """
         from fairlead.results.export import to_pandas
 
-        return to_pandas(self, self._chosen(names))
+        return to_pandas(self, self.chosen(names), side)
+
+    def to_excel(self, path: str | Path, names: str | Iterable[str] | None = None, side: Side = "both") -> None:
+        """Write a workbook with sheets for signals, zone changes and the run; wants the extra `fairlead[excel]`.
+
+        `side` as in `to_xarray`. Raises UsageError when openpyxl is missing or a sheet is too small.
+        """
+        from fairlead.results.excel import to_excel
+
+        self._refuse_another()
+        to_excel(self, path, self.chosen(names), side)
+
+    def elements(self, pattern: str, side: Side = "both") -> xarray.DataArray:
+        """Return the elements of a line (`line.hose[*].tension`) as one array by `time` and `element`.
+
+        Of a line on a route it has the coordinates `along` [m], the place along the line without load, and, where the
+        positions of the line were recorded, `place` [m] on the route. `side` as in `to_xarray`. Raises UsageError for
+        a pattern of several families, UnknownSignalError.
+        """
+        from fairlead.results.elements import elements
+
+        return elements(self, pattern, side)
+
+    def families(self) -> Table:
+        """Return a table of what `elements` can give: family, unit, how many, the first and the last number."""
+        from fairlead.results.elements import families
+
+        return families(self)
+
+    def run_table(self) -> Table:
+        """Return the entries of run.json as a table, long ones by kind and size."""
+        return RunRecord(self.run).table()
 
     def to_csv(self, path: str | Path, names: str | Iterable[str] | None = None) -> None:
         """Write the signals (all, or those of a name or pattern) with units in the header; every digit is kept.
@@ -268,15 +308,15 @@ class Result:
         from fairlead.results.placing import placing
 
         if self.path is None or Path(path).parent.resolve() != self.path.resolve():
-            to_csv(self, path, self._chosen(names))
+            to_csv(self, path, self.chosen(names))
             return
         self._refuse_another()
         with placing(Path(path)) as part:
-            to_csv(self, part, self._chosen(names))
+            to_csv(self, part, self.chosen(names))
 
     def columns(self, names: str | Iterable[str] | None = None) -> NDArray[np.float64]:
         """Return several signals (all, or those of a name or pattern) side by side, (n, m)."""
-        return self._columns(self._chosen(names))
+        return self._columns(self.chosen(names))
 
     def _columns(self, names: list[str]) -> NDArray[np.float64]:
         missing = list(dict.fromkeys(self._signal(name).name for name in names if name not in self._cache))
@@ -304,7 +344,7 @@ class Result:
         if self._own is not None:
             self._own.check()
 
-    def _chosen(self, names: str | Iterable[str] | None) -> list[str]:
+    def chosen(self, names: str | Iterable[str] | None) -> list[str]:
         """The names of signals: all, one or several, each a name or a pattern. Raises UnknownSignalError."""
         if names is None:
             return list(self._signals)
