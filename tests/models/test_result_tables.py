@@ -69,7 +69,7 @@ def test_an_element_is_found_by_time_and_by_its_place(route):
 def test_what_is_not_one_family_is_refused_by_name(route, belt):
     with pytest.raises(UsageError, match=r"stands for 2 families of elements: .*hose.*core.*\n.*families\(\)"):
         route.elements("line.*.tension")
-    with pytest.raises(UsageError, match="block.x stands for no elements"):
+    with pytest.raises(UsageError, match=r"block\.x stands for no elements"):
         belt.elements("block.x")
     with pytest.raises(FairleadError, match="was not recorded"):
         route.elements("line.hoose[*].tension")

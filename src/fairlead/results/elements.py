@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import fairlead.results.run_file as run_file
 import fairlead.results.run_schema as run_schema
 from fairlead.errors import UsageError, listing
-from fairlead.results.export import Side, rows_of
+from fairlead.results.export import Record, Side, rows_of
 from fairlead.results.layout import SIDE, SIDE_SIGNAL, TIME
 from fairlead.results.signal import family
 from fairlead.results.table import Table
@@ -22,12 +22,10 @@ from fairlead.results.table import Table
 if TYPE_CHECKING:
     import xarray
 
-    from fairlead.results.trajectory import Result
-
 ELEMENT, ALONG, PLACE = "element", "along", "place"
 
 
-def families(result: Result) -> Table:
+def families(result: Record) -> Table:
     """A row for each family of signals: `line.hose[*].tension`, its unit, how many there are, which."""
     found: dict[str, list[int]] = {}
     units = {}
@@ -40,7 +38,7 @@ def families(result: Result) -> Table:
     return Table("elements", ("family", "unit", "count", "first", "last"), ("",) * 5, rows)
 
 
-def elements(result: Result, pattern: str, side: Side = "both") -> xarray.DataArray:
+def elements(result: Record, pattern: str, side: Side = "both") -> xarray.DataArray:
     """The signals of one family by `time` and `element`.
 
     Coordinates: `element`, the numbers; of a line on a route also `along` [m], the place along the line without load
@@ -65,7 +63,7 @@ def elements(result: Result, pattern: str, side: Side = "both") -> xarray.DataAr
     return made.set_xindex(ALONG) if ALONG in coordinates else made
 
 
-def _members(result: Result, pattern: str) -> tuple[str, dict[int, str]]:
+def _members(result: Record, pattern: str) -> tuple[str, dict[int, str]]:
     """The family that a pattern picks, and its signals by number in rising order."""
     found: dict[str, dict[int, str]] = {}
     for name in result.chosen(pattern):
@@ -80,7 +78,7 @@ def _members(result: Result, pattern: str) -> tuple[str, dict[int, str]]:
     return name, dict(sorted(members.items()))
 
 
-def _places(result: Result, name: str, numbers: NDArray[np.int64], rows: NDArray[np.int64]) -> dict[str, Any]:
+def _places(result: Record, name: str, numbers: NDArray[np.int64], rows: NDArray[np.int64]) -> dict[str, Any]:
     """Coordinates along the line and on its route, as far as they are known."""
     for record in run_schema.routes(result.named(run_file.RUN_FILE), result.run):
         child = name.removeprefix(f"{record['line']}.").partition("[")[0]
@@ -96,7 +94,7 @@ def _places(result: Result, name: str, numbers: NDArray[np.int64], rows: NDArray
 
 
 def _on_route(
-    result: Result, record: dict[str, Any], numbers: NDArray[np.int64], rows: NDArray[np.int64], of_elements: bool
+    result: Record, record: dict[str, Any], numbers: NDArray[np.int64], rows: NDArray[np.int64], of_elements: bool
 ) -> dict[str, Any]:
     """Where elements (their middles) or nodes are on the route at every time; nothing when that was not recorded."""
     ends = (numbers, numbers + 1) if of_elements else (numbers,)

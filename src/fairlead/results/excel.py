@@ -5,20 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fairlead.errors import UsageError, printable
-from fairlead.results.export import Side, rows_of
+from fairlead.results.export import Record, Side, rows_of
 from fairlead.results.placing import placing
-
-if TYPE_CHECKING:
-    from fairlead.results.trajectory import Result
 
 MOST_ROWS, MOST_COLUMNS, LONGEST_TEXT = 1_048_576, 16_384, 32_767
 """What a sheet holds (Microsoft, Excel specifications and limits)."""
 
 
-def to_excel(result: Result, path: str | Path, names: Sequence[str], side: Side = "both") -> None:
+def to_excel(result: Record, path: str | Path, names: Sequence[str], side: Side = "both") -> None:
     """Write the sheets `signals` (time and side first, units in the header), `events` and `run`.
 
     Raises UsageError when openpyxl is missing, or the signals do not fit on a sheet.

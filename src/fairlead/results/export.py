@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.errors import UsageError, shown
+from fairlead.results.kept_lists import Events
 from fairlead.results.layout import SIDE, SIDE_SIGNAL, TIME
 from fairlead.results.signal import Signal
+from fairlead.results.table import Table
 
 if TYPE_CHECKING:
     import pandas
@@ -42,8 +44,24 @@ class Record(Protocol):
     def columns(self, names: Iterable[str] | None = None) -> NDArray[np.float64]:
         """Return signals side by side (n, m)."""
 
+    @property
+    def events(self) -> Events:
+        """Zone changes in order."""
+
     def unit(self, name: str) -> str:
         """Return the unit of a signal."""
+
+    def chosen(self, names: str | Iterable[str] | None) -> list[str]:
+        """Return the names of signals that names or patterns pick."""
+
+    def named(self, file: str) -> Path:
+        """Return what messages call a file of the run."""
+
+    def run_table(self) -> Table:
+        """Return the entries of run.json."""
+
+    def __contains__(self, name: object) -> bool:
+        """Tell whether a signal was recorded."""
 
 
 def rows_of(result: Record, side: Side) -> NDArray[np.int64]:
