@@ -25,10 +25,11 @@ class Trip(Component, abstract=True):
     trips = Discrete("1", "1 when tripped.")
     reference = Output("1", "The reference, or zero.")
     tripped = Output("1", "1 when tripped.")
+    waiting = Output("s", "Time for which the limit has been broken.")
 
-    def law(p, target, trips):
+    def law(p, target, trips, broken_for):
         """Let the reference through, or not."""
-        return Law(reference=(1 - trips) * target, tripped=trips)
+        return Law(reference=(1 - trips) * target, tripped=trips, waiting=broken_for)
 
 
 def judged(p, broken, broken_for, trips):

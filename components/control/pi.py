@@ -37,6 +37,7 @@ class Pi(Component, abstract=True):
     tracking_time = Parameter("s", "T_t of the anti-windup; half of T_i when not given.", default=None, above=0)
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
+    integral = Output("1", "I, which the controller has gathered.")
 
     def check(p):
         """There is something between the limits."""
@@ -56,41 +57,41 @@ class ContinuousPi(Pi):
     """
 
     smoothing = Parameter("s", "Lag of the command.", default=1e-3, above=0)
-    integral = State("1", "I.", nominal=0.1)
+    summed = State("1", "I.", nominal=0.1)
     applied = State("1", "Command.", nominal=0.1)
     zones = Zones("within", "above", "below")
 
     @zone("within", "above", "below")
-    def controlling(p, reference, measured, ahead, integral, applied, zone):
+    def controlling(p, reference, measured, ahead, summed, applied, zone):
         """What is wanted is limited; what that leaves out is taken from the integral."""
-        error, wanted = reference - measured, wanted_of(p, reference, measured, ahead, integral)
+        error, wanted = reference - measured, wanted_of(p, reference, measured, ahead, summed)
         behind = {"above": p.high, "below": p.low}.get(zone, wanted) - applied
         if p.slew is None:
             rate = behind / p.smoothing
         else:
             rate = p.slew * tanh(behind / (p.slew * p.smoothing))
         gathered = p.gain / p.integral_time * error + (applied - wanted) / p.tracking
-        return Law(integral=gathered, applied=rate, command=applied, error=error)
+        return Law(summed=gathered, applied=rate, command=applied, error=error, integral=summed)
 
     @guard("*", to="above", unit="1")
-    def rises_above(p, reference, measured, ahead, integral):
+    def rises_above(p, reference, measured, ahead, summed):
         """More than the largest command is wanted."""
-        return wanted_of(p, reference, measured, ahead, integral) - p.high
+        return wanted_of(p, reference, measured, ahead, summed) - p.high
 
     @guard("*", to="below", unit="1")
-    def falls_below(p, reference, measured, ahead, integral):
+    def falls_below(p, reference, measured, ahead, summed):
         """Less than the smallest is wanted."""
-        return p.low - wanted_of(p, reference, measured, ahead, integral)
+        return p.low - wanted_of(p, reference, measured, ahead, summed)
 
     @guard("above", to="within", unit="1")
-    def comes_down(p, reference, measured, ahead, integral):
+    def comes_down(p, reference, measured, ahead, summed):
         """Within the limits again."""
-        return p.high - wanted_of(p, reference, measured, ahead, integral)
+        return p.high - wanted_of(p, reference, measured, ahead, summed)
 
     @guard("below", to="within", unit="1")
-    def comes_up(p, reference, measured, ahead, integral):
+    def comes_up(p, reference, measured, ahead, summed):
         """Within the limits again."""
-        return wanted_of(p, reference, measured, ahead, integral) - p.low
+        return wanted_of(p, reference, measured, ahead, summed) - p.low
 
 
 def wanted_of(p, reference, measured, ahead, integral):
@@ -112,22 +113,22 @@ class PiController(Pi):
     delay = Choice(("sample", "none"), "Whether the value measured is one sample old.", default="sample")
     initial = Parameter("1", "Value measured before the start.", default=0.0)
     seen = Discrete("1", "Value measured one sample ago.", start="initial")
-    integral = Discrete("1", "I.")
+    summed = Discrete("1", "I.")
     applied = Discrete("1", "Command.")
     used = Discrete("1", "Error that the command was computed from.")
 
-    def law(p, applied, used):
+    def law(p, applied, used, summed):
         """Held between samples."""
-        return Law(command=applied, error=used)
+        return Law(command=applied, error=used, integral=summed)
 
     @sampled(every="period")
-    def sample(p, reference, measured, ahead, seen, integral, applied):
+    def sample(p, reference, measured, ahead, seen, summed, applied):
         """One sample."""
         value = seen if p.delay == "sample" else measured
-        error, wanted = reference - value, wanted_of(p, reference, value, ahead, integral)
+        error, wanted = reference - value, wanted_of(p, reference, value, ahead, summed)
         command = clip(wanted, p.low, p.high)
         if p.slew is not None:
             most = p.slew * p.period
             command = clip(command, applied - most, applied + most)
         gathered = p.gain / p.integral_time * error + (command - wanted) / p.tracking
-        return Law(seen=measured, integral=integral + p.period * gathered, applied=command, used=error)
+        return Law(seen=measured, summed=summed + p.period * gathered, applied=command, used=error)

@@ -19,22 +19,23 @@ class TensionTrim(Component):
     most = Parameter("m/s", "Largest trim.", above=0)
     period = Parameter("s", "Time between samples.", default=0.01, above=0)
     seen = Discrete("N", "Tension one sample ago.", start="wanted")
-    integral = Discrete("m/s", "I.")
+    summed = Discrete("m/s", "I.")
     held = Discrete("m/s", "Reference.")
     reference = Output("m/s", "Speed that the winch is to have.")
+    integral = Output("m/s", "I, which the controller has gathered.")
 
-    def law(p, held):
+    def law(p, held, summed):
         """Held between samples."""
-        return Law(reference=held)
+        return Law(reference=held, integral=summed)
 
     @sampled(every="period")
-    def sample(p, line_speed, tension, seen, integral):
+    def sample(p, line_speed, tension, seen, summed):
         """PI on the tension, added to the speed."""
         error = seen - p.wanted
-        asked = p.gain * error + integral
+        asked = p.gain * error + summed
         trim = clip(asked, -p.most, p.most)
         gathered = p.gain / p.integral_time * error + 2 * (trim - asked) / p.integral_time
-        return Law(seen=tension, integral=integral + p.period * gathered, held=line_speed + trim)
+        return Law(seen=tension, summed=summed + p.period * gathered, held=line_speed + trim)
 
 
 class TensionTorque(Component):

@@ -25,6 +25,7 @@ class PmTorque(Component, abstract=True):
     constant = Parameter("N*m/A", "K, torque per current (q axis) and voltage per speed.", above=0)
     resistance = Parameter("ohm", "R of the winding.", default=0.0, least=0)
     current, torque = Output("A", "Current."), Output("N*m", "Torque on the shaft.")
+    integral = Output("A", "Integral of the current controller, which is the current as long as nothing limits it.")
 
 
 class IdealPm(PmTorque):
@@ -60,41 +61,41 @@ class PmMotor(PmTorque):
     inductance = Parameter("V*s/A", "L of the winding.", default=1e-3, above=0)
     most_voltage = Parameter("V", "Voltage of the supply.", default=48.0, above=0)
     flowing = State("A", "Current.")
-    integral = State("A", "Integral of the current controller.")
+    summed = State("A", "Integral of the current controller.")
     zones = Zones("in_range", "upper", "lower")
 
     @zone("in_range", "upper", "lower")
-    def driving(p, shaft, wanted, flowing, integral, zone):
+    def driving(p, shaft, wanted, flowing, summed, zone):
         """At a limit the integral follows the current that flows."""
         error, back = wanted - flowing, p.constant * shaft.speed
-        free = back + p.inductance / p.lag * error + p.resistance * integral
+        free = back + p.inductance / p.lag * error + p.resistance * summed
         voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, free)
         rate = (voltage - p.resistance * flowing - back) / p.inductance
-        catching = error / p.lag if zone == "in_range" else (flowing - integral) / p.lag
+        catching = error / p.lag if zone == "in_range" else (flowing - summed) / p.lag
         torque = p.constant * flowing
-        return Law(shaft=-torque, flowing=rate, integral=catching, current=flowing, torque=torque,
+        return Law(shaft=-torque, flowing=rate, summed=catching, integral=summed, current=flowing, torque=torque,
                    stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
                    supplied=voltage * flowing)  # fmt: skip
 
     @guard("*", to="upper", unit="V")
-    def runs_out(p, shaft, wanted, flowing, integral):
+    def runs_out(p, shaft, wanted, flowing, summed):
         """The controller wants more than the supply has."""
-        return voltage_wanted(p, shaft, wanted, flowing, integral) - p.most_voltage
+        return voltage_wanted(p, shaft, wanted, flowing, summed) - p.most_voltage
 
     @guard("*", to="lower", unit="V")
-    def runs_out_backward(p, shaft, wanted, flowing, integral):
+    def runs_out_backward(p, shaft, wanted, flowing, summed):
         """The same the other way."""
-        return -voltage_wanted(p, shaft, wanted, flowing, integral) - p.most_voltage
+        return -voltage_wanted(p, shaft, wanted, flowing, summed) - p.most_voltage
 
     @guard("upper", to="in_range", unit="V")
-    def comes_back(p, shaft, wanted, flowing, integral):
+    def comes_back(p, shaft, wanted, flowing, summed):
         """The supply has enough again."""
-        return p.most_voltage - voltage_wanted(p, shaft, wanted, flowing, integral)
+        return p.most_voltage - voltage_wanted(p, shaft, wanted, flowing, summed)
 
     @guard("lower", to="in_range", unit="V")
-    def comes_back_backward(p, shaft, wanted, flowing, integral):
+    def comes_back_backward(p, shaft, wanted, flowing, summed):
         """The same the other way."""
-        return p.most_voltage + voltage_wanted(p, shaft, wanted, flowing, integral)
+        return p.most_voltage + voltage_wanted(p, shaft, wanted, flowing, summed)
 
     def fastest(p):
         """All the voltage of the supply, without current and without speed."""
@@ -105,7 +106,7 @@ class PmMotor(PmTorque):
 def pm_law(p, shaft, current, **own):
     """Law of a motor at a current."""
     torque, lost = p.constant * current, p.resistance * current**2
-    return Law(shaft=-torque, current=current, torque=torque, dissipated=lost,
+    return Law(shaft=-torque, current=current, torque=torque, integral=current, dissipated=lost,
                supplied=torque * shaft.speed + lost, **own)  # fmt: skip
 
 

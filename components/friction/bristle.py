@@ -86,6 +86,7 @@ class Bristle(OneFormula):
     seed = Count("Seed of the random numbers; the same gives the same sites.", default=1, least=0)
     moved = State("m", "Slip since the start.", nominal="presliding")
     deflection = Output("m", "Mean stretch of the bonds.")
+    slid = Output("m", "Slip since the start.")
 
     @derived
     def level(p):
@@ -110,13 +111,14 @@ class Bristle(OneFormula):
     def on(p, a, b, moved, grip):
         """All bonds pull."""
         slip, mean = b.v - a.v, mean_stretch(p, moved)
-        return opposing(slip, grip * p.ratio * mean + drag(p, slip), moved=slip, deflection=mean, creep_rate=0)
+        pull = grip * p.ratio * mean + drag(p, slip)
+        return opposing(slip, pull, moved=slip, deflection=mean, slid=moved, creep_rate=0)
 
     @zone("off")
     def off(p, a, b, moved):
         """No force passes."""
         slip = b.v - a.v
-        return Law(a=0, b=0, moved=slip, slip=slip, deflection=mean_stretch(p, moved))
+        return Law(a=0, b=0, moved=slip, slip=slip, deflection=mean_stretch(p, moved), slid=moved)
 
     def check(p):
         """There must be bonds, and a level that they can have; the curve stays where it is."""

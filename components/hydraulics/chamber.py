@@ -46,6 +46,7 @@ class PistonChamber(Component, abstract=True):
     fluid = Part(Fluid, "What fills it.", default="oil")
     level = Output("Pa", "Pressure on the piston.")
     force = Output("N", "Force that pushes the rod out.")
+    void = Output("m^3", "Volume without oil.")
 
     def start(p):
         """Pressure at the start, where given."""
@@ -86,7 +87,7 @@ class FullChamber(PistonChamber):
 
     def law(p, port, body, rod, oil):
         """Only compressed."""
-        return chamber_law(p, port, body, rod, oil)
+        return chamber_law(p, port, body, rod, oil, void=0)
 
 
 class Chamber(PistonChamber):
@@ -94,20 +95,20 @@ class Chamber(PistonChamber):
 
     cavitation = Effect("Pressure does not fall below zero; a void opens and closes.", off=FullChamber)
     oil = State("Pa", "Pressure on the piston.", start="first")
-    void = State("m^3", "Volume without oil.")
+    empty = State("m^3", "Volume without oil.")
     zones = Zones("full", "cavitating")
 
     @zone("full")
     def full(p, port, body, rod, oil):
         """Only compressed."""
-        return chamber_law(p, port, body, rod, oil, void=0)
+        return chamber_law(p, port, body, rod, oil, empty=0, void=0)
 
     @zone("cavitating")
-    def cavitating(p, port, body, rod, oil):
+    def cavitating(p, port, body, rod, oil, empty):
         """The piston leaves the oil behind, at no pressure."""
         speed = (1 if p.side == "cap" else -1) * (rod.v - body.v)
         flow = throttled(p.conductance, port.pressure, CRITICAL)
-        return Law(port=flow, rod=0, body=0, level=0, force=0, oil=-oil / LAG, void=p.area * speed - flow,
+        return Law(port=flow, rod=0, body=0, level=0, force=0, oil=-oil / LAG, empty=p.area * speed - flow, void=empty,
                    dissipated=flow * port.pressure)  # fmt: skip
 
     @guard("full", to="cavitating", unit="Pa")
@@ -116,12 +117,12 @@ class Chamber(PistonChamber):
         return -oil
 
     @guard("cavitating", to="full", unit="1")
-    def closes(p, port, body, rod, oil, void):
+    def closes(p, port, body, rod, oil, empty):
         """The void is filled, and more flows in than the piston gives room for."""
         speed = (1 if p.side == "cap" else -1) * (rod.v - body.v)
         flow = throttled(p.conductance, port.pressure, CRITICAL)
         more = (flow - p.area * speed) / (p.conductance * CRITICAL**0.5)
-        return -void / p.dead_volume, more, (oil + NOTHING) / CRITICAL
+        return -empty / p.dead_volume, more, (oil + NOTHING) / CRITICAL
 
 
 class RigidChamber(Component):
@@ -134,9 +135,10 @@ class RigidChamber(Component):
     area = Parameter("m^2", "Area of the piston.", above=0)
     level = Output("Pa", "Pressure on the piston.")
     force = Output("N", "Force that pushes the rod out.")
+    void = Output("m^3", "Volume without oil.")
 
     def law(p, port, body, rod):
         """Flow is area times speed, force area times pressure; nothing is lost."""
         area = p.area if p.side == "cap" else -p.area
         push = area * port.pressure
-        return Law(port=area * (rod.v - body.v), rod=-push, body=push, level=port.pressure, force=push)
+        return Law(port=area * (rod.v - body.v), rod=-push, body=push, level=port.pressure, force=push, void=0)

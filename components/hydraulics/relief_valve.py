@@ -16,17 +16,18 @@ class ReliefValve(Component):
     setting = Parameter("Pa", "Difference at which it opens.", above=0)
     slope = Parameter("m^3/s/Pa", "Flow per pressure above the setting.", above=0)
     lag = Parameter("s", "Time constant of the poppet.", default=0.01, above=0)
-    lift = State("Pa", "Pressure above the setting that the poppet has followed.", least=0.0)
+    raised = State("Pa", "Pressure above the setting that the poppet has followed.", least=0.0)
     flow = Output("m^3/s", "Flow from a to b.")
+    lift = Output("Pa", "Pressure above the setting that the poppet has followed.")
     zones = Zones("closed", "open")
 
     @zone("closed", "open")
-    def poppet(p, a, b, lift, zone):
+    def poppet(p, a, b, raised, zone):
         """The poppet follows the pressure above the setting."""
         drop = a.pressure - b.pressure
         wanted = drop - p.setting if zone == "open" else 0
-        flow = p.slope * lift * drop / sqrt(drop**2 + CRITICAL**2)
-        return Law(a=flow, b=-flow, lift=(wanted - lift) / p.lag, flow=flow, dissipated=flow * drop)
+        flow = p.slope * raised * drop / sqrt(drop**2 + CRITICAL**2)
+        return Law(a=flow, b=-flow, raised=(wanted - raised) / p.lag, flow=flow, lift=raised, dissipated=flow * drop)
 
     @guard("closed", to="open", unit="Pa")
     def opens(p, a, b):

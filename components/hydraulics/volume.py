@@ -33,6 +33,7 @@ class Enclosed(Component, abstract=True):
                          physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     level = Output("Pa", "Pressure.")
+    void = Output("m^3", "Volume without oil.")
 
     def start(p):
         """Pressure at the start."""
@@ -48,7 +49,7 @@ class FullVolume(Enclosed):
     def law(p, port):
         """The capacity is an entry of the mass matrix, see `inertia`."""
         stored = p.volume / p.fluid.bulk_modulus * port.pressure**2 / 2
-        return Law(port=0, level=port.pressure, stored=stored)
+        return Law(port=0, level=port.pressure, void=0, stored=stored)
 
     def inertia(p):
         """Capacity at the port [m^3/Pa]."""
@@ -63,7 +64,7 @@ class CavitatingVolume(Enclosed):
     """
 
     cavitation = Effect("Pressure does not fall below zero; a void opens and closes.", off=FullVolume)
-    void = State("m^3", "Volume without oil.")
+    empty = State("m^3", "Volume without oil.")
     zones = Zones("full", "cavitating")
 
     def inertia(p):
@@ -71,11 +72,11 @@ class CavitatingVolume(Enclosed):
         return {"port": p.volume / p.fluid.bulk_modulus}
 
     @zone("full", "cavitating")
-    def both(p, port, void, zone):
+    def both(p, port, empty, zone):
         """The void gives (takes back) its volume at a pressure that differs from zero by nearly nothing."""
         capacity = p.volume / p.fluid.bulk_modulus
         given = -capacity / LAG * port.pressure if zone == "cavitating" else 0
-        return Law(port=-given, void=given, level=port.pressure, stored=capacity * port.pressure**2 / 2,
+        return Law(port=-given, empty=given, void=empty, level=port.pressure, stored=capacity * port.pressure**2 / 2,
                    dissipated=-given * port.pressure)  # fmt: skip
 
     @guard("full", to="cavitating", unit="Pa")
@@ -84,9 +85,9 @@ class CavitatingVolume(Enclosed):
         return -port.pressure
 
     @guard("cavitating", to="full", unit="1")
-    def closes(p, port, void):
+    def closes(p, port, empty):
         """The void is filled, and more flows in."""
-        return -void / p.volume, port.pressure / REFERENCE
+        return -empty / p.volume, port.pressure / REFERENCE
 
 
 class Volume(Enclosed):
@@ -118,4 +119,4 @@ class Volume(Enclosed):
         air = p.air_share * REFERENCE / (n - 1) * exp(log_pressure * (n - 1) / n)
         lifted = inflow * LAG * p.fluid.bulk_modulus / p.volume
         return Law(port=inflow, inflow=port.pressure - pressure - lifted, log_pressure=inflow / compliance,
-                   level=pressure, stored=p.volume * (oil + air), dissipated=inflow * lifted)  # fmt: skip
+                   level=pressure, void=0, stored=p.volume * (oil + air), dissipated=inflow * lifted)  # fmt: skip

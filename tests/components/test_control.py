@@ -147,7 +147,7 @@ def test_sampling_that_is_off_is_the_limit_of_short_samples(scene, simulate, pla
     assert errors[1] < 0.4 * errors[0]
     model = scene(text, plant)
     assert not model.system.memory["sampled"].size
-    assert "control.integral" in model.system.unknown_names
+    assert "control.summed" in model.system.unknown_names
     on = scene(text, plant, **{"effects.sampling": "on"}).system
     assert not [name for name in on.unknown_names if name.startswith("control")]
 

@@ -114,8 +114,8 @@ def test_a_cylinder_drive_with_an_effect_off_is_the_limit_of_on(simulate, effect
 
 UNKNOWNS = {
     "valve_dynamics": {"drive.spool.position", "drive.spool.speed"},
-    "compressibility": {f"drive.volume_{side}.{name}" for side in "ab" for name in ("pressure", "void")},
-    "cavitation": {"drive.volume_a.void", "drive.volume_b.void"},
+    "compressibility": {f"drive.volume_{side}.{name}" for side in "ab" for name in ("pressure", "empty")},
+    "cavitation": {"drive.volume_a.empty", "drive.volume_b.empty"},
     "motor_friction": {"drive.rubbing.contact.force"},
     "leakage": set(),
 }
