@@ -9,6 +9,7 @@ import re
 import shlex
 import subprocess
 import sys
+import warnings
 
 import jsonschema
 import pytest
@@ -61,6 +62,15 @@ def test_every_command_shown_ends_well(page: str, tmp_path: pathlib.Path, monkey
     for line in lines:
         answer = CliRunner().invoke(app, shlex.split(line)[1:])
         assert answer.exit_code == 0, answer.output
+
+
+def test_the_page_on_python_runs_from_the_top(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    code = [text for name, language, text in blocks("python") if language == "python" and not name]
+    assert len(code) >= 7
+    with warnings.catch_warnings():
+        exec("\n".join(code), {})
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("name", ["bungee.py", "bumper.py", "relaxing.py", "chain.py"])

@@ -143,3 +143,34 @@ def test_an_installed_wheel_takes_a_component_from_a_users_file(elsewhere: Elsew
     assert "hardening" in elsewhere.fairlead("describe", "HardeningSpring", "--library", "parts.py")
     elsewhere.fairlead("run", "own.yaml", "--library", "parts.py", "--out", "own result")
     assert (elsewhere.user / "own result" / "run.json").is_file()
+
+
+USES_IT = """
+import fairlead
+
+reveal_type(fairlead.load("belt").run(out=None))
+fairlead.load("belt").run(acuracy=1e-2)
+reveal_type(fairlead.RunError)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mode", ["wheel", "editable"])
+def test_a_type_checker_resolves_an_installed_and_an_editable_package(tmp_path: pathlib.Path, mode: str) -> None:
+    """The editable one as docs/python.md installs it: mypy cannot follow the import hook of setuptools' usual mode."""
+    pytest.importorskip("mypy", reason="mypy comes with the extra lint")
+    venv.create(tmp_path / "env", with_pip=True)
+    place = Elsewhere(tmp_path)
+    place.user.mkdir()
+    fetch = [place.python, "-m", "pip", "download", "--no-deps", "--dest", tmp_path / "fetched", "setuptools"]
+    if subprocess.run(fetch, capture_output=True).returncode:
+        pytest.skip("no package index can be reached")
+    wheel = build_wheel(tmp_path)
+    strict = ("--config-settings", "editable_mode=strict", "--editable", tmp_path / "sources")
+    place.call("-m", "pip", "install", "--quiet", "--no-deps", *((wheel,) if mode == "wheel" else strict))
+    (place.user / "use.py").write_text(USES_IT, encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--python-executable", place.python, "--cache-dir", tmp_path, "use.py"]
+    said = subprocess.run(command, cwd=place.user, capture_output=True, text=True).stdout
+    assert 'Revealed type is "fairlead.result.Result"' in said, said
+    assert 'Unexpected keyword argument "acuracy" for "run" of "Model"; did you mean "accuracy"?' in said
+    assert said.count("error:") == 1
