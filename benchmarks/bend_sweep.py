@@ -51,7 +51,7 @@ def run(mu: float, tension: float, treatment: str, stop: float = STOP) -> dict[s
     import fairlead
 
     settings = {"mu": str(mu), "line.tension": f"{tension} N", "tow.force": f"{tension} N", "run.stop": f"{stop} s",
-                "run.max_wall": PATIENCE, **TREATMENTS[treatment]}  # fmt: skip
+                "run.max_wall": PATIENCE, "line.ruck_force": "null", **TREATMENTS[treatment]}  # fmt: skip
     begun = time.process_time()
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")

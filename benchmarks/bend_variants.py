@@ -64,7 +64,7 @@ def by_fairlead(change: dict[str, float], method: str, stop: float, out: Path) -
     """The result of a variant, in a new folder `out`. Raises SystemExit when it does not finish."""
     import fairlead
 
-    given = {**settings(change), "method": method, "run.stop": f"{stop} s"}
+    given = {**settings(change), "line.ruck_force": "null", "method": method, "run.stop": f"{stop} s"}
     result = fairlead.load("single_bend", set=given).run(out=out, check=False)
     if result.status != "finished":
         raise SystemExit(result.run["sentence"])

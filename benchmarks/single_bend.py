@@ -58,7 +58,8 @@ def run(mu: float, method: str, accuracy: float, elements: int) -> Row:
     """Simulate 20 s and draw up the row."""
     import fairlead
 
-    settings = {"mu": mu, "method": method, "element": f"{15 / elements} m", "run.accuracy": accuracy}
+    settings = {"line.ruck_force": "null", "mu": mu, "method": method,
+                "element": f"{15 / elements} m", "run.accuracy": accuracy}  # fmt: skip
     with tempfile.TemporaryDirectory() as folder:
         model = fairlead.load("single_bend", set={k: str(v) for k, v in settings.items()})
         result = model.run(out=f"{folder}/run", check=False)

@@ -50,6 +50,15 @@ class Result(results.Result):
 
         return margins(self)
 
+    def rucks(self) -> Table:
+        """Whether each line that is watched for rucking does: where and when first, or its margin.
+
+        Raises DamagedResultsError.
+        """
+        from fairlead.analysis.result_tables import rucks
+
+        return rucks(self)
+
     @property
     def limits(self) -> Table:
         """The limits of the netlist: signal, what is allowed, the value that came nearest, when, and if it is broken.

@@ -18,6 +18,7 @@ from fairlead.analysis.creep import WorstCreep
 from fairlead.analysis.energy import Ledger, judged
 from fairlead.analysis.event_rows import EventRows, Rows
 from fairlead.analysis.extremes import Extremes
+from fairlead.analysis.friction_record import friction_record
 from fairlead.analysis.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.limits import Limits, read_limits
 from fairlead.analysis.released_together import ReleasedTogether
@@ -295,7 +296,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "effects_in_force": system.flat.assembly.effects,
         "build": str(processor()),
         "unknowns": system.n, "machines": len(system.zones),
-        "record_every": netlist.record.every,
+        "record_every": netlist.record.every, "friction": friction_record(system.flat),
         "remarks": [str(remark) for remark in (*remarks(system.flat), *engine_remarks(settings, system))],
         "routes": route_records(system.flat),
     }  # fmt: skip

@@ -220,7 +220,7 @@ def test_a_new_friction_shares_the_structure(name, path, value):
 
 @pytest.mark.parametrize(("name", "path", "value", "why"), [
     ("hundred_blocks", "blocks", 101, "other components"),
-    ("single_bend", "method", "hold", "of another kind"),
+    ("single_bend", "method", "binding", "of another kind"),
     ("single_bend", "element", "0.5 m", "other components"),
     ("belt", "effects.energy", "off", "energy is not counted now"),
     ("guidance_route_ideal", "route.stations[0].radius", "0.6 m", "moves with other bodies, or otherwise"),
@@ -262,8 +262,9 @@ def test_parts_made_again_are_not_counted_as_more_parts_of_the_scene():
 
 
 def test_values_add_up_along_a_chain_of_models():
-    chain = model_of("single_bend").with_values(mu=0.5).with_values(creep="0.2 mm/s").with_values(mu=0.4)
-    same(chain.system, fairlead.load("single_bend", set={"mu": "0.4", "creep": "0.2 mm/s"}).system)
+    chain = model_of("single_bend").with_values(method="binding")
+    chain = chain.with_values(mu=0.5).with_values(creep="0.2 mm/s").with_values(mu=0.4)
+    same(chain.system, fairlead.load("single_bend", set={"method": "binding", "mu": "0.4", "creep": "0.2 mm/s"}).system)
 
 
 def test_the_first_model_stays_as_it_was():

@@ -8,6 +8,7 @@ from typing import Any
 from fairlead.analysis.limits_again import judged
 from fairlead.analysis.margins import LineMargins, StationMargins, Worst
 from fairlead.analysis.margins import margins as of_lines
+from fairlead.analysis.ruck import sentence, verdicts
 from fairlead.errors import UsageError, did_you_mean
 from fairlead.results import Result
 from fairlead.results.signal import matching
@@ -39,6 +40,15 @@ def _row(line: LineMargins, station: StationMargins, quantity: str) -> tuple[Any
     bears = margin(station) if margin is not None else None
     place = (worst.t, worst.signal, worst.place)
     return (line.line, station.name, quantity, worst.value, QUANTITIES[quantity], bears, *place)
+
+
+def rucks(result: Result) -> Table:
+    """A row for each line with a `ruck_force`. Raises DamagedResultsError."""
+    units = {"line": "", "rucks": "", "ruck_force": "N", "compressed": "N", "margin": "", "t": "s", "element": "",
+             "along": "m", "place": "m", "station": ""}  # fmt: skip
+    found = verdicts(result)
+    rows = tuple(tuple(one.get(name) for name in units) for one in found)
+    return Table("rucks", tuple(units), tuple(units.values()), rows, tuple(sentence(one) for one in found))
 
 
 def limits(result: Result) -> Table:

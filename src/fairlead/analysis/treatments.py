@@ -31,7 +31,7 @@ class Treatments:
 
 def kinds_of_treatment(model: Any) -> Treatments:
     """Those of the contacts of a scene, or that there are where it has none."""
-    families = [_head(one.type) for one in contacts(model)] or heads(model)
+    families = [head_of(one.type) for one in contacts(model)] or heads(model)
     if not families:
         return Treatments({}, "", "", "", "")
     head = families[0]
@@ -62,7 +62,7 @@ def creep_of(model: Any) -> float | None:
 
 def treatment(model: Any, word: str) -> dict[str, str]:
     """Settings that give every contact this treatment, and take away what one says that has no place in it."""
-    members = {name: kind for one in contacts(model) for name, kind in _head(one.type).members.items()}
+    members = {name: kind for one in contacts(model) for name, kind in head_of(one.type).members.items()}
     key = kinds_of_treatment(model).key
     if word not in members:
         return {f"friction.{key}": word}
@@ -83,7 +83,8 @@ def creep(model: Any, value: float) -> dict[str, str]:
     return dict.fromkeys(paths, f"{value:.6g}")
 
 
-def _head(kind: type[Any]) -> type[Any]:
+def head_of(kind: type[Any]) -> type[Any]:
+    """The class by whose key a member of its family is chosen."""
     return next(one for one in kind.__mro__ if "members" in one.__dict__)
 
 

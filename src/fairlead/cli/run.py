@@ -73,13 +73,15 @@ def exit_code(outcome: dict[str, Any]) -> int:
 
 
 def _compare_with_statics(model: "Model", result: "Result") -> None:
-    """Put into run.json how far a line on a route is from its quasi-static tensions."""
+    """Put into run.json how far a line on a route is from its quasi-static tensions, and whether it rucks."""
     if not result.run.get("routes"):
         return
     from fairlead.analysis.quasi_static import against_statics
+    from fairlead.analysis.ruck import verdicts
     from fairlead.results import run_file
 
     result.run["against_statics"] = against_statics(model.flat, result)
+    result.run["ruck"] = verdicts(result)
     run_file.amend(result.folder, result.run)
 
 

@@ -31,6 +31,7 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         ("end time", f"{_number(run.get('end_time'), 's')} ({run.get('status', UNKNOWN)})"),
         ("wall time", _wall_time(run)),
         ("engine", str(run.get("engine", UNKNOWN))),
+        *_friction(run.get("friction")),
         ("steps", f"{run.get('steps', UNKNOWN)}"),
         ("rejected", f"{run.get('rejected', UNKNOWN)}"),
         ("switches", f"{run.get('switches', UNKNOWN)}"),
@@ -41,8 +42,23 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         *_together(run.get("released_together")),
         *rows_of_table(run.get("below_weight")),
         *_against_statics(run.get("against_statics")),
+        *_ruck(run.get("ruck")),
         ("results", str(directory)),
     ]
+
+
+def _friction(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """How friction was treated and who chose that; nothing without a contact."""
+    from fairlead.analysis.friction_record import sentence
+
+    return [("friction", sentence(found))] if found else []
+
+
+def _ruck(found: Sequence[dict[str, Any]] | None) -> list[tuple[str, str]]:
+    """The verdict on each line that is watched for rucking."""
+    from fairlead.analysis.ruck import sentence
+
+    return [("ruck", sentence(one)) for one in (found or ())[:MOST_NAMED]]
 
 
 def _lost(lost: Mapping[str, float] | None) -> list[tuple[str, str]]:

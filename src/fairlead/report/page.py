@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fairlead.analysis.friction_record import sentence as of_friction
+from fairlead.analysis.ruck import sentence as of_ruck
 from fairlead.report.figures import draw
 from fairlead.results.placing import place
 from fairlead.results.signal import family
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
 PAGE_FILE = "report.html"
 MOST_ROWS = 60
 # Shown elsewhere on the page, or not at all.
-APART = ("name", "description", "format", "limits_broken", "limits", "routes")
+APART = ("name", "description", "format", "limits_broken", "limits", "routes", "ruck", "friction")
 
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
@@ -78,7 +80,7 @@ def write(result: Result, plots: Iterable[Any] = ()) -> Path:
         status=escape(result.status),
         mood="" if result.status == "finished" else "bad",
         broken=_broken_limits(result.run.get("limits_broken") or ()),
-        run=_table((), [(key, _shown(value)) for key, value in _flat(result.run)]),
+        run=_table((), [*_verdicts(result.run), *((key, _shown(value)) for key, value in _flat(result.run))]),
         figures="\n".join(_image(figure) for figure in figures) or "<p>Nothing was recorded.</p>",
         zones=_zones(result.events),
         signals=_signals(result),
@@ -86,6 +88,12 @@ def write(result: Result, plots: Iterable[Any] = ()) -> Path:
     path = result.folder / PAGE_FILE
     place(path, page)
     return path
+
+
+def _verdicts(run: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """How friction was treated, and whether lines ruck."""
+    friction = of_friction(run.get("friction"))
+    return [*([("friction", friction)] if friction else []), *(("ruck", of_ruck(one)) for one in run.get("ruck") or ())]
 
 
 def _flat(run: Mapping[str, Any], above: str = "") -> list[tuple[str, Any]]:

@@ -1,0 +1,85 @@
+"""The verdict on every line that is watched for rucking: where and when it rucks first, or how far it is from that."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from fairlead.results import Result
+from fairlead.results.run_file import RUN_FILE
+from fairlead.results.run_schema import routes
+
+BEYOND = ("beyond", "rucking")
+"""Zones of elements that are compressed beyond the limit."""
+
+
+def verdicts(result: Result) -> list[dict[str, Any]]:
+    """A verdict for each line with a `ruck_force`: `rucks`, `t` [s], `element`, `along` [m], `station`, `margin`.
+
+    `margin` is what it bears over the most it had; None where tensions were not recorded, infinity (null in run.json)
+    where it was never compressed. Raises DamagedResultsError.
+    """
+    found = routes(result.named(RUN_FILE), result.run)
+    return [_verdict(result, record) for record in found if record["ruck_force"] is not None]
+
+
+def _verdict(result: Result, record: dict[str, Any]) -> dict[str, Any]:
+    line, layer, bears = record["line"], record["layers"][0], record["ruck_force"]
+    made = {"line": line, "ruck_force": bears, "rucks": False, "t": None, "element": None, "margin": None,
+            "compressed": None}  # fmt: skip
+    lowest = _lowest(result, f"{line}.{layer}", record["nodes"] - 1)
+    if lowest is not None:
+        least, made["t"], made["element"] = lowest
+        made["compressed"] = max(-least, 0.0)
+        made["margin"] = bears / -least if least < 0 else math.inf
+    first = next((one for one in result.events
+                  if one.zone_to in BEYOND and one.component.startswith(f"{line}.{layer}[")), None)  # fmt: skip
+    if first is not None:
+        made |= {"rucks": True, "t": first.t, "element": int(first.component.rpartition("[")[2].rstrip("]"))}
+    if made["element"] is not None:
+        made |= _place(result, record, made["element"], made["t"])
+    return made
+
+
+def _lowest(result: Result, layer: str, count: int) -> tuple[float, float, int] | None:
+    """Lowest tension of any element, when, and which; None unless all were recorded."""
+    names = [f"{layer}[{k}].tension" for k in range(count)]
+    if count > len(result) or not all(name in result for name in names):
+        return None
+    found = [result.extremes(name) for name in names]
+    k = min(range(count), key=lambda k: found[k].lowest)
+    return found[k].lowest, found[k].t_lowest, k
+
+
+def _place(result: Result, record: dict[str, Any], element: int, t: float) -> dict[str, Any]:
+    """Where an element is: along the line, and, when positions were recorded, in which station."""
+    places = record["places"]
+    along = (places[element] + places[element + 1]) / 2 if element + 1 < len(places) else None
+    nodes = [f"{record['line']}.{record['outer']}[{k}].x" for k in (element, element + 1)]
+    if not all(name in result for name in nodes):
+        return {"along": along, "place": None, "station": ""}
+    place = sum(result.at(name, t) for name in nodes) / 2
+    ends = ((one, one["begin"], one["end"]) for one in record["stations"] if one["type"] != "Straight")
+    inside = [one["name"] for one, begin, end in ends
+              if (begin is None or begin <= place) and (end is None or place <= end)]  # fmt: skip
+    return {"along": along, "place": place, "station": inside[0] if inside else ""}
+
+
+def sentence(found: dict[str, Any]) -> str:
+    """One verdict in words."""
+    bears = f"{found['ruck_force']:.4g} N"
+    if found["rucks"]:
+        most = f"; up to {found['compressed']:.4g} N, a margin of {found['margin']:.2g}" if found["margin"] else ""
+        return f"{found['line']} rucks: beyond {bears} first at t = {found['t']:.4g} s, {_where(found)}{most}"
+    if found["compressed"] is None:
+        return f"{found['line']} does not ruck: no element was compressed by {bears}"
+    if not found["compressed"]:
+        return f"{found['line']} does not ruck: it was never compressed"
+    when = f"at t = {found['t']:.4g} s, {_where(found)}"
+    return f"{found['line']} does not ruck: margin {found['margin']:.2g}, {found['compressed']:.4g} N of {bears} {when}"
+
+
+def _where(found: dict[str, Any]) -> str:
+    along = f" ({found['along']:.4g} m along)" if found.get("along") is not None else ""
+    station = f" in {found['station']}" if found.get("station") else ""
+    return f"element {found['element']}{along}{station}"
