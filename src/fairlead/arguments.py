@@ -19,6 +19,8 @@ import numpy as np
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si
 
+ONE = "Give one value; for several make a model of each, in a loop."
+
 
 class Arguments:
     """The arguments of one call, and what is wrong with them."""
@@ -93,7 +95,7 @@ class Arguments:
             if not isinstance(key, str):
                 self._wrong(name, key, "is no name of a parameter or a setting", 'Write it as {"run.stop": "5 s"}.')
             elif not isinstance(one, str | int | float | np.number | np.bool_):
-                self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", "")
+                self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", ONE)
 
     def texts(self, name: str, value: object, example: str) -> None:
         """Several texts or paths; a single one is taken for the mistake it is."""
@@ -103,7 +105,8 @@ class Arguments:
             self._wrong(name, wrong[0], "is not a path", f"Write it as [{example}].")
 
     def _wrong(self, name: str, value: object, what: str, way_out: str) -> None:
-        self.faults.append(Fault(self.place, f"{name} = {shown(value)} {what}", way_out))
+        told = shown(value if isinstance(value, str) else repr(value))
+        self.faults.append(Fault(self.place, f"{name} = {told} {what}", way_out))
 
 
 def _takes(function: Any, count: int) -> bool:

@@ -65,7 +65,10 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     sources, faults = read(path)
     if sources is None:
         raise ModelError(faults)
-    return Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries))
+    model = Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries))
+    if model._faults or not all(map(os.path.exists, model.libraries)):
+        model.check()
+    return model
 
 
 class Model:
@@ -233,8 +236,8 @@ class Model:
             raise (RunInterrupted if result.status == "interrupted" else RunError)(result)
         return result
 
-    def with_values(self, **values: float | str) -> Model:
-        """A model with other values of scene parameters (`mu=0.6`) and settings (`**{"pad.normal_force": "20 N"}`).
+    def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
+        """A model with other values of scene parameters (`mu=0.6`) and settings (`{"pad.normal_force": "20 N"}`).
 
         Numbers are in SI, texts are as `load(path, set=...)` takes them, and the model is the one that `load` would
         give. It shares structure and kernels with this one, which stays as it is; if the structure depends on the
@@ -245,8 +248,9 @@ class Model:
 
         asked = Arguments("Model.with_values")
         asked.values_by_name("values", values)
+        asked.values_by_name("values", more)
         asked.refuse()
-        new = Model(self._sources, {**self._overrides, **_as_text(values)}, self.libraries)
+        new = Model(self._sources, {**self._overrides, **_as_text(values or {}), **_as_text(more)}, self.libraries)
         if new._faults:
             new.check()
         renew(self, new)  # type: ignore[arg-type]  # mypy takes cached properties for read-only

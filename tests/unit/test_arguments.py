@@ -31,15 +31,15 @@ def never(*_, **__):
     ("arguments", "says"),
     [
         ({"out": 3}, "Model.run: out = 3 is not a path\n    Give a text or a pathlib.Path, or None to keep"),
-        ({"out": True}, "Model.run: out = true is not a path"),
+        ({"out": True}, "Model.run: out = True is not a path"),
         ({"out": ""}, "Model.run: out = '' is not a path"),
-        ({"out": ["a"]}, "Model.run: out = a list of 1 is not a path"),
+        ({"out": ["a"]}, "Model.run: out = ['a'] is not a path"),
         ({"progress": 3}, "Model.run: progress = 3 is not a function\n    Give a function of the fraction done"),
         ({"progress": lambda share: None}, "Model.run: progress = <lambda> does not take 3 arguments"),
-        ({"progress": True}, "Model.run: progress = true is not a function"),
+        ({"progress": True}, "Model.run: progress = True is not a function"),
         ({"force": "no"}, "Model.run: force = no is neither True nor False"),
         ({"profile": 1}, "Model.run: profile = 1 is neither True nor False"),
-        ({"check": None}, "Model.run: check = nothing is neither True nor False"),
+        ({"check": None}, "Model.run: check = None is neither True nor False"),
         ({"max_wall": -1}, "Model.run: run.max_wall = -1 is not above 0"),
         ({"max_steps": -5}, "Model.run: run.max_steps = -5"),
         ({"max_events": 0}, "Model.run: run.max_events = 0"),
@@ -87,9 +87,9 @@ def test_compare_refuses_a_time_that_is_none_and_a_place_that_is_none():
     ("call", "says"),
     [
         (lambda: fairlead.load(3), "load: path = 3 is not a path"),
-        (lambda: fairlead.load("belt", set=["mu=3"]), "load: set = a list of 1 is not a map"),
+        (lambda: fairlead.load("belt", set=["mu=3"]), "load: set = ['mu=3'] is not a map"),
         (lambda: fairlead.load("belt", set={3: "x"}), "load: set = 3 is no name"),
-        (lambda: fairlead.load("belt", set={"run.stop": None}), "load: set[run.stop] = nothing is neither a text nor"),
+        (lambda: fairlead.load("belt", set={"run.stop": None}), "load: set[run.stop] = None is neither a text nor"),
         (lambda: fairlead.load("belt", libraries="parts.py"), "load: libraries = parts.py is not a list"),
         (lambda: fairlead.load("belt", libraries=[3]), "load: libraries = 3 is not a path"),
     ],
@@ -103,7 +103,7 @@ def test_load_refuses_them(call, says):
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda m: m.with_values(mu=[1]), "Model.with_values: values[mu] = a list of 1 is neither a text nor a number"),
+        (lambda m: m.with_values(mu=[1]), "Model.with_values: values[mu] = [1] is neither a text nor a number"),
         (lambda m: m.statics("fast"), "Model.statics: speed = fast is not a quantity"),
         (lambda m: m.statics("3 N"), "Model.statics: speed = 3 N"),
         (lambda m: m.statics(-0.1), "Model.statics: speed = -0.1 is not above 0"),
@@ -144,6 +144,19 @@ def test_names_may_be_patterns_and_a_single_one(result):
     assert list(result.to_pandas("block.*").columns) == result.match("block.*")
     assert list(result.to_xarray(["block.x", "block.*"])) == result.match("block.*")
     assert result.columns("block.x").shape == (len(result.t), 1)
+
+
+def test_load_tells_what_check_would_where_an_override_or_a_library_is_wrong(tmp_path):
+    """Everything at once: the misspelt parameter, the library that is not there."""
+    for given in ({"set": {"mue": "0.4"}}, {"libraries": ["nothing.py"]}):
+        with pytest.raises(ModelError, match=r"mue|nothing\.py"):
+            fairlead.load("single_bend", **given)
+
+
+def test_new_values_are_keywords_or_a_dict():
+    model = fairlead.load("belt")
+    one, other = model.with_values({"pad.normal_force": 12}), model.with_values(**{"pad.normal_force": 12})
+    assert one.netlist.digest == other.netlist.digest != model.netlist.digest
 
 
 def test_a_speed_is_a_quantity():
