@@ -14,8 +14,6 @@ import os
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
-import numpy as np
-
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si
 
@@ -42,7 +40,7 @@ class Arguments:
 
     def yes_or_no(self, name: str, value: object) -> None:
         """True or False; a text would count as true, whatever it says."""
-        if not isinstance(value, bool | np.bool_):
+        if not _is(value, bool):
             self._wrong(name, value, "is neither True nor False", "")
 
     def function(self, name: str, value: object, takes: Collection[str]) -> None:
@@ -94,7 +92,7 @@ class Arguments:
         for key, one in value.items():
             if not isinstance(key, str):
                 self._wrong(name, key, "is no name of a parameter or a setting", 'Write it as {"run.stop": "5 s"}.')
-            elif not isinstance(one, str | int | float | np.number | np.bool_):
+            elif not _is(one, str | int | float):
                 self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", ONE)
 
     def texts(self, name: str, value: object, example: str) -> None:
@@ -107,6 +105,11 @@ class Arguments:
     def _wrong(self, name: str, value: object, what: str, way_out: str) -> None:
         told = shown(value if isinstance(value, str) else repr(value))
         self.faults.append(Fault(self.place, f"{name} = {told} {what}", way_out))
+
+
+def _is(value: object, kind: Any) -> bool:
+    """Whether a value is of a kind, also as numpy has single numbers (which is not imported for it)."""
+    return isinstance(value.item() if getattr(value, "shape", None) == () and hasattr(value, "item") else value, kind)
 
 
 def _takes(function: Any, count: int) -> bool:

@@ -19,8 +19,6 @@ import warnings
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
-import numpy as np
-
 from fairlead.arguments import Arguments
 from fairlead.brief import in_a_line
 from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError
@@ -286,9 +284,9 @@ def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
 
 def _as_text(values: Mapping[str, float | str]) -> dict[str, str]:
     """Values as a command line has them; a text keeps its place, if it knows it."""
-    texts = {True: "true", False: "false"}
-    return {name: value if isinstance(value, str) else texts[bool(value)] if isinstance(value, bool | np.bool_) else
-            str(value) for name, value in values.items()}  # fmt: skip
+    texts = {"True": "true", "False": "false"}
+    return {name: value if isinstance(value, str) else texts.get(str(value), str(value))
+            for name, value in values.items()}  # fmt: skip
 
 
 def _in_order(faults: Iterable[Fault]) -> list[Fault]:

@@ -1,5 +1,6 @@
 """Arguments of Python calls that cannot be meant are refused by name, all of a call at once."""
 
+import numpy as np
 import pytest
 
 import fairlead
@@ -151,6 +152,13 @@ def test_load_tells_what_check_would_where_an_override_or_a_library_is_wrong(tmp
     for given in ({"set": {"mue": "0.4"}}, {"libraries": ["nothing.py"]}):
         with pytest.raises(ModelError, match=r"mue|nothing\.py"):
             fairlead.load("single_bend", **given)
+
+
+@pytest.mark.parametrize("value", [np.float64(12.0), np.int64(12), np.float32(12.0), np.array(12.0)])
+def test_numbers_of_numpy_are_numbers(value):
+    model = fairlead.load("belt", set={"pad.normal_force": value})
+    assert model.netlist.components["pad"].parameters["normal_force"].plain() in (12, 12.0)
+    fairlead.load("block_and_spring").run(out=None, stop=np.float64(0.01), check=np.bool_(True))
 
 
 def test_new_values_are_keywords_or_a_dict():

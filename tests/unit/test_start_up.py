@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-HEAVY = {"sympy", "xarray", "matplotlib", "numba", "pandas", "scipy", "pint"}
+HEAVY = {"numpy", "sympy", "xarray", "matplotlib", "numba", "pandas", "scipy", "pint"}
 
 
 def loaded_by(statement: str) -> set[str]:
