@@ -111,6 +111,8 @@ def test_an_earlier_result_says_that_its_run_was_replaced(tmp_path: Path) -> Non
     assert contents(early) == OLD
     write(tmp_path, "new", 2.0)
     assert contents(early) == OLD  # what was read stays
+    assert "was replaced by another one" in repr(late)  # a prompt shows it without an error
+    assert "was replaced by another one" in late._repr_html_()
     for read in (lambda: late["block.v"], lambda: late.t, lambda: late.side, lambda: late.events):
         with pytest.raises(UsageError, match="was replaced by another one, begun at"):
             read()

@@ -371,13 +371,21 @@ class Result:
         raise UnknownSignalError(f"{name} was not recorded in {self._place}. {advice}")
 
     def __repr__(self) -> str:
-        return (
-            f"Result({self._place!r}: {shown(self.run.get('name', 'run'))}, {self.status}, {self._reach()}, "
-            f"{len(self.signals)} signals, zone changes: {len(self.events)})"
-        )
+        """Never raises: a prompt shows it also when the files are gone, and says so."""
+        named = f"{self._place!r}: {shown(self.run.get('name', 'run'))}, {self.status}"
+        return f"Result({named}, {self._reach()}, {len(self.signals)} signals, zone changes: {self._changes()})"
 
     def _reach(self) -> str:
-        return f"t = {self.t[0]:g} ... {self.t[-1]:g} s" if len(self.t) else "no rows"
+        try:
+            return f"t = {self.t[0]:g} ... {self.t[-1]:g} s" if len(self.t) else "no rows"
+        except FairleadError as error:
+            return _first_sentence(error)
+
+    def _changes(self) -> str:
+        try:
+            return str(len(self.events))
+        except FairleadError:
+            return "not to be read"
 
     def _repr_html_(self) -> str:
         from fairlead.results.notebook import as_html
@@ -385,10 +393,14 @@ class Result:
         facts = [
             ("status", self.status),
             ("directory", self._place),
-            ("recorded", f"{len(self.t)} rows, {self._reach()}"),
-            ("zone changes", str(len(self.events))),
+            ("recorded", self._reach()),
+            ("zone changes", self._changes()),
         ]
         return as_html(str(self.run.get("name", "run")), facts, self.signals)
+
+
+def _first_sentence(error: FairleadError) -> str:
+    return str(error).splitlines()[0].rstrip(".")
 
 
 def _unreadable(path: Path, status: str) -> str:
