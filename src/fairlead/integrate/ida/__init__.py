@@ -1,1 +1,1 @@
-"""The engine `ida`: steps by SUNDIALS IDA, all the rest as in `rodas`."""
+"""The engine `ida`: steps by SUNDIALS IDA, all the rest as in `rodas`, whose loop it enters for no step of its own."""

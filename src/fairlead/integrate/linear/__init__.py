@@ -1,1 +1,7 @@
-"""Linear systems: order of elimination, condensing, sparse factors, fresh pivots. Knows a matrix, no problem."""
+"""Linear systems W x = b with W = s M - J, and the matrix of a consistent point, along one fixed pattern.
+
+Given `linear`: J and M (`matrices`), the plan of elimination (`core`, `factors`), which ordering.py and condensing.py
+      make once for a problem, from its patterns alone.
+Does  factorise_step, factorise_consistent, solve, solve_watched (systems.py); products with J and M (products.py).
+Says  DONE, SINGULAR with the unknown to blame in `culprit`, or INACCURATE: other pivots are needed (replan.py).
+"""

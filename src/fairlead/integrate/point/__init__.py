@@ -1,1 +1,7 @@
-"""At a point and inside a step: the error norm and the next step, the interpolant, quadratures."""
+"""At a point and inside the step from it.
+
+Given `point`: y, the trial end, error weights, D; `run` for what the last step was like.
+Does  the error norm and the next step (controller.py), y inside the step (interpolant.py), how far that is off the
+      equations (defect.py), y'' beyond its rounding (curvature.py), quadratures over a piece (meters.py).
+Changes no zone, and records nothing.
+"""
