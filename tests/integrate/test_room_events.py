@@ -43,7 +43,8 @@ def test_a_pattern_of_zones_that_was_in_force_in_this_stage_is_known_again(seed)
     rng = np.random.default_rng(seed)
     machines, passes, begins = 3, 30, int(rng.integers(0, 10))
     zones = np.zeros(machines, np.int64)
-    at = memory({"n_zones": machines, "max_passes": passes}, zones=zones, patterns_met=np.zeros(passes + 1))
+    at = memory({"n_zones": machines, "max_passes": passes}, zones=zones, patterns_met=np.zeros(passes + 1),
+                zones_history=np.zeros((passes + 1) * machines))  # fmt: skip
     at.point("zones", zones, np.int64)
     seen = []
     for k in range(passes):
@@ -51,6 +52,8 @@ def test_a_pattern_of_zones_that_was_in_force_in_this_stage_is_known_again(seed)
         at.number["passes"], at.number["stage_from"] = k, begins
         assert met_before()(at) == (tuple(zones) in seen[begins:])
         seen.append(tuple(zones))
+    kept = at.array["zones_history"].reshape(-1, machines)[:passes]
+    assert [tuple(zones) for zones in kept.tolist()] == seen
 
 
 @pytest.mark.parametrize("seed", range(10))

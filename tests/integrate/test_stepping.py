@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, Status, integrate
+from fairlead.integrate.textbook import textbook
 from tests.integrate.problems import (
     belt_block,
     coulomb_oscillator,
@@ -114,3 +115,18 @@ def test_no_recorded_row_shows_a_held_block_that_slips():
     for caught in events:
         after = (outcome.times > caught) & (outcome.times < caught + 0.3)
         assert np.abs(outcome.values[after, 1] - 0.2).max() < 1e-12
+
+
+def test_a_fixed_step_that_leads_to_no_number_ends_the_run():
+    """y' = sqrt(1 - t) - y has no value after one second; a step that may not get shorter would be tried for ever."""
+
+    def rhs(t, y, z, f):
+        f[0] = np.sqrt(1.0 - t) - y[0]
+
+    def jacobian(t, y, z, J, ft):
+        J[0, 0] = -1.0
+
+    run = Run(stop=2.0, engine="stepping", fixed_step=0.05, max_wall=20.0)
+    outcome = integrate(textbook([1.0], rhs, jacobian), run)
+    assert outcome.status == Status.NOT_FINITE
+    assert 0.9 < outcome.t < 1.0 + 1e-9

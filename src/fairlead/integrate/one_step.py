@@ -1,7 +1,11 @@
-"""The trial of a method of one step: taken, and rejected, given up for a settlement, or accepted up to a crossing.
+"""The trial of a method of one step: taken, and rejected, given up for a settlement, or accepted to a crossing.
 
-A method says how it takes a step from (t, y) in frozen zones: `y_end`, and its error in `error_vector`; and how it is
-interpolated: the D of interpolant.py. It leaves W of its step factorised (linear.py). All the rest is here.
+A method says how it takes a step from (t, y) in frozen zones, and how that is interpolated. All the rest is here.
+`take` sets all of `y_end`, quadratures and the forces of what holds at t + h as well, since guards read them there;
+and its error in `error_vector`, zero where it knows none. A Newton iteration that fails leaves a nan there: a quarter
+of the step comes next. Weights are those of the last step until `take` is done (`weigh` sets them). Row k of what holds
+says dv/dt = -v/tau, so a method that does not damp multiplies a slip by -1. `factors.factored_h` is the step for which
+W is factorised; a settlement sets it to zero, and defect.py and meters.py solve with those factors.
 """
 
 from __future__ import annotations
@@ -44,7 +48,7 @@ class OneStep(NamedTuple):
     """What a method of one step is: compiled functions."""
 
     take: Callable[..., Any]
-    """take(m, h): `y_end` and `error_vector` of the step from the point; DONE, SINGULAR or INACCURATE (linear.py)."""
+    """take(m, h): `y_end` and `error_vector` of the step from the point; DONE, SINGULAR or INACCURATE (systems.py)."""
     interpolate: Callable[..., Any]
     """interpolate(m, h): the D of interpolant.py, for a step whose error is small enough."""
 
@@ -111,7 +115,7 @@ def up_to_crossing(m, h):
             return try_shorter(run, guards, h)
         settle_at_start(m)
         return GO_ON
-    if found == CROSSING and run.theta < 1.0 and run.adaptive == 1 and cut_too_rough(m, h):
+    if found == CROSSING and run.cut_at < 1.0 and run.adaptive == 1 and cut_too_rough(m, h):
         return GO_ON
     recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
     accept(m, h, found == CROSSING)
@@ -142,10 +146,10 @@ def settle_at_start(m):
 def cut_too_rough(m, h):
     """True if the piece up to a crossing is to be taken as a step of its own, which `h_next` then is."""
     run, point = m.run, m.point
-    if min(run.theta, MOST_KEPT) * h < smallest_step(run, point) or not rough(m.problem, run, point, m.linear, h):
+    if min(run.cut_at, MOST_KEPT) * h < smallest_step(run, point) or not rough(m.problem, run, point, m.linear, h):
         return False
     m.events.guards.n_fired = 0
-    run.h_next = min(run.theta, MOST_KEPT) * h
+    run.h_next = min(run.cut_at, MOST_KEPT) * h
     return True
 
 
@@ -157,7 +161,7 @@ def rough(problem, run, point, linear, h):
     after it, as friction does that rises while a contact comes to rest: beyond rest the law in force is mirrored, so
     all stages may lie beside the rise, and the piece of the step up to rest misses it.
     """
-    defect(problem, point, linear, h, run.theta)
+    defect(problem, point, linear, h, run.cut_at)
     if weighted_norm(point, point.at_error_vector) <= ROUGH:
         return False
     run.rejected_switch += 1

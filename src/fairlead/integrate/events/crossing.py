@@ -5,7 +5,7 @@ exactly zero at t0 does not fire. A guard that starts at zero and dips below it 
 there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
 extremum is tested. Companion rule: a guard above its tolerance that never was below zero means that
 the zones at t0 were wrong (the caller settles from there).
-Zero at t0 is what a settlement counts as at a limit (settling.ROUNDING): the slip of a contact that has just broken
+Zero at t0 is what a settlement counts as at a limit (limits.ROUNDING): the slip of a contact that has just broken
 away is 1e-20 m/s of either sign, and the sign must not tell whether the contact stops again or never slipped.
 
 All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of guards at once.
@@ -73,7 +73,7 @@ def first_crossing(m, h):
             crossed = True
     for i in range(ng):
         crossed = crossed or (left[i] < 0.0 and right[i] >= 0.0)
-    m.run.theta = 1.0
+    m.run.cut_at = 1.0
     if crossed:
         locate(m, h, right_end)
     return collect_fired(guards, crossed)
@@ -308,4 +308,4 @@ def locate(m, h, right_end):
             bias_left, last = 1.0, -1
         slow = slow + 1 if b - a > 0.5 * width else 0
         width = b - a
-    m.run.theta = b
+    m.run.cut_at = b

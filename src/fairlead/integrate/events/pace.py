@@ -93,19 +93,19 @@ def accept(m, h, crossed):
     run.retried = 0
     run.mended = 0
     run.crossed = 1 if crossed else 0
-    if crossed and run.theta < 1.0:
-        run.t_piece = point.t + run.theta * h
+    if crossed and run.cut_at < 1.0:
+        run.t_piece = point.t + run.cut_at * h
         if run.landing == 1 and run.t_land - run.t_piece < smallest_step(run, point):
             run.t_piece = run.t_land  # no step could cover what would be left
         else:
             run.landing = 0
-        interpolate(point, run.theta, point.at_y_piece)
+        interpolate(point, run.cut_at, point.at_y_piece)
         if recorder.meters_off == 1:
             meter_piece(m, h)
     else:
         run.t_piece = run.t_land if run.landing == 1 else point.t + h
         copy(reals(point.at_y_end, point.n), reals(point.at_y_piece, point.n))
         if recorder.meters_off == 1:
-            run.theta = 1.0
+            run.cut_at = 1.0
             meter_piece(m, h)
     run.phase = RECORD

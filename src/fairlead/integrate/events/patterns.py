@@ -1,12 +1,13 @@
 """Patterns of zones: whether those in force were met before, in a settlement or in a step that looks for its zones.
 
 A settlement, or such a step, that comes upon a pattern again goes in a circle, and changes fewer zones at a time from
-there on. Patterns are compared by one number each; two share one by accident once in 10^15.
+there on. Patterns are compared by one number each; two share one by accident once in 10^15. The zones themselves are
+kept as well, for the sentence of a run that ends because they did not settle.
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.memory.foreign import compiled, indices, reals
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 
 
 @compiled
@@ -21,8 +22,16 @@ def number_of_zones(settling):
 @compiled
 def remember_pattern(run, settling):
     """Keep the zones in force as those after `passes` passes."""
+    keep(run, settling, number_of_zones(settling))
+
+
+@compiled
+def keep(run, settling, number):
+    """Keep the zones in force, and the number that stands for them."""
+    nz = settling.n_zones
     if settling.passes <= run.max_passes:
-        reals(settling.at_patterns_met, run.max_passes + 1)[settling.passes] = number_of_zones(settling)
+        reals(settling.at_patterns_met, run.max_passes + 1)[settling.passes] = number
+        copy(indices(settling.at_zones, nz), indices(settling.at_zones_history + 8 * settling.passes * nz, nz))
 
 
 @compiled
@@ -31,6 +40,5 @@ def recurs(run, settling):
     met, now, found = reals(settling.at_patterns_met, run.max_passes + 1), number_of_zones(settling), False
     for k in range(settling.stage_from, min(settling.passes, run.max_passes)):
         found = found or met[k] == now
-    if settling.passes <= run.max_passes:
-        met[settling.passes] = now
+    keep(run, settling, now)
     return found

@@ -120,7 +120,6 @@ def begin_settling(problem, run, point, events):
     settling.stage, settling.stage_from, settling.fewest, settling.waited = ALL, 0, settling.n_guards + 1, 0
     settling.look = 0.0
     settling.nearness = 1.0
-    copy(indices(settling.at_zones, settling.n_zones), indices(settling.at_zones_history, settling.n_zones))
     remember_pattern(run, settling)
     watch_progress(problem, run, point, events)
 
@@ -155,8 +154,6 @@ def change_zones(m):
     guards.n_fired = 0
     settling.passes += 1
     settling.settling_passes += 1
-    if settling.passes < run.max_passes:
-        copy(zones, indices(settling.at_zones_history + 8 * settling.passes * nz, nz))
     if m.events.loads.levels > 0:
         settling.stage_from = settling.passes
         remember_pattern(run, settling)

@@ -36,7 +36,7 @@ def residual(address, t, at_y, at_rate, at_r):
 
 
 def prepare(address, t, at_y, cj):
-    """J at (t, y), and the factors of cj M - J; 0, or why they fail (linear.py)."""
+    """J at (t, y), and the factors of cj M - J; 0, or why they fail (linear/systems.py)."""
     m = memory_at(address)
     problem = m.problem
     jacobian_at(problem.call_jacobian, (problem.context, t, at_y, m.linear.matrices.at_jacobian, m.point.at_ft))
@@ -96,7 +96,7 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     if found == NONE and n_rooted > 0:
         copy(indices(at_rooted, n_rooted), indices(guards.at_fired, n_rooted))
         guards.n_fired = n_rooted
-        run.theta = 1.0
+        run.cut_at = 1.0
     crossed = found == CROSSING or n_rooted > 0
     if crossed and h > 2.0 * floor:
         weigh(point, point.at_y_end)
@@ -129,10 +129,10 @@ def accept(run, point, h, crossed):
     run.last_error = 1.0
     run.retried = 0
     run.crossed = 1 if crossed else 0
-    if crossed and run.theta < 1.0:
+    if crossed and run.cut_at < 1.0:
         run.landing = 0
-        run.t_piece = point.t + run.theta * h
-        interpolate(point, run.theta, point.at_y_piece)
+        run.t_piece = point.t + run.cut_at * h
+        interpolate(point, run.cut_at, point.at_y_piece)
     else:
         run.t_piece = run.t_land if run.landing == 1 else point.t + h
         copy(reals(point.at_y_end, point.n), reals(point.at_y_piece, point.n))

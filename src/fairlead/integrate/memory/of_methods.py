@@ -67,7 +67,7 @@ EXCHANGE = Struct(
     indices={
         # rows that hold now
         "holds": "n", "of_massless": "n", "caught": "n", "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass",
-        "hold_mass_column": "n_hold_mass", "hold_mass_partner": "n_hold_mass", "hold_slope": "n_hold_slope",
+        "hold_mass_column": "n_hold_mass", "hold_slope": "n_hold_slope",
         "hold_slope_row": "n_hold_slope", "hold_share": "n_hold_share", "hold_share_row": "n_hold_share",
         "hold_share_column": "n_hold_share", "own_row": "n_zones", "own_slope_starts": "n_zones_plus_1",
         "own_slopes": "n_own_slopes", "own_slope_columns": "n_own_slopes", "own_mass_columns": "n_own_masses",

@@ -19,7 +19,7 @@ RUN = Struct(
     ),
     numbers=(
         "start", "stop", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "error_exponent", "h",
-        "h_wanted", "h_next", "error", "last_error", "theta", "t_piece", "t_land", "t_next", "t_release", "growth",
+        "h_wanted", "h_next", "error", "last_error", "cut_at", "t_piece", "t_land", "t_next", "t_release", "growth",
         "t_growth", "fixed_step",
     ),
     indices={

@@ -41,7 +41,7 @@ def meter_piece(m, h):
     Inside the piece the dense output becomes the cubic with the rates of the three nodes.
     """
     problem, point, linear, stepping = m.problem, m.point, m.linear, m.stepping
-    n, theta = point.n, m.run.theta
+    n, theta = point.n, m.run.cut_at
     quadrature = indices(point.at_quadrature, n)
     y, piece, y_end = reals(point.at_y, n), reals(point.at_y_piece, n), reals(point.at_y_end, n)
     D = reals(point.at_D, 3 * n)

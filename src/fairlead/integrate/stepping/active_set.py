@@ -27,7 +27,7 @@ MET = 1
 
 
 @compiled
-def begin_set(problem, run, settling, stepping):
+def begin_set(run, settling, stepping):
     """Remember the zones at the start of the step."""
     rule, exchange = stepping.rule, stepping.exchange
     settling.passes = 0

@@ -104,7 +104,7 @@ def first_turned(point, matrices, contacts, h):
 def first_kink(stepping):
     """The share of the step after which a table first went on in its next piece; 1 without one.
 
-    A step that goes over a kink on purpose (stepping_trial.over_kink) has none, for it is implicit.
+    A step that goes over a kink on purpose (trial.over_kink) has none, for it is implicit.
     """
     contacts = stepping.contacts
     switched = indices(contacts.at_switched, contacts.n_zones)

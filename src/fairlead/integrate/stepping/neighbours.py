@@ -28,16 +28,9 @@ def held_entries(problem: Problem) -> dict[str, Integers]:
     pairs = zip(slopes[of_hold].tolist(), columns[of_hold].tolist(), strict=True)
     moves = np.array([not may_hold[j] or (i, j) in in_mass for i, j in pairs], dtype=bool)
     slope, share = of_hold[moves], of_hold[~moves]
-    by_row: dict[int, list[int]] = {}
-    for e, i in enumerate(rows[mass].tolist()):
-        by_row.setdefault(i, []).append(e)
-    partner = np.full(len(mass), -1, dtype=np.int64)
-    for pair in by_row.values():
-        if len(pair) == 2:
-            partner[pair] = pair[::-1]
     return {
         "hold_mass": mass, "hold_mass_row": rows[mass], "hold_mass_column": columns_of(problem.mass_pattern)[mass],
-        "hold_mass_partner": partner, "hold_slope": slope, "hold_slope_row": slopes[slope],
+        "hold_slope": slope, "hold_slope_row": slopes[slope],
         "hold_share": share, "hold_share_row": slopes[share], "hold_share_column": columns[share],
     }  # fmt: skip
 

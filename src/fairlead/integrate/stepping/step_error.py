@@ -18,12 +18,12 @@ from math import inf, isfinite
 
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
-from fairlead.integrate.stepping.located_step import error_of_located
+from fairlead.integrate.stepping.located_step import HOLD_SHARE, error_of_located
 from fairlead.integrate.stepping.overload import unseen_force, unseen_slip
 
-STILL, HOLD_SHARE = 1e-2, 0.025
-"""Where no position changes by more than this share of its weight, this share of the bend of a holding force
-counts as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
+STILL = 1e-2
+"""Where no position changes by more than this share of its weight, HOLD_SHARE of the bend of a holding force counts
+as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
 ROUGH = 4.0
 """Rows inside a step lie on a parabola where the motion is smooth, on the chord where its bend grows faster than this
 or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were."""

@@ -60,7 +60,7 @@ def take_theta_step(m, h):
     stepping, rule, exchange = m.stepping, m.stepping.rule, m.stepping.exchange
     predict(point, rule, h)
     forget_switches(m.stepping.contacts)
-    begin_set(problem, m.run, settling, stepping)
+    begin_set(m.run, settling, stepping)
     expect_fronts(m, h)
     solves, solved, previous = 0, False, 1e300
     exchange.guessed, exchange.caught_by_row, rule.searched = 0, 0, 0

@@ -106,7 +106,7 @@ def finish_inside(m, h, status):
         refine_end(problem, point, linear, exchange, h)
     run.error = error_of_step(m, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
-        return reject_error(run, point, guards, stepping, h)
+        return reject_error(m, h)
     if goes_past_switch(m, h):
         return end_at_switch(run, point, guards, stepping)
     if exchange.massless == 1:
@@ -124,10 +124,10 @@ def finish_located(m, h):
         return GO_ON
     run.error = end_located(m, h)
     if not isfinite(run.error) or run.error > 1.0:
-        return reject_error(run, point, m.events.guards, m.stepping, h)
+        return reject_error(m, h)
     hold_inside(m)
     verdict = judge_guards(m, h)
-    if verdict == JUDGED or (verdict == CUT and run.theta < 1.0 and cut_too_rough(m, h)):
+    if verdict == JUDGED or (verdict == CUT and run.cut_at < 1.0 and cut_too_rough(m, h)):
         return GO_ON
     recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
@@ -218,14 +218,17 @@ def rim_changed(settling, contacts):
 
 
 @compiled
-def reject_error(run, point, guards, stepping, h):
-    """Repeat a step whose error is too large, and say whom it is due to."""
-    give_back_zones(guards, stepping)
+def reject_error(m, h):
+    """Repeat a step whose error is too large, and say whom it is due to; a fixed one ends the run."""
+    run, point, stepping = m.run, m.point, m.stepping
+    give_back_zones(m.events.guards, stepping)
     if isfinite(run.error):
         run.rejected_error += 1
         indices(run.at_rejections_by_unknown, point.n)[point.worst] += 1
     else:
         run.rejected_nan += 1
+    if run.adaptive == 0:
+        return not_finite_here(m.problem, run, point, STEP_FLOOR)
     run.h_next = step_after_rejection(run, h)
     note_rejection(run, stepping.rule)
     run.retried += 1
