@@ -28,6 +28,22 @@ def test_the_core_in_the_water_has_the_mean_of_the_tension_while_the_line_is_pai
     assert told == pytest.approx(core, rel=0.03)  # the line has come 0.5 m further since, and bulkheads slip a little
 
 
+def test_the_hose_of_a_run_is_told_beside_its_estimate(bundled):
+    """Means of both layers halfway between bend A and the deployer, by hand; the lowest hose is that of the margins."""
+    result = bundled("guidance_route_ideal")
+    found = against_statics(fairlead.load("guidance_route_ideal").flat, result)
+    (line,) = margins(result)
+    assert found["lowest"]["run"] == line.whole.hose.value
+    shared = found["shares"]
+    rows = np.searchsorted(result.t, np.linspace(shared["from"], shared["to"], 100))
+    x = result.columns([f"line.hose_node[{k}].x" for k in range(161)])[rows]
+    for layer in ("hose", "core"):
+        tension = result.columns([f"line.{layer}[{k}].tension" for k in range(160)])[rows]
+        nearest = np.abs((x[:, 1:] + x[:, :-1]) / 2 - shared["place"]).argmin(axis=1)
+        mean = tension[np.arange(len(rows)), nearest].mean()
+        assert shared[layer]["run"] == pytest.approx(mean, abs=2)  # between the nearest two
+
+
 def test_margins_of_the_whole_route_are_those_of_its_signals(bundled):
     result = bundled("guidance_route_ideal")
     (line,) = margins(result)

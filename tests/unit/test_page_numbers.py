@@ -11,6 +11,7 @@ states. Not replayed, for they take minutes to hours of processor time, or are t
 | friction.md | the published claim | `benchmarks/published_claim.py` |
 | friction_levels.md | the page | `benchmarks/friction_levels.py` |
 | routes.md | elements, line in the sea, idle line | `route_mesh.py`, `sea_forms.py`, `idle_line.py` of `benchmarks` |
+| routes.md | hose and core | `benchmarks/hose_estimates.py` |
 | stability.md | the page | `make hard` |
 | validation.md | independent engines, robustness list | `benchmarks/bend_table.py`, `benchmarks/bend_variants.py` |
 

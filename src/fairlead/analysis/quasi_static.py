@@ -1,7 +1,8 @@
 """A run against statics: tensions in the stretches of steady speed, by two computations that share no law.
 
 Compared are means over the second half of every stretch, in the spans between the devices: single elements stick and
-slip as they pass a device, which a mean over some elements' way leaves out.
+slip as they pass a device, which a mean over some elements' way leaves out. How hose and core share the tension is an
+estimate of statics, and is compared apart (`hose_against_statics.py`).
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.analysis.hose_against_statics import lowest_compared, mean_along, shares_compared
+from fairlead.analysis.margins import margins
 from fairlead.analysis.recorded_line import RecordedLine
 from fairlead.analysis.schedule import STILL, Schedule, Stretch
 from fairlead.analysis.states import State
@@ -19,28 +22,52 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.results import Result
 
 SETTLED = 0.5  # of a stretch is left out
-LOOKS, STATES = 100, 5  # instants of a stretch at which the run, and statics, are asked
+STATES = 5  # instants of a stretch at which statics is asked
 FEWEST = 2  # elements that must pass in what is left
 LEAST = 0.05  # of the largest tension: a difference counts relative to at least this
 
 
 def against_statics(flat: FlatModel, result: Result) -> dict[str, Any]:
-    """The largest difference, for `run.json`: relative, with both tensions [N], place, time; or a `reason` for none."""
-    solved = statics(flat)
+    """The largest difference, for `run.json`: relative, with both tensions [N], place, time; or a `reason` for none.
+
+    Of an array also `shares`, the largest difference in hose or core, and `lowest`, that of the lowest hose tension.
+    """
     lines = {record["line"]: RecordedLine(result, record) for record in result.run.get("routes") or ()}
-    found, reasons = [], []
+    solved = statics(flat)
+    total: list[dict[str, Any]] = []
+    layers: list[dict[str, Any]] = []
+    reasons: list[str] = []
     for one in solved:
         line = lines.get(one.route.line.path)
         reason = _cannot(one, line)
         if reason or line is None or one.schedule is None:
             reasons.append(reason)
             continue
-        here = [each for stretch in _stretches(one, one.schedule, result) for each in _compared(one, line, stretch)]
-        found += here
+        here = list(_stretches(one, one.schedule, result))
+        for stretch in here:
+            states, spans = _asked(one, stretch)
+            total += _compared(line, states, spans, stretch)
+            layers += shares_compared(line, states, spans, stretch)
         reasons += [] if here else ["no stretch of steady speed is long enough for some elements to pass"]
-    if found:
-        return max(found, key=lambda each: each["difference"])
-    return {"difference": None, "reason": "; ".join(dict.fromkeys(reasons)) or "there is no line on a route"}
+    found: dict[str, Any] = max(total, key=lambda each: each["difference"], default={"difference": None})
+    if not total:
+        found["reason"] = "; ".join(dict.fromkeys(reasons)) or "there is no line on a route"
+    lowest = list(_lowest(solved, result))
+    if layers:
+        found["shares"] = max(layers, key=lambda each: abs(each["too_high"]))
+    if lowest:
+        found["lowest"] = max(lowest, key=lambda each: each["too_high"])
+    return found
+
+
+def _lowest(solved: list[Statics], result: Result) -> Iterator[dict[str, Any]]:
+    """The lowest tension of every hose, also where nothing else can be compared."""
+    records = {record["line"]: record for record in result.run.get("routes") or ()}
+    judged = {each.line: each for each in margins(result)} if records else {}
+    for one in solved:
+        path = one.route.line.path
+        if path in judged and (found := lowest_compared(one, judged[path], records[path]["stations"])) is not None:
+            yield found
 
 
 def _cannot(one: Statics, line: RecordedLine | None) -> str:
@@ -70,18 +97,25 @@ def _stretches(one: Statics, schedule: Schedule, result: Result) -> Iterator[Str
             yield Stretch(begin, end, stretch.speed)
 
 
-def _compared(one: Statics, line: RecordedLine, stretch: Stretch) -> Iterator[dict[str, Any]]:
-    """Differences in all spans of one stretch."""
+def _asked(one: Statics, stretch: Stretch) -> tuple[list[State], list[tuple[str, float]]]:
+    """Statics at some instants of a stretch, and the spans (name, place) in which the line lies all the time."""
     assert one.schedule is not None
     way, times = one.schedule.way, np.linspace(stretch.begin, stretch.end, STATES)
     states = [state(one.route, float(t), stretch.speed, way(float(t))) for t in times]
     element = max(one.route.says.mesh.lengths)
-    spans = [(name, place) for name, place in _spans(states[0], element) if _laid(states, place)]
+    return states, [(name, place) for name, place in _spans(states[0], element) if _laid(states, place)]
+
+
+def _compared(
+    line: RecordedLine, states: list[State], spans: list[tuple[str, float]], stretch: Stretch
+) -> Iterator[dict[str, Any]]:
+    """Differences in all spans of one stretch."""
     if not spans:
         return
+    assert line.total is not None
     places = [place for _, place in spans]
     expected = np.mean([[each.tension(place) for place in places] for each in states], axis=0)
-    told = _mean(line, places, stretch)
+    told = mean_along(line, line.total, places, stretch)
     least = LEAST * max(abs(each.tension).max() for each in states[0].passages)
     for (name, place), wanted, had in zip(spans, expected, told, strict=True):
         yield {
@@ -104,12 +138,3 @@ def _spans(found: State, element: float) -> Iterator[tuple[str, float]]:
 def _laid(states: list[State], place: float) -> bool:
     """True when the line lies there all the time."""
     return all(not np.isnan(each.tension(place)) for each in states)
-
-
-def _mean(line: RecordedLine, places: list[float], stretch: Stretch) -> Any:
-    """Mean tension of the run [N] at places of the route; at equal spans of time, so that no burst of events weighs."""
-    assert line.total is not None
-    assert line.places is not None
-    rows = np.searchsorted(line.result.t, np.linspace(stretch.begin, stretch.end, LOOKS))
-    rows = rows.clip(max=len(line.result.t) - 1)
-    return np.mean([np.interp(places, line.places[row], line.total[row]) for row in rows], axis=0)

@@ -55,6 +55,7 @@ def state_record(state: State) -> dict[str, Any]:
     return {
         "state": name(state), "speed": state.speed, "t": state.t, "paid_out": state.way, "in_sea": state.in_sea,
         "stations": list(_stations(state)), "registration": layers.registration if layers else None,
+        "estimated": ["core", "hose", "ruck_margin", "registration"] if layers else [],
     }  # fmt: skip
 
 

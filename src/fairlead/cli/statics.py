@@ -12,6 +12,12 @@ from fairlead.cli.terminal import echo
 if TYPE_CHECKING:
     from rich.table import Table
 
+ESTIMATE = "~"
+HOW_FAR_OFF = (
+    "is an estimate, for an array that comes from rest: runs of bundled routes had up to 2.4 times the compression of "
+    "the hose (docs/routes.md, Hose and core). Take the ruck margin from a run."
+)
+
 
 def statics(
     netlist: Netlist,
@@ -50,6 +56,8 @@ def print_statics(name: str, found: list[dict[str, Any]]) -> None:
         console.print(_standing(one["standing"]))
         if one["drives"]:
             console.print(_drives(one["drives"]))
+        if any(state["estimated"] for state in one["states"]):
+            console.print(f"{ESTIMATE} {HOW_FAR_OFF}", markup=False)
         for text in one["remarks"]:
             console.print(f"note: {text}.", markup=False)
 
@@ -81,11 +89,17 @@ def _moving(state: dict[str, Any], limits: dict[str, Any]) -> "Table":
         margin = row.get("side_wall_margin")
         cells += ([f"{1 / margin:.0%}" if margin else ""]) if wall else []
         slips = " slips" if row.get("bulkheads_slip") else ""
-        cells += [number(row.get("core")), number(row.get("hose")) + slips] if two else []
-        cells += [times(row.get("ruck_margin"))] if ruck else []
+        cells += [_estimate(number(row.get("core"))), _estimate(number(row.get("hose")) + slips)] if two else []
+        of_hose = _estimate if "hose" in row else str
+        cells += [of_hose(times(row.get("ruck_margin")))] if ruck else []
         low = [one for one in (margin, row.get("ruck_margin")) if one is not None and one < 1]
         table.add_row(*cells, style="bold red" if low else None)
     return table
+
+
+def _estimate(cell: str) -> str:
+    """The text of a cell marked as an estimate."""
+    return f"{ESTIMATE}{cell}" if cell.strip("- ") else cell
 
 
 def _standing(standing: dict[str, Any]) -> "Table":

@@ -94,11 +94,46 @@ def _against_statics(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     """How far the tensions of a line in steady motion are from those of `fairlead statics`; nothing without a route."""
     if found is None:
         return []
+    return [("against statics", _total(found)), *_shares(found.get("shares")), *_lowest(found.get("lowest"))]
+
+
+def _total(found: Mapping[str, Any]) -> str:
+    """The tension of all layers together."""
     if found.get("difference") is None:
-        return [("against statics", f"not compared: {found.get('reason', UNKNOWN)}")]
+        return f"not compared: {found.get('reason', UNKNOWN)}"
     both = f"{found['run']:.4g} N for {found['statics']:.4g} N {found['where']}"
-    text = f"{100 * found['difference']:.2g} % at most ({both}, {found['from']:.3g} ... {found['to']:.3g} s)"
-    return [("against statics", text)]
+    return f"{100 * found['difference']:.2g} % at most ({both}, {found['from']:.3g} ... {found['to']:.3g} s)"
+
+
+def _shares(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """How hose and core share it, which statics estimates; nothing for a line of one layer."""
+    if found is None:
+        return []
+    run, statics = (" and ".join(f"{found[one][key]:.4g}" for one in ("hose", "core")) for key in ("run", "statics"))
+    when = f"{found['where']}, {found['from']:.3g} ... {found['to']:.3g} s"
+    return [("hose and core", f"{run} N for an estimate of {statics} N ({when}): that of the hose {_too_far(found)}")]
+
+
+def _lowest(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """The lowest tension of the hose, with the margin against ruck; nothing for a line of one layer."""
+    if found is None:
+        return []
+    where = found["station"] or (f"{found['place']:.3g} m" if found["place"] is not None else "")
+    at = f"{where}, {found['t']:.4g} s" if where else f"{found['t']:.4g} s"
+    both = f"{found['run']:.4g} N ({at}) for an estimate of {found['statics']:.4g} N"
+    if found["ruck_force"] is not None:
+        both += f", ruck margin {_margin(found['run_margin'])} for {_margin(found['statics_margin'])}"
+    unsafe = ", on the unsafe side" if found["too_high"] > 0 and found["run"] < 0 else ""
+    return [("lowest hose", f"{both}: it {_too_far(found)}{unsafe}")]
+
+
+def _too_far(found: Mapping[str, Any]) -> str:
+    """Which way an estimate is wrong, and how much."""
+    return f"is {abs(found['too_high']):.3g} N too {'high' if found['too_high'] > 0 else 'low'}"
+
+
+def _margin(value: float | None) -> str:
+    return "none (no compression)" if value is None else f"{value:.2g}"
 
 
 def _number(value: float | None, unit: str) -> str:
