@@ -16,10 +16,15 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
+from fairlead.analysis.changes import changes, floors, worst_of
+from fairlead.analysis.effect_row import Row
 from fairlead.analysis.effects import effects
 from fairlead.analysis.sameness import same
-from fairlead.analysis.switches import all_off, switches
+from fairlead.analysis.switches import Switch, all_off, switches
+from fairlead.analysis.timed_run import Timed
+from fairlead.analysis.weights import by_weight
 from fairlead.cli import app
+from fairlead.errors import UsageError
 from fairlead.system.structure import Structure
 
 LIBRARY = '''
@@ -95,6 +100,117 @@ def test_the_advice_holds_when_it_is_followed(lagging, tmp_path):
 
 def test_an_effect_that_matters_is_not_advised_away(lagging):
     assert "it matters" in the(effects(lagging("0.05 s")), "lag off").sentence
+
+
+def test_the_advice_goes_by_the_worst_of_end_rms_and_peak(lagging):
+    """All three in closed form, of a hand shaken by 10 mm that is at 0 and going up at 6 s.
+
+    What lags has the amplitude 1/sqrt(1 + (w tau)^2), is off by w tau/sqrt(1 + (w tau)^2) of the hand's at worst, and
+    by w tau/(1 + (w tau)^2) when the hand is at 0.
+    """
+    load = lagging("0.1 s")
+    late = OMEGA * 0.1
+    row = the(effects(load, signals=["gauge.shown"]), "lag off")
+    (change,) = row.changes
+    peak = 1 - 1 / math.hypot(1, late)
+    assert change.peak == pytest.approx(peak, rel=0.02)
+    assert change.rms == pytest.approx(late / math.hypot(1, late) / math.sqrt(2) / 2, rel=0.03)  # of a range of 20 mm
+    assert change.end == pytest.approx(late / (1 + late**2) / 2, rel=0.02)
+    assert row.change == max(change.peak, change.rms, change.end)
+    assert row.worst.measure == max(("rms", "end", "peak"), key=lambda one: getattr(change, one))
+
+
+def test_a_peak_alone_is_enough_to_matter():
+    """As with the friction of a gear: an rms of 0.2 % and an end of nothing, but a peak that is 5 % higher."""
+    t = np.linspace(0, 1, 1001)
+    base = np.sin(OMEGA * t)
+    switched = base.copy()
+    switched[250] = 1.05  # at its highest
+    (change,) = changes(["drive.level"], ["1"], switched[:, None], base[:, None])
+    assert change.rms < 1e-3
+    assert change.end == 0
+    assert change.peak == pytest.approx(0.05 / 1.05)
+    row = Row(Switch("gear_friction", "off", "on", {}), Timed("finished"), saved=0.0, changes=[change])
+    assert row.worst.measure == "peak"
+    assert "4.8 % at its peaks" in row.sentence
+    assert "it matters" in row.sentence
+
+
+def test_the_lowest_value_is_a_peak_too():
+    """The compression of a hose, far below its largest tension."""
+    base = np.linspace(-80, 400, 101)[:, None]
+    (change,) = changes(["hose"], ["N"], np.where(base < -79, -120, base), base)
+    assert change.peak == pytest.approx(40 / 400)
+
+
+def test_the_elements_of_a_line_are_judged_together():
+    """That the peak is in the neighbour is no change; that it is higher is."""
+    base = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 5.0], [0.0, 0.0]])
+    names, units = ["line.hose[3].tension", "line.hose[4].tension"], ["N", "N"]
+    (moved,) = changes(names, units, base[:, ::-1], base)
+    assert moved.name == "line.hose[*].tension"
+    assert moved.peak == 0
+    assert moved.rms > 0.1
+    (higher,) = changes(names, units, 1.1 * base, base)
+    assert higher.peak == pytest.approx(0.1 / 1.1)
+
+
+def test_what_a_more_exact_run_changes_as_much_is_no_change():
+    """Output by output: one that is sensitive does not hide what happens to another."""
+    base = np.stack([np.arange(11.0), np.arange(11.0)], axis=1)
+    names, units = ["a.x", "b.x"], ["m", "m"]
+    exact, switched = base + np.array([0.5, 0.0]), base + np.array([0.6, 0.1])
+    found = worst_of(changes(names, units, switched, base), floors(changes(names, units, exact, base)))
+    assert found.change.name == "b.x"
+    assert worst_of(changes(names, units, exact, base), floors(changes(names, units, exact, base))) is None
+
+
+def test_a_window_is_the_users_and_what_was_before_is_told_apart(scene, library):
+    """A hand that moves in the first second only: the lag is seen before 2 s, and no more after it has died away."""
+    parts = (library(LIBRARY),)
+    brief = "velocity: {trapezoid: {to: 0.1 m/s, rise: 0.3 s, stay: 0.3 s, fall: 0.3 s}}"
+    text = SCENE.replace("TAU", "0.05 s").replace("position: {sine: {amplitude: 10 mm, frequency: 1 Hz}}", brief)
+    path = scene(text, parts).netlist.path
+
+    def judged(window):
+        def load(more):
+            return fairlead.load(path, set=more, libraries=parts)
+
+        return effects(load, signals=["gauge.shown"], window=window)
+
+    after, in_it = judged((2.0, 6.0)), judged((0.2, 0.9))
+    assert after.begin == 2.0
+    assert the(after, "lag off").change < 1e-6
+    assert the(after, "lag off").worst_starting.value > 0.03
+    assert "(before t = 2 s gauge.shown by" in the(after, "lag off").sentence
+    assert in_it.span == (0.0, 0.9)
+    assert the(in_it, "lag off").change > 0.05
+
+
+@pytest.mark.parametrize("window", [(3.0, 2.0), (0.0, 7.0), (5.99, 6.0), (2.0, 2.0)])
+def test_a_window_that_is_none_is_refused_with_what_to_write(lagging, window):
+    with pytest.raises(UsageError, match=r"--from, --to: (.|\n)*Write "):
+        effects(lagging("0.05 s"), window=window)
+
+
+def test_what_matters_most_is_judged_first():
+    """By how much of the scene knows it: friction of the devices on a line before the leak of a motor."""
+    model = fairlead.load("guidance_route")
+    order = [one.label for one in by_weight(model, switches(model))]
+    assert set(order) == {one.label for one in switches(model)}
+    first = ["friction binding", "hose_core_slip off", "leakage off", "line.ruck_force absent", "air on"]
+    assert [one for one in order if one in first] == first
+
+
+def test_what_the_budget_leaves_is_named_from_the_end_of_the_order():
+    def load(more):
+        return fairlead.load("belt", set={"run.stop": "2 s", **more})
+
+    found = effects(load, budget=1.0)
+    order = [one.label for one in by_weight(load({}), switches(load({})))]
+    judged = {row.switch.label for row in found.rows} | set(found.untouched)
+    assert {*judged, *found.left_out} >= set(order)
+    assert [one for one in found.left_out if one in order] == [one for one in order if one not in judged]
 
 
 def test_the_energy_ledger_changes_nothing(lagging):

@@ -34,6 +34,15 @@ def recorded(model: Any) -> list[str]:
     return [signal.name for signal in _chosen(model) if signal.role != CREEP]
 
 
+def without_shares(model: Any, names: list[str]) -> list[str]:
+    """The names but those of what one element of a line takes in; all of them where there is nothing else.
+
+    It depends on how finely the line is cut; and where contacts hold, no law says how they share a load.
+    """
+    shares = {signal.name for signal in model.system.signals if signal.role == SHARE}
+    return [name for name in names if name not in shares or family(name)[1] is None] or names
+
+
 def recorded_of_meshes(model: Any) -> list[str]:
     """Of that what means the same on another mesh: of a family of elements nothing that belongs to their length."""
     return [

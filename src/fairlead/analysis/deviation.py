@@ -64,10 +64,12 @@ class Switching:
 
 
 def output_errors(
-    names: Sequence[str], units: Sequence[str], values: NDArray[np.float64], reference: NDArray[np.float64]
-) -> list[OutputError]:
+    names: Sequence[str], units: Sequence[str], values: NDArray[np.float64], reference: NDArray[np.float64],
+    rows: NDArray[np.bool_] | None = None,
+) -> list[OutputError]:  # fmt: skip
     """The error of every output that varies; `values` and `reference` are (k, m), in SI.
 
+    The error is that of some `rows` (k,), or of all; the scale is always that of all.
     Outputs that count or flag (unit 1, whole numbers only) are left to `switching`.
     """
     errors = []
@@ -81,6 +83,7 @@ def output_errors(
             continue
         if unit == "1" and np.array_equal(theirs, np.round(theirs)):
             continue
+        mine, theirs = (mine, theirs) if rows is None else (mine[rows], theirs[rows])
         d = np.abs(mine - theirs)
         errors.append(
             OutputError(

@@ -27,7 +27,7 @@ from fairlead.errors import FairleadError, RunWarning
 GRID = 1000  # intervals between the common times
 REPEATS = 5
 BRIEF = 0.2  # s; when the runs together took longer, their time is known well enough
-TURNS = 9
+TURNS, FEWEST_TURNS = 9, 3
 SCATTER = 0.15  # of the ratio of two times that were taken one after the other, on a machine that others share
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 Members = Mapping[str, Sequence[str]]  # an output -> the signals whose mean it is, where it is of another mesh
@@ -78,7 +78,7 @@ def on_grid(settings: Mapping[str, str], span: tuple[float, float]) -> dict[str,
 
 def timed_run(
     load: Load, settings: Mapping[str, str], names: Sequence[str], span: tuple[float, float], cap: float,
-    members: Members | None = None,
+    members: Members | None = None, repeats: int = REPEATS,
 ) -> Timed:  # fmt: skip
     """Run a scene over a span with at most `cap` seconds of wall time; repeat it when it is brief.
 
@@ -93,7 +93,7 @@ def timed_run(
         return Timed("not started", _first_line(error), cap)
     setup = time.perf_counter() - begun
     first, walls, cpus = None, [], []
-    for _ in range(REPEATS):
+    for _ in range(repeats):
         result, cpu = _once(model, cap)
         if isinstance(result, str):
             return Timed("not started", result, cap, setup)
@@ -109,15 +109,19 @@ def timed_run(
 
 
 def in_turns(
-    load: Load, settings: Mapping[str, str], span: tuple[float, float], cap: float
+    load: Load, settings: Mapping[str, str], span: tuple[float, float], cap: float, allowed: float = math.inf
 ) -> tuple[float, float, float]:
     """CPU time with settings and as the scene is, run in turns, so that whatever else the machine does slows both.
 
-    Medians in s, and half the range between the quartiles of their ratio.
+    Medians in s, and half the range between the quartiles of their ratio. No turn begins after `allowed` seconds, but
+    for the first few.
     """
+    begun = time.perf_counter()
     models = [load(on_grid(one, span)) for one in (settings, {})]
     cpus: list[list[float]] = [[], []]
-    for _ in range(TURNS):
+    for turn in range(TURNS):
+        if turn >= FEWEST_TURNS and time.perf_counter() - begun > allowed:
+            break
         for model, times in zip(models, cpus, strict=True):
             result, share = _once(model, cap)
             if isinstance(result, str):

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from fairlead.analysis.effects import Effects
 
 COLUMNS = (
-    "switched", "unknowns", "terms", "zones", "guards", "kernels", "switches", "CPU", "saved", "changes by", "of",
-    "peak",
+    "switched", "unknowns", "terms", "zones", "guards", "kernels", "switches", "CPU", "saved", "changes by", "as",
+    "of", "in the start",
 )  # fmt: skip
 
 
@@ -27,6 +27,12 @@ def effects(
     libraries: Libraries,
     budget: Budget = "60 s",
     outputs: Outputs = None,
+    begin: Annotated[
+        str | None, typer.Option("--from", metavar="TIME", help="Judge from here on. Default: after a tenth.")
+    ] = None,
+    end: Annotated[
+        str | None, typer.Option("--to", metavar="TIME", help="Run and judge to here. Default: what the budget allows.")
+    ] = None,
     fresh: Fresh = False,
     out: Annotated[
         pathlib.Path | None, typer.Option(metavar="DIR", help="effects.json goes here. Default: results/NAME-effects.")
@@ -45,7 +51,7 @@ def effects(
         lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries),
         budget=number("--budget", budget, "s"), signals=outputs or ["*"],
         kept=KeptRuns(None if fresh else default_folder()), libraries=libraries,
-        note=None if quiet or as_json else say,
+        note=None if quiet or as_json else say, window=(_moment("--from", begin), _moment("--to", end)),
     )  # fmt: skip
     folder = out or pathlib.Path("results") / f"{found.name}-effects"
     record = _record(found)
@@ -59,18 +65,24 @@ def effects(
         raise typer.Exit(INTERRUPTED)
 
 
+def _moment(option: str, text: str | None) -> float | None:
+    """A time of the run, which may be zero."""
+    return None if text is None else number(option, text, "s", zero=True)
+
+
 def _print(found: "Effects") -> None:
     first = ["the scene as it is", *_sizes(found.size), str(found.base.switches), _time(found.base.cpu)]
     empty = [""] * (len(COLUMNS) - len(first))
-    console = print_table(COLUMNS, ("switched", "of"), ([*first, *empty], *map(_cells, found.rows)), 170)
-    if not found.whole:
-        console.print(f"Studied is t = {found.span[0]:g} ... {found.span[1]:g} s only, to keep within the budget.")
+    console = print_table(COLUMNS, ("switched", "as", "of"), ([*first, *empty], *map(_cells, found.rows)), 170)
+    cut = "" if found.whole else f"; run is to {found.span[1]:g} s, --to or a larger --budget takes more"
+    console.print(f"Judged is t = {found.begin:g} ... {found.span[1]:g} s, the start before that apart{cut}.")
     for row in found.rows:
         console.print(row.sentence, markup=False)
     if found.untouched:
         console.print(f"Nothing in the scene is concerned by: {', '.join(found.untouched)}.", markup=False)
     if found.left_out:
-        console.print(f"Not begun: {', '.join(found.left_out)}. The same command goes on from here.", markup=False)
+        missing = ", ".join(found.left_out)
+        console.print(f"Not judged for lack of time: {missing}. The same command goes on from here.", markup=False)
 
 
 def _cells(row: "Row") -> list[str]:
@@ -81,7 +93,9 @@ def _cells(row: "Row") -> list[str]:
         return [row.switch.label, *sizes, row.timed.status, *[""] * (len(COLUMNS) - 7)]
     return [
         row.switch.label, *sizes, str(row.timed.switches), _time(row.timed.cpu), f"{100 * row.saved:.0f} %",
-        percent(row.change), row.most.name if row.most is not None else "", percent(row.peak),
+        percent(row.change), row.worst.measure if row.worst is not None else "",
+        row.most.name if row.most is not None else "",
+        percent(row.worst_starting.value) if row.worst_starting is not None else "",
     ]  # fmt: skip
 
 
@@ -102,13 +116,15 @@ def _record(found: "Effects") -> dict[str, Any]:
         {
             "name": row.switch.name, "now": row.switch.now, "then": row.switch.then, "kind": row.switch.kind,
             "settings": dict(row.switch.settings), "size": asdict(row.size) if row.size else None,
-            "saved": row.saved, "change": row.change, "of": row.most.name if row.most else None, "peak": row.peak,
-            "sentence": row.sentence, "run": row.timed.plain(), "outputs": [asdict(one) for one in row.errors],
+            "saved": row.saved, "change": row.change, "of": row.most.name if row.most else None,
+            "measure": row.worst.measure if row.worst else None, "sentence": row.sentence, "run": row.timed.plain(),
+            "outputs": [asdict(one) for one in row.changes], "start": [asdict(one) for one in row.starting],
         }
         for row in found.rows
     ]  # fmt: skip
     return {
-        "name": found.name, "span": found.span, "whole": found.whole, "floor": found.floor,
+        "name": found.name, "span": found.span, "begin": found.begin, "whole": found.whole,
+        "floors": {f"{name} {measure}": value for (name, measure), value in found.floors.items()},
         "interrupted": found.interrupted, "untouched": found.untouched, "left_out": found.left_out,
         "size": asdict(found.size), "run": found.base.plain(), "rows": rows,
     }  # fmt: skip

@@ -19,7 +19,7 @@ Outputs = Annotated[
 Fresh = Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from an earlier study.")]
 
 
-def number(option: str, text: str, unit: str) -> float:
+def number(option: str, text: str, unit: str, *, zero: bool = False) -> float:
     """A number of an option. `60s` is as good as `60 s` on a command line."""
     import re
 
@@ -29,8 +29,8 @@ def number(option: str, text: str, unit: str) -> float:
         value = si(re.sub(r"(?<=[0-9.])(?=(?![eE][-+]?[0-9])[a-zA-Z%])", " ", text.strip()), unit)
     except QuantityError as error:
         raise typer.BadParameter(f"{option}: {error}") from None
-    if value <= 0:
-        raise typer.BadParameter(f"{option} {text}: it must be above zero.")
+    if value < 0 or (value == 0 and not zero):
+        raise typer.BadParameter(f"{option} {text}: it must {'not be below' if zero else 'be above'} zero.")
     return value
 
 
