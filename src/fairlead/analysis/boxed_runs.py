@@ -1,6 +1,6 @@
 """The runs of a study of cost within its budget: kept ones at once, new ones while there is time.
 
-Loading an engine, or compiling it or the laws of a scene once for this machine, is outside the budget.
+Compiling an engine or the laws of a scene, once for this machine, is outside the budget.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ LONGEST = 0.2  # share of the budget that one run may take
 SHORTEST = 0.2  # s; with less time left no run is begun
 SLOWER = 8.0  # times the scene as it is: a run that takes longer is cut off and called slow
 WORTH_WAITING = 1.0  # s; no run is called slow that takes less
+COMPILED = 8.0  # s; a first step that takes longer has compiled an engine or laws, which is outside the budget
 Note = Callable[[str], None]
 
 
@@ -58,13 +59,13 @@ class BoxedRuns:
         self.kept.put(key, timed)
         return timed
 
-    def tightly(self, equations: Equations, engine: str, **more: Any) -> Timed | None:
+    def tightly(self, equations: Equations, engine: str, cap: float = math.inf, **more: Any) -> Timed | None:
         """A run at the accuracy of references; the engine rodas3p is the other method of rodas."""
         settings = {**equations.settings, "run.engine": engine, "run.accuracy": f"{self.tight:g}"}
         if engine == "rodas3p":
             settings |= {"run.engine": "rodas", "run.method": "rodas3p"}
         self.note(f"reference {equations.label} with {engine}".replace("  ", " "))
-        return self.run(settings, math.inf, **more)
+        return self.run(settings, cap, **more)
 
     def patience(self) -> float:
         """Seconds that a line may take."""
@@ -80,4 +81,6 @@ class BoxedRuns:
         self.note(f"loading {settings.get('run.engine', 'rodas')}")
         start = self.span[0]
         timed_run(self.load, {**settings, "run.max_steps": "1"}, [], (start, start + 1e-3), 600.0)
-        self.end += time.perf_counter() - begun
+        took = time.perf_counter() - begun
+        if took > COMPILED:
+            self.end += took

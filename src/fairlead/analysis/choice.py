@@ -99,15 +99,14 @@ def knee(points: Sequence[tuple[float, float, Row]]) -> Row | None:
 
 
 def _sentence(study: Study, row: Row, target: float) -> str:
-    numerical, modelling = study.size(row.numerical), study.size(row.modelling)
-    assert numerical is not None
-    below = numerical < study.floor
-    text = f"{row.rung.label}: {'below ' if below else ''}{percent(max(numerical, study.floor))} numerical error"
-    if modelling:
-        text += f", {percent(modelling)} modelling error"
+    numerical, below = study.told(row.numerical, row)
+    text = f"{row.rung.label}: {'below ' if below else ''}{percent(numerical)} numerical error"
+    if study.size(row.modelling):
+        modelling, below = study.told(row.modelling, row)
+        text += f", {'below ' if below else ''}{percent(modelling)} modelling error"
     text += f", in {seconds(row.timed.cpu)}."
-    elements = study.size(row.discretisation)
-    if elements is not None and elements > target:
+    elements, below = study.told(row.discretisation, row)
+    if elements is not None and elements > target and not below:
         text += f" The elements alone leave {percent(elements)}: smaller ones are needed for this."
     return text
 

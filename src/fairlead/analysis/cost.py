@@ -13,7 +13,10 @@ Three errors that are never summed, each the rms over time of the output that is
 The spread of the references is the floor: no error below it can be told. Runs that do not come closer when they are
 made tighter are sensitive to everything; then means and standard deviations over time are compared instead.
 
-A scene that takes more than a twenty-fifth of the budget is studied over the part of its time that it reaches in that.
+All columns come first, each from two refinements at least: references at two accuracies or by two engines, a creep and
+a tenth of it, elements of twice and of half the size; then the other lines. A scene that takes more than a twenty-fifth
+of the budget, or an eightieth where it has elements, is studied over the part of its time that it reaches in that; over
+half of it, where its references do not finish.
 """
 
 from __future__ import annotations
@@ -38,6 +41,7 @@ from fairlead.analysis.ladder import (
     rungs,
 )
 from fairlead.analysis.mesh_errors import MeshErrors
+from fairlead.analysis.meshes import mesh_settings
 from fairlead.analysis.references import References
 from fairlead.analysis.study import Reference, Row, Study
 from fairlead.analysis.timed_run import Load
@@ -45,7 +49,9 @@ from fairlead.arguments import Arguments
 
 TIGHTER = 1e-2  # accuracy of references over the smallest of the ladder
 TIGHTEST = 1e-9
-PROBE = 0.04  # share of the budget in which a scene must finish, or else it is studied over less time
+PROBE, PROBE_OF_ELEMENTS = 0.04, 0.0125  # share of the budget in which a scene must finish, or it is studied over less
+KEPT = 0.97  # of the budget is for runs, the rest for reading, the table and the figure
+HALVINGS = 2  # of the time that is studied, while no reference finishes
 
 
 def cost(
@@ -61,13 +67,14 @@ def cost(
     asked = Arguments("cost")
     seconds = asked.above_zero("budget", budget, "s")
     asked.refuse()
+    end = time.perf_counter() + KEPT * seconds
     ladder = checked(ladder or Ladder())
     model = load({})
     names, units, all_names = outputs(model, signals)
     span = (model.netlist.run.start, model.netlist.run.stop)
     tight = max(TIGHTEST, TIGHTER * min(ladder.accuracies))
     runs = BoxedRuns(load, model.netlist.digest, names, span, seconds, tight, kept or KeptRuns(None),
-                     tuple(libraries), full, note or (lambda _: None))  # fmt: skip
+                     tuple(libraries), full, note or (lambda _: None), end=end)  # fmt: skip
     made = Study(model.netlist.name, span, True, names, units)
     references = References(runs, units, made.remarks)
     meshes = MeshErrors(made, runs, references, model, ladder, all_names)
@@ -87,7 +94,6 @@ class _Climb:
     exact: Reference | None = field(default=None)
 
     def study(self) -> Study:
-        self.runs.end = time.perf_counter() + self.runs.budget
         try:
             self._study()
         except KeyboardInterrupt:
@@ -100,43 +106,76 @@ class _Climb:
     def _study(self) -> None:
         own, others = own_equations(self.model), other_equations(self.model, self.ladder)
         self._choose_span()
-        self.made.reference = self.references.of_scene(own)
+        self.made.reference = self._reference(own)
         lines = list(rungs(own, self.ladder, self.model))
-        self._climb(own, self.made.reference, [rung for rung in lines if rung.engine != "ida"])
+        first = lines[0].engine if lines else ""
+        self._climb(own, self.made.reference, [rung for rung in lines if rung.engine == first])
         self._exact(own)
-        for equations in others:
-            if equations.exact:
-                self._climb(equations, self.exact)
+        if not own.exact:
+            for equations in [one for one in others if one.axis == "creep"][-1:]:
+                self._begin(equations)
         self.meshes.measure(own)
         for equations in others:
+            self._begin(equations)
+        self._climb(own, self.made.reference, [rung for rung in lines if rung.engine not in (first, "ida")])
+        for equations in others:
+            self._climb(equations, self._reference_of(equations))
             if not equations.exact:
-                self._climb(equations, self.references.of_variant(equations, self.made.reference))
                 self._model_errors(equations)
-        self._climb(own, self.made.reference, [rung for rung in lines if rung.engine == "ida"])
+        self._climb(own, self.made.reference, [rung for rung in lines if rung.engine == "ida" != first])
         self._model_errors(own)
+
+    def _reference_of(self, equations: Equations) -> Reference | None:
+        return self.exact if equations.exact else self.references.of_variant(equations, self.made.reference)
+
+    def _begin(self, equations: Equations) -> None:
+        """The first line of other equations, with its errors."""
+        self._climb(equations, self._reference_of(equations), list(rungs(equations, self.ladder, self.model))[:1])
+        if not equations.exact:
+            self._model_errors(equations)
+
+    def _reference(self, own: Equations) -> Reference | None:
+        """That of the scene; over less time where it takes too long."""
+        found = self.references.of_scene(own)
+        for _ in range(HALVINGS):
+            left = self.runs.end - time.perf_counter()
+            if found is not None or self.runs.full or left < self.runs.budget / 2:
+                break
+            self.references.remarks.pop()  # why there is none
+            start, stop = self.runs.span
+            self._shorten(start + (stop - start) / 2)
+            found = self.references.of_scene(own)
+        return found
+
+    def _shorten(self, stop: float) -> None:
+        """Study the time up to there only."""
+        self.runs.span = self.made.span = (self.runs.span[0], stop)
+        self.made.whole = False
 
     def _choose_span(self) -> None:
         """Shorten the time that is studied when the scene as it is takes too long."""
         self.runs.note("the scene as it is")
         if self.runs.full:
             return
-        probe = self.runs.run({"run.engine": "rodas"}, PROBE * self.runs.budget)
+        share = PROBE_OF_ELEMENTS if mesh_settings(self.model) else PROBE
+        probe = self.runs.run({"run.engine": "rodas"}, share * self.runs.budget)
         start, stop = self.runs.span
         self.runs.usual = probe.wall if probe is not None else 0.0
         if probe is None or probe.status != "budget" or probe.reached <= start:
             return
         reached = float(f"{0.9 * (probe.reached - start):.1g}")
-        self.runs.span = self.made.span = (start, min(start + reached, stop))
-        self.made.whole = False
+        self._shorten(min(start + reached, stop))
 
     def _climb(self, equations: Equations, reference: Reference | None, lines: Sequence[Rung] | None = None) -> None:
         """All lines of one set of equations; an engine that was too slow is not asked to be more exact."""
         slow: set[str] = set()
         for rung in rungs(equations, self.ladder, self.model) if lines is None else lines:
+            if any(row.rung == rung for row in self.made.rows):
+                continue
             self.runs.note(rung.label)
             timed = None if rung.engine in slow else self.runs.run(rung.settings, self.runs.patience())
             if timed is None:
-                if rung.engine not in slow:
+                if rung.engine not in slow and rung.label not in self.made.left_out:
                     self.made.left_out.append(rung.label)
                 continue
             row = Row(rung, timed)

@@ -83,8 +83,8 @@ def effects(
 ) -> Effects:  # fmt: skip
     """Switch all that a scene can switch, within `budget` (`"2 min"`, or seconds), beside compiling new laws.
 
-    Judged is what happens in `window` [s]. Raises ModelError, UsageError for a wrong scene, pattern or window,
-    NumericalError when the scene as it is does not run.
+    Judged is what happens in `window` (texts like `"24 s"`, or seconds; None: all). Raises ModelError, UsageError for a
+    wrong scene, pattern or window, NumericalError when the scene as it is does not run.
     """
     asked = Arguments("effects")
     seconds = asked.above_zero("budget", budget, "s")

@@ -1,21 +1,34 @@
-"""The discretisation errors of a study: tight runs of every mesh against one of the finest."""
+"""The discretisation errors of a study: every mesh against the finest, at a tenth of the scene's accuracy.
+
+Elements of twice and of half the size (two thirds, where a device is too short for twice) tell by two refinements
+whether they approach one solution. With errors e(2h) and e(h), both against h/2, of order p
+
+    e(2h)/e(h) = (4^p - 1)/(2^p - 1) = 2^p + 1        and the whole error of h is e(h)/(1 - 2^-p)
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from fairlead.analysis.boxed_runs import BoxedRuns
+from fairlead.analysis.choice import percent
 from fairlead.analysis.compared_outputs import recorded_of_meshes, thinned
 from fairlead.analysis.deviation import output_errors, switching
 from fairlead.analysis.ladder import Equations, Ladder, other_meshes, rungs
-from fairlead.analysis.meshes import Mesh, correspondence
+from fairlead.analysis.meshes import Mesh, correspondence, meshes
 from fairlead.analysis.references import References
 from fairlead.analysis.study import Row, Study
 from fairlead.analysis.timed_run import Timed
 from fairlead.errors import FairleadError
 from fairlead.results.signal import family
+
+EXACT = 0.1  # accuracy of these runs over that of the scene: what elements leave is far above either
+APPROACH = 1.5  # e(2h)/e(h); below it, halving does not bring the solution closer (order one: 3, order two: 5)
+LESS_COARSE = 2 / 3  # of the fineness, where half of it cannot be
+HALF = 0.5  # the coarser mesh for which that formula is
 
 
 @dataclass
@@ -31,20 +44,59 @@ class MeshErrors:
 
     def measure(self, own: Equations) -> None:
         """The discretisation error of the scene's elements, and lines of other meshes with theirs."""
-        possible = {mesh: has for mesh in other_meshes(self.model, self.ladder) if (has := self._names_of(mesh))}
+        possible = self._possible()
         found = list(possible)
         if not found or found[-1].finer <= 1:
             return
         finest, coarser = found[-1], [Mesh("", {}, 1.0), *found[:-1]]
         kept, columns = self._shared(coarser, possible, finest)
         fine = Equations(finest.label, finest.settings, "mesh")
-        reference = self.runs.tightly(fine, "rodas", names=list(columns), members=columns)
+        reference = self._run(fine, list(columns), columns)
         if reference is None or not reference.finished:
             self.references.complain(finest.label, reference)
             return
         for mesh in coarser:
             places = [list(columns).index(f"{mesh.label}|{name}") for name in kept[mesh.label]]
             self._mesh(mesh, own, kept[mesh.label], reference.values[:, places])
+        self._tell_order(found[-1])
+
+    def _run(self, equations: Equations, names: list[str], members: Any = None) -> Timed | None:
+        """A run of a mesh that others are compared with, or compared itself."""
+        accuracy = max(self.runs.tight, EXACT * self.model.netlist.run.accuracy)
+        self.runs.note(f"mesh {equations.label}")
+        settings = {**equations.settings, "run.engine": "rodas", "run.accuracy": f"{accuracy:g}"}
+        return self.runs.run(settings, math.inf, names, members)
+
+    def _possible(self) -> dict[Mesh, list[str]]:
+        """Meshes with what they record; of coarser ones the next that the scene can have."""
+        found = {mesh: has for mesh in other_meshes(self.model, self.ladder) if (has := self._names_of(mesh))}
+        if self.ladder.finer is None and found and not any(mesh.finer < 1 for mesh in found):
+            found = {mesh: has for mesh in meshes(self.model, [LESS_COARSE]) if (has := self._names_of(mesh))} | found
+        return found
+
+    def _tell_order(self, finest: Mesh) -> None:
+        """Say whether two refinements approach one solution."""
+        rows = [row for row in self.study.rows if row.rung.equations.axis == "mesh" and row.discretisation is not None]
+        here = self.study.size(self.study.elements)
+        if not rows or not here:
+            return
+        row, coarser = rows[-1], self.study.size(rows[-1].discretisation)
+        assert coarser is not None
+        said = f"{row.rung.equations.label} leaves {percent(coarser)}, the scene's elements leave {percent(here)}"
+        if coarser < APPROACH * here:
+            rest = "they do not come closer: what elements leave is not known, take the larger"
+        elif row.rung.equations.label == self._half and finest.finer == 1 / HALF:
+            order = math.log2(coarser / here - 1)
+            whole = percent(here / (1 - 2**-order))
+            rest = f"they approach with order {order:.2g}, so that the scene's leave {whole} in all"
+        else:
+            rest = "they come closer"
+        self.study.remarks.append(f"{said}, both against {finest.label}; {rest}.")
+
+    @property
+    def _half(self) -> str:
+        """What elements of twice the size are called."""
+        return next((mesh.label for mesh in meshes(self.model, [HALF])), "")
 
     def _shared(self, coarser: list[Mesh], possible: Mapping[Mesh, list[str]], finest: Mesh) -> Any:
         """Per mesh the outputs that the finest has too; and the columns "mesh|output" with what they are in it."""
@@ -68,7 +120,7 @@ class MeshErrors:
     def _mesh(self, mesh: Mesh, own: Equations, names: list[str], fine: Any) -> None:
         equations = own if mesh.finer == 1.0 else Equations(mesh.label, mesh.settings, "mesh", own.exact)
         units = [self._unit(name) for name in names]
-        tight = self.runs.tightly(equations, "rodas", names=names)
+        tight = self._run(equations, names)
         if tight is None or not tight.finished:
             self.references.complain(mesh.label or "the scene", tight)
             return

@@ -26,6 +26,8 @@ BDF = 0.01  # share of the budget that the scene may take for ida to be tried as
 CONVERGING = 0.5  # the spread of tight runs over that of less tight ones; with more they do not converge
 LOST = 0.1  # rms over the range: so far apart two motions are as good as unrelated, however far looser runs are
 ENOUGH = 3  # engines asked when two do not agree
+SLOWER, WORTH_WAITING = 4.0, 2.0  # times rodas, s: an engine that takes longer is no reference
+SCATTER = 2.0  # a few runs of a sensitive scene lie nearer to each other than others may
 LOOSER, TIMES = 10.0, 2  # what is tried when a tight run does not finish, and how often
 
 
@@ -51,15 +53,29 @@ class References:
             if self.apart(timed, first)[0] <= AGREE or len(found) == ENOUGH:
                 break
             if len(found) == 2 and not self.converges(equations, first):
-                return self.sensitive(first, engine, timed)
+                return self.sensitive(equations, found)
+        if len(found) == 1 and (again := self._again(equations)) is not None:
+            spread, name = self.apart(again, first)
+            label = f"rodas at accuracy {self.runs.tight:g} and {LOOSER:g} times that, other engines being too slow"
+            return Reference(label, first, spread, name)
         return self.best_pair(found)
+
+    def _again(self, equations: Equations) -> Timed | None:
+        """A looser run of rodas, where it is all there is: what it says of its own convergence."""
+        timed = self.runs.run(self._looser(equations, LOOSER), math.inf)
+        return timed if timed is not None and timed.finished else None
+
+    def _looser(self, equations: Equations, times: float) -> dict[str, str]:
+        return {**equations.settings, "run.engine": "rodas", "run.accuracy": f"{min(times * self.runs.tight, 1e-2):g}"}
 
     def finished(self, equations: Equations) -> Iterator[tuple[str, Timed | None]]:
         """Engines with their tight runs: rodas, even if it failed, then the others that finish."""
-        yield "rodas", self._first(equations)
+        first = self._first(equations)
+        yield "rodas", first
+        cap = math.inf if first is None or self.runs.full else max(WORTH_WAITING, SLOWER * first.wall)
         here = [e for e in reversed(engines_here()) if e == "stepping" or (e == "ida" and self.brief())]
         for engine in [*here, "rodas3p"]:
-            timed = self.runs.tightly(equations, engine)
+            timed = self.runs.tightly(equations, engine, cap)
             if timed is not None and timed.finished:
                 yield engine, timed
 
@@ -72,6 +88,8 @@ class References:
                 if self.runs.tight > wanted:
                     self.remarks.append(f"References at {self.runs.tight:g}: at {wanted:g} rodas did not finish.")
                 return timed
+            if timed is None or timed.status == "budget":
+                break  # looser is not much faster; a shorter time is
             self.runs.tight *= LOOSER
         self.runs.tight = wanted
         self.complain("rodas", timed)
@@ -101,19 +119,24 @@ class References:
             dissent = f"three engines were asked: {', '.join(apart)}"
         return Reference(f"{one} and {two} {accuracy}", found[one], spread, name, dissent=dissent)
 
-    def sensitive(self, first: Timed, engine: str, second: Timed) -> Reference:
-        """A reference of which only statistics mean something."""
-        found = worst(self.errors(second, first), statistical=True)
-        spread, name = (found.statistical, found.name) if found else (0.0, "")
-        label = f"rodas and {engine} at accuracy {self.runs.tight:g}"
-        return Reference(label, first, spread, name, sensitive=True)
+    def sensitive(self, equations: Equations, found: dict[str, Timed]) -> Reference:
+        """A reference of which only statistics mean something.
+
+        Its floor is how far statistics of tight runs scatter: of both engines, and of rodas at looser accuracies.
+        """
+        looser = [self.runs.run(self._looser(equations, times), math.inf) for times in (1e2, 1e1)]
+        runs = [*found.values(), *(one for one in looser if one is not None and one.finished)]
+        spread, name = 0.0, ""
+        for one, other in itertools.combinations(runs, 2):
+            most = worst(self.errors(one, other), statistical=True)
+            if most is not None and most.statistical > spread:
+                spread, name = most.statistical, most.name
+        label = f"{' and '.join(found)} at accuracy {self.runs.tight:g}"
+        return Reference(label, found["rodas"], SCATTER * spread, name, sensitive=True)
 
     def converges(self, equations: Equations, first: Timed) -> bool:
         """Whether less tight runs are farther apart than tight ones; of two tight ones of the same engine."""
-        tight = self.runs.tight
-        looser = {**equations.settings, "run.engine": "rodas", "run.accuracy": f"{min(1e2 * tight, 1e-2):g}"}
-        tighter = {**looser, "run.accuracy": f"{min(1e1 * tight, 1e-2):g}"}
-        runs = [self.runs.run(settings, math.inf) for settings in (looser, tighter)]
+        runs = [self.runs.run(self._looser(equations, times), math.inf) for times in (1e2, 1e1)]
         if any(one is None or not one.finished for one in runs):
             return True
         far, near = (self.apart(one, first)[0] for one in runs if one is not None)
@@ -148,4 +171,6 @@ class References:
     def complain(self, what: str, timed: Timed | None) -> None:
         """Say that a reference is missing, and why."""
         why = "the budget was used up before" if timed is None else timed.reason or timed.status
-        self.remarks.append(f"No reference ({what}): {why}")
+        said = f"No reference ({what}): {why}"
+        if said not in self.remarks:
+            self.remarks.append(said)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from fairlead.analysis.deviation import OutputError, Switching, worst
-from fairlead.analysis.ladder import Rung
+from fairlead.analysis.ladder import Equations, Rung
 from fairlead.analysis.timed_run import Timed
 
 AGREE = 1e-3  # spread of two references that are one solution
@@ -76,6 +76,26 @@ class Study:
             return None
         found = worst(errors, statistical=self.sensitive)
         return 0.0 if found is None else (found.statistical if self.sensitive else found.relative)
+
+    def floor_of(self, equations: Equations) -> float:
+        """The same for some equations: where a scene is sensitive, what their most exact half of lines still has.
+
+        Statistics of runs that part from each other scatter, however exact the runs: what does not become less with
+        the accuracy is no numerical error.
+        """
+        if not self.sensitive:
+            return self.floor
+        rows = [row for row in self.rows if row.rung.equations == equations and row.numerical is not None]
+        accuracies = sorted({row.rung.accuracy for row in rows})
+        exact = accuracies[: max(1, len(accuracies) // 2)]
+        sizes = [self.size(row.numerical) or 0.0 for row in rows if row.rung.accuracy in exact]
+        return max([self.floor, *sizes])
+
+    def told(self, errors: Sequence[OutputError] | None, row: Row) -> tuple[float | None, bool]:
+        """The size of some errors of a line, or the floor where it is not above it, and whether it is not."""
+        size, floor = self.size(errors), self.floor_of(row.rung.equations)
+        below = size is not None and math.isfinite(floor) and size <= floor and bool(floor)
+        return (floor if below else size), below
 
     def unfinished(self) -> Iterator[str]:
         """Why lines have no numbers."""

@@ -110,6 +110,8 @@ def _record(study: "Study", choices: list["Choice"]) -> dict[str, Any]:
         {
             "label": row.rung.label, "settings": row.rung.settings, **row.timed.plain(),
             "error": {name: study.size(getattr(row, name)) for name in ("numerical", "modelling", "discretisation")},
+            "below_floor": {name: study.told(getattr(row, name), row)[1]
+                            for name in ("numerical", "modelling", "discretisation")},
             "numerical": errors(row.numerical), "modelling": errors(row.modelling),
             "discretisation": errors(row.discretisation),
             "switching": None if row.switching is None else asdict(row.switching),

@@ -6,6 +6,7 @@ from fairlead.cli.study import print_table
 
 if TYPE_CHECKING:
     from fairlead.analysis.choice import Choice
+    from fairlead.analysis.deviation import OutputError
     from fairlead.analysis.study import Row, Study
 
 COLUMNS = (
@@ -35,7 +36,7 @@ def ordered(study: "Study") -> list["Row"]:
 
 
 def _cells(study: "Study", row: "Row") -> list[str]:
-    from fairlead.analysis.choice import percent, seconds
+    from fairlead.analysis.choice import seconds
     from fairlead.analysis.deviation import worst
 
     rung = row.rung
@@ -45,13 +46,20 @@ def _cells(study: "Study", row: "Row") -> list[str]:
     found = worst(row.numerical, statistical=study.sensitive) if row.numerical else None
     late = row.switching.most if row.switching is not None else None
     return [
-        *head, percent(study.size(row.numerical)),
-        "exact" if rung.equations.exact else percent(study.size(row.modelling)),
-        percent(study.size(row.discretisation)),
+        *head, _told(study, row, row.numerical), "exact" if rung.equations.exact else _told(study, row, row.modelling),
+        _told(study, row, row.discretisation),
         found.name if found else "", f"{found.end:.2g} {found.unit}" if found else "",
         f"{found.worst:.2g} {found.unit}" if found else "", _switches(row), "-" if late is None else seconds(late),
         seconds(row.timed.cpu), seconds(row.timed.wall), seconds(row.timed.setup),
     ]  # fmt: skip
+
+
+def _told(study: "Study", row: "Row", errors: "list[OutputError] | None") -> str:
+    """An error, or what it is below: nothing can be told below the floor."""
+    from fairlead.analysis.choice import percent
+
+    size, below = study.told(errors, row)
+    return f"{'<' if below else ''}{percent(size)}"
 
 
 def _switches(row: "Row") -> str:
