@@ -1,6 +1,7 @@
 """`fairlead cost`: what it says of a scene whose motion is known in closed form, and that its advice holds."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -342,3 +343,18 @@ def test_a_scene_whose_reference_takes_too_long_is_studied_over_less_time(monkey
     assert found.reference is not None
     assert found.rows
     assert not any("No reference" in one for one in found.remarks)
+
+
+@pytest.mark.parametrize(("takes", "more"), [(2.0, 0.0), (40.0, 40.0)])
+def test_loading_counts_in_the_budget_and_compiling_does_not(monkeypatch, takes, more):
+    """One step that takes 40 s has compiled an engine, which is done once for a machine."""
+    clock = [100.0]
+
+    def step(*_, **__):
+        clock[0] += takes
+
+    monkeypatch.setattr("fairlead.analysis.boxed_runs.timed_run", step)
+    monkeypatch.setattr("fairlead.analysis.boxed_runs.time", SimpleNamespace(perf_counter=lambda: clock[0]))
+    runs = BoxedRuns(None, "", ["a.x"], (0.0, 1.0), 60.0, 1e-7, KeptRuns(None), end=160.0)
+    runs._warm_up({"run.engine": "rodas"})
+    assert runs.end == 160.0 + more
