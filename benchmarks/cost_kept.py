@@ -55,9 +55,8 @@ def by_command(name: str, settings: dict[str, str], budget: float) -> list[str]:
     rows = [row for row in found["rows"] if row["status"] == "finished"]
     kinds = ("numerical", "modelling", "discretisation")
     columns = [sum(row["error"][key] is not None for row in rows) for key in kinds]
-    meshes = [one for one in found["remarks"] if "both against" in one]
     return [told(name, settings), f"{found['span'][1]:g} s", f"{took:.0f} s", f"{100 * (took / budget - 1):+.0f} %",
-            str(len(rows)), *map(str, columns), percent(found["floor"]), *meshes]  # fmt: skip
+            str(len(rows)), *map(str, columns), percent(found["floor"])]  # fmt: skip
 
 
 def followed(name: str, settings: dict[str, str], budget: float) -> list[str]:
@@ -88,8 +87,8 @@ def main() -> None:
     parser.add_argument("--budget", type=float, default=120.0)
     budget = parser.parse_args().budget
     print(machine())
-    print("| scene | studied to | took | over budget | lines | numerical | modelling | elements | floor | refined |")
-    print("|" + 10 * " --- |")
+    print("| scene | studied to | took | over budget | lines | numerical | modelling | elements | floor |")
+    print("|" + 9 * " --- |")
     for name, settings in SCENES:
         print(f"| {' | '.join(by_command(name, settings, budget))} |", flush=True)
     print("\n| unseen | advised | told | had | all errors told | compared |\n|" + 6 * " --- |")

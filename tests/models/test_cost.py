@@ -14,7 +14,7 @@ from fairlead.analysis.cost import cost
 from fairlead.analysis.deviation import OutputError
 from fairlead.analysis.kept_runs import KeptRuns
 from fairlead.analysis.ladder import Equations, Ladder, Rung
-from fairlead.analysis.mesh_errors import MeshErrors
+from fairlead.analysis.mesh_errors import MeshErrors, order_of
 from fairlead.analysis.meshes import Mesh
 from fairlead.analysis.references import References
 from fairlead.analysis.study import Reference, Row, Study
@@ -286,19 +286,31 @@ def test_of_a_scene_that_converges_the_floor_is_that_of_the_references():
     assert [study.told(row.numerical, row) for row in study.rows] == [(0.04, False), (0.025, False)]
 
 
-def test_two_refinements_of_the_elements_tell_their_order(monkeypatch):
+def test_two_refinements_of_the_elements_tell_their_order():
     """Errors C h^2 of h and 2h against h/2 are as 3/4 to 15/4: order 2, and h is off by 4/3 of what it differs by."""
     study = Study("rope", (0.0, 1.0), True)
     coarse = Equations("element 0.5", axis="mesh")
     study.rows.append(Row(Rung(coarse, "rodas", 1e-3), Timed("finished"), discretisation=off(0.15)))
     study.elements = off(0.03)
     made = MeshErrors(study, None, None, None, Ladder(), [])
-    monkeypatch.setattr(MeshErrors, "_half", "element 0.5")
-    made._tell_order(Mesh("element 0.125", {}, 2.0))
+    meshes = [Mesh("element 0.5", {}, 0.5), Mesh("element 0.125", {}, 2.0)]
+    made._tell_order(meshes)
     assert study.remarks[-1].endswith("they approach with order 2, so that the scene's leave 4 % in all.")
-    study.elements = off(0.12)
-    made._tell_order(Mesh("element 0.125", {}, 2.0))
+    study.elements = off(0.09)
+    made._tell_order(meshes)
     assert "they do not come closer" in study.remarks[-1]
+
+
+@pytest.mark.parametrize("order", [0.5, 1, 2, 3])
+@pytest.mark.parametrize(("coarse", "fine"), [(2.0, 2.0), (1.5, 2.0), (2.0, 4.0)])
+def test_the_order_is_that_with_which_errors_were_made(order, coarse, fine):
+    of_h, of_coarse, of_fine = (size**order for size in (1.0, coarse, 1 / fine))
+    assert order_of((of_coarse - of_fine) / (of_h - of_fine), coarse, fine) == pytest.approx(order, abs=1e-4)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 1.0, 17 / 12])
+def test_errors_that_do_not_shrink_have_no_order(ratio):
+    assert order_of(ratio, 2.0, 2.0) is None
 
 
 def test_a_coarser_mesh_is_found_where_twice_the_size_does_not_fit():

@@ -45,7 +45,8 @@ def choose(study: Study, target: float) -> Choice:
     good = sorted((row for row in known if found[id(row)] <= target), key=lambda row: row.timed.cpu)
     head = f"{100 * target:g} %: "
     if study.floor > target:
-        agree = f"the references agree to {percent(study.floor)}"
+        how = "statistics of tight runs scatter by" if study.sensitive else "the references agree to"
+        agree = f"{how} {percent(study.floor)}"
         what = "there are no two references" if math.isinf(study.floor) else agree
         return Choice(target, None, f"{head}cannot be told, {what}.")
     if good:

@@ -1,9 +1,10 @@
 """The discretisation errors of a study: every mesh against the finest, at a tenth of the scene's accuracy.
 
-Elements of twice and of half the size (two thirds, where a device is too short for twice) tell by two refinements
-whether they approach one solution. With errors e(2h) and e(h), both against h/2, of order p
+Elements of twice and of half the size (1.5 times, where a device is too short for twice) tell by two refinements
+whether they approach one solution. Of order p, with a coarse mesh of q h and the finest of h/f, the errors against the
+finest are
 
-    e(2h)/e(h) = (4^p - 1)/(2^p - 1) = 2^p + 1        and the whole error of h is e(h)/(1 - 2^-p)
+    e(q h)/e(h) = (q^p - f^-p)/(1 - f^-p)        and the whole error of h is e(h)/(1 - f^-p)
 """
 
 from __future__ import annotations
@@ -26,9 +27,23 @@ from fairlead.errors import FairleadError
 from fairlead.results.signal import family
 
 EXACT = 0.1  # accuracy of these runs over that of the scene: what elements leave is far above either
-APPROACH = 1.5  # e(2h)/e(h); below it, halving does not bring the solution closer (order one: 3, order two: 5)
+LEAST_ORDER, MOST_ORDER = 0.25, 6.0  # with less, halving does not bring the solution closer
 LESS_COARSE = 2 / 3  # of the fineness, where half of it cannot be
-HALF = 0.5  # the coarser mesh for which that formula is
+
+
+def order_of(ratio: float, coarse: float, fine: float) -> float | None:
+    """The order p for which errors have that ratio (above), by halving an interval; None where they do not approach."""
+
+    def of(order: float) -> float:
+        return float((coarse**order - fine**-order) / (1 - fine**-order))
+
+    low, high = LEAST_ORDER, MOST_ORDER
+    if ratio < of(low):
+        return None
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (middle, high) if of(middle) < ratio else (low, middle)
+    return low
 
 
 @dataclass
@@ -58,7 +73,7 @@ class MeshErrors:
         for mesh in coarser:
             places = [list(columns).index(f"{mesh.label}|{name}") for name in kept[mesh.label]]
             self._mesh(mesh, own, kept[mesh.label], reference.values[:, places])
-        self._tell_order(found[-1])
+        self._tell_order(found)
 
     def _run(self, equations: Equations, names: list[str], members: Any = None) -> Timed | None:
         """A run of a mesh that others are compared with, or compared itself."""
@@ -74,29 +89,22 @@ class MeshErrors:
             found = {mesh: has for mesh in meshes(self.model, [LESS_COARSE]) if (has := self._names_of(mesh))} | found
         return found
 
-    def _tell_order(self, finest: Mesh) -> None:
-        """Say whether two refinements approach one solution."""
-        rows = [row for row in self.study.rows if row.rung.equations.axis == "mesh" and row.discretisation is not None]
-        here = self.study.size(self.study.elements)
-        if not rows or not here:
+    def _tell_order(self, found: list[Mesh]) -> None:
+        """Say whether two refinements approach one solution; `found` are the other meshes, the finest last."""
+        sizes = {row.rung.equations.label: self.study.size(row.discretisation) for row in self.study.rows}
+        here, finest = self.study.size(self.study.elements), found[-1]
+        coarse = next((mesh for mesh in found if mesh.finer < 1 and sizes.get(mesh.label) is not None), None)
+        if coarse is None or not here:
             return
-        row, coarser = rows[-1], self.study.size(rows[-1].discretisation)
-        assert coarser is not None
-        said = f"{row.rung.equations.label} leaves {percent(coarser)}, the scene's elements leave {percent(here)}"
-        if coarser < APPROACH * here:
-            rest = "they do not come closer: what elements leave is not known, take the larger"
-        elif row.rung.equations.label == self._half and finest.finer == 1 / HALF:
-            order = math.log2(coarser / here - 1)
-            whole = percent(here / (1 - 2**-order))
+        most = sizes[coarse.label]
+        assert most is not None
+        said = f"{coarse.label} leaves {percent(most)}, the scene's elements leave {percent(here)}"
+        order = order_of(most / here, 1 / coarse.finer, finest.finer)
+        rest = "they do not come closer: what elements leave is not known, take the larger"
+        if order is not None:
+            whole = percent(here / (1 - finest.finer**-order))
             rest = f"they approach with order {order:.2g}, so that the scene's leave {whole} in all"
-        else:
-            rest = "they come closer"
         self.study.remarks.append(f"{said}, both against {finest.label}; {rest}.")
-
-    @property
-    def _half(self) -> str:
-        """What elements of twice the size are called."""
-        return next((mesh.label for mesh in meshes(self.model, [HALF])), "")
 
     def _shared(self, coarser: list[Mesh], possible: Mapping[Mesh, list[str]], finest: Mesh) -> Any:
         """Per mesh the outputs that the finest has too; and the columns "mesh|output" with what they are in it."""

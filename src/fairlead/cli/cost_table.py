@@ -79,6 +79,8 @@ def _below(study: "Study") -> list[str]:
     reference = study.reference
     if reference is not None:
         spread = "" if reference.spread is None else f"; they agree to {percent(reference.spread)}"
+        if study.sensitive and spread:
+            spread = f"; statistics of tight runs scatter by {percent(reference.spread)}"
         worst = f" (worst: {reference.spread_of})" if reference.spread_of else ""
         lines.append(f"Errors are rms over time, relative to the range; reference: {reference.label}{spread}{worst}.")
         if study.sensitive:
