@@ -10,14 +10,14 @@ finest are
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from fairlead.analysis.boxed_runs import BoxedRuns
 from fairlead.analysis.choice import percent
 from fairlead.analysis.compared_outputs import recorded_of_meshes, thinned
-from fairlead.analysis.deviation import output_errors, switching
+from fairlead.analysis.deviation import OutputError, output_errors, switching
 from fairlead.analysis.ladder import Equations, Ladder, other_meshes, rungs
 from fairlead.analysis.meshes import Mesh, correspondence, meshes
 from fairlead.analysis.references import References
@@ -90,21 +90,33 @@ class MeshErrors:
         return found
 
     def _tell_order(self, found: list[Mesh]) -> None:
-        """Say whether two refinements approach one solution; `found` are the other meshes, the finest last."""
-        sizes = {row.rung.equations.label: self.study.size(row.discretisation) for row in self.study.rows}
-        here, finest = self.study.size(self.study.elements), found[-1]
-        coarse = next((mesh for mesh in found if mesh.finer < 1 and sizes.get(mesh.label) is not None), None)
-        if coarse is None or not here:
+        """Say whether two refinements approach one solution; `found` are the other meshes, the finest last.
+
+        Compared is the output, or the mean over the elements of a line, of which the scene's elements leave most.
+        """
+        rows = {row.rung.equations.label: row.discretisation for row in self.study.rows}
+        here, finest = self._by_family(self.study.elements), found[-1]
+        coarse = next((mesh for mesh in found if mesh.finer < 1 and rows.get(mesh.label)), None)
+        if coarse is None:
             return
-        most = sizes[coarse.label]
-        assert most is not None
-        said = f"{coarse.label} leaves {percent(most)}, the scene's elements leave {percent(here)}"
-        order = order_of(most / here, 1 / coarse.finer, finest.finer)
+        there = self._by_family(rows[coarse.label])
+        worst = max((name for name in here if name in there), key=here.__getitem__, default="")
+        if not worst or not here[worst]:
+            return
+        said = f"{worst}: {coarse.label} leaves {percent(there[worst])}, the scene's elements {percent(here[worst])}"
+        order = order_of(there[worst] / here[worst], 1 / coarse.finer, finest.finer)
         rest = "they do not come closer: what elements leave is not known, take the larger"
         if order is not None:
-            whole = percent(here / (1 - finest.finer**-order))
+            whole = percent(here[worst] / (1 - finest.finer**-order))
             rest = f"they approach with order {order:.2g}, so that the scene's leave {whole} in all"
         self.study.remarks.append(f"{said}, both against {finest.label}; {rest}.")
+
+    def _by_family(self, errors: Sequence[OutputError] | None) -> dict[str, float]:
+        """The error of every output, of the elements of a line in the mean over them."""
+        sizes: dict[str, list[float]] = {}
+        for one in errors or ():
+            sizes.setdefault(family(one.name)[0], []).append(self.study.size([one]) or 0.0)
+        return {name: math.sqrt(sum(size**2 for size in each) / len(each)) for name, each in sizes.items()}
 
     def _shared(self, coarser: list[Mesh], possible: Mapping[Mesh, list[str]], finest: Mesh) -> Any:
         """Per mesh the outputs that the finest has too; and the columns "mesh|output" with what they are in it."""
