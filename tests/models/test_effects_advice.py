@@ -178,7 +178,7 @@ def test_a_window_is_the_users_and_what_was_before_is_told_apart(scene, library)
 
         return effects(load, signals=["gauge.shown"], window=window)
 
-    after, in_it = judged((2.0, 6.0)), judged((0.2, 0.9))
+    after, in_it = judged(("2 s", "6 s")), judged((0.2, 0.9))
     assert after.begin == 2.0
     assert the(after, "lag off").change < 1e-6
     assert the(after, "lag off").worst_starting.value > 0.03
