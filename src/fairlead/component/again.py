@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 
 from fairlead.component.alike import Parts, agree
 from fairlead.component.base import Composite, Declared, Expansion
+from fairlead.component.composition import expanded
 from fairlead.component.instantiate import Assembly, HandedOn, Instance, Line, read_entry
 from fairlead.component.scene import Scene, Tally
 from fairlead.component.values import Values, variant_of
@@ -57,8 +58,7 @@ class Again:
             self.leaf(path, before, values)
             return
         was: Expansion = self.old.expansions[path]
-        assert values.type.answers.expand is not None  # of every Composite, see base.py
-        now: Expansion = values.type.answers.expand(values, scene)
+        now = expanded(values, scene)
         same = (was.connections, was.ports, was.outputs) == (now.connections, now.ports, now.outputs)
         if not same or list(was.children) != list(now.children):
             raise Unlike

@@ -31,7 +31,7 @@ SET_HERE = ("declaration", "answers", "members", "joined")
 """What the framework itself leaves in a class."""
 DECLARED_IN = ("fairlead.component.declare", "fairlead.component.given")
 BUDGETS = ("max_steps", "max_events")
-EVERYWHERE, COMPONENT, COMPOSITE = "any class", "a Component", "a Composite"
+EVERYWHERE, COMPONENT, COMPOSITE, CONTROLLER = "any class", "a Component", "a Composite", "a Controller"
 
 
 @dataclass(frozen=True)
@@ -124,9 +124,18 @@ def _map(value: Any, has: Declaration) -> str:
     return "" if fits else f"is {_shown(value)}; it is a map with names"
 
 
+def _given(value: Any, has: Declaration) -> str:
+    if wrong := _map(value, has):
+        return wrong
+    known = {*has.parameters, *has.effects}
+    strange = [name for name in value if name not in known]
+    return f"gives {strange[0]!r}; the parameters are {sorted(known)}" if strange else ""
+
+
 LAW = Kind("as a law", _law, method=True)
 SAMPLE = Kind("with self, t and what it reads", _sample, method=True)
 YES_OR_NO, SENTENCE, MAP = Kind("True or False", _yes_or_no), Kind("a sentence", _sentence), Kind("a map", _map)
+GIVEN = Kind("a map", _given)
 INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
 TWO_PORTS = Kind("two ports", _two_ports)
 PARAMETERS = Kind("parameters", _parameters)
@@ -148,7 +157,7 @@ class Answers:
     stored: Callable[..., Any] | None = _asked(LAW, "energy stored [J], where the laws do not tell it")
     dissipated: Callable[..., Any] | None = _asked(LAW, "power dissipated [W], likewise")
     supplied: Callable[..., Any] | None = _asked(LAW, "power supplied [W], likewise")
-    sample: Callable[..., Any] | None = _asked(SAMPLE, "of a Controller: its outputs, at a sample")
+    sample: Callable[..., Any] | None = _asked(SAMPLE, "its outputs, at a sample", CONTROLLER)
     inertia: Callable[[Any], Mapping[str, float]] | None = _asked(
         method("p"), "mass, moment of inertia or capacity, by port"
     )
@@ -251,7 +260,7 @@ class Answers:
         MAP, "properties of the contract that it does not keep, each with the reason", EVERYWHERE, dict
     )
     asked_with: Mapping[str, Any] = _asked(
-        MAP, "parameters with which the contract is asked, instead of random ones", EVERYWHERE, dict
+        GIVEN, "parameters with which the contract is asked, instead of random ones", EVERYWHERE, dict
     )
 
 
@@ -260,7 +269,8 @@ METHODS = tuple(one.name for one in fields(Answers) if one.metadata["kind"].meth
 
 def asked_of(sort: str) -> dict[str, Field[Any]]:
     """What a sort of class may be asked, by name."""
-    return {one.name: one for one in fields(Answers) if one.metadata["of"] in (sort, EVERYWHERE)}
+    asked = (EVERYWHERE, COMPONENT, CONTROLLER) if sort == CONTROLLER else (EVERYWHERE, sort)
+    return {one.name: one for one in fields(Answers) if one.metadata["of"] in asked}
 
 
 def rows() -> list[tuple[str, str, str]]:
@@ -297,12 +307,20 @@ def misspelt(bodies: Iterable[Mapping[str, Any]], sort: str) -> Iterator[str]:
         for name, value in body.items():
             if name in known:
                 yield from _other_kind(name, value, known[name])
+            elif _plain(value) and (whose := _of_others(name, sort)):
+                yield f"{name!r} is asked of {whose}, and never of {sort}"
             elif _plain(value) and (near := _near(name, known)):
                 yield (
                     f"nobody asks for {name!r}. Did you mean {near}? A helper of its own with such a name takes "
                     "a leading underscore"
                 )
         known |= body
+
+
+def _of_others(name: str, sort: str) -> str:
+    """The sort of class that a name is asked of, when a Component or Composite of another sort has it."""
+    of = next((one.metadata["of"] for one in fields(Answers) if one.name == name), EVERYWHERE)
+    return "" if sort == EVERYWHERE or name in asked_of(sort) or of == EVERYWHERE else of
 
 
 def _other_kind(name: str, value: Any, before: Any) -> Iterator[str]:
@@ -324,7 +342,17 @@ def _plain(value: Any) -> bool:
 def _near(word: str, known: Iterable[str]) -> str:
     by_key = {_key(name): name for name in known}
     found = difflib.get_close_matches(_key(word), by_key, n=1, cutoff=NEAR)
+    found = found or [key for key in by_key if len(key) > 3 and _exchanged(_key(word), key)]
     return by_key[found[0]] if found else ""
+
+
+def _exchanged(word: str, other: str) -> bool:
+    """Whether two words differ by two neighbouring letters that changed places, as in `strat`."""
+    differ = [k for k, (one, two) in enumerate(zip(word, other, strict=False)) if one != two]
+    return (
+        len(word) == len(other) and len(differ) == 2 and differ[1] == differ[0] + 1
+        and word[differ[0]] == other[differ[1]] and word[differ[1]] == other[differ[0]]
+    )  # fmt: skip
 
 
 def _key(word: str) -> str:

@@ -17,11 +17,20 @@ state, an unknown or `t`. A law without zones is called `law`; with zones, each 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
-from fairlead.component.answers import COMPONENT, COMPOSITE, EVERYWHERE, Answers, answers_of, misspelt, unfit
+from fairlead.component.answers import (
+    COMPONENT,
+    COMPOSITE,
+    CONTROLLER,
+    EVERYWHERE,
+    Answers,
+    answers_of,
+    misspelt,
+    unfit,
+)
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import (
     ROLES,
@@ -40,11 +49,14 @@ from fairlead.component.declare import (
     ZoneLaw,
     Zones,
 )  # fmt: skip
+from fairlead.component.defaults import misfits
 from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.holding import HoldPosition
+from fairlead.component.replies import AnswerError, held_to, is_bundled
 from fairlead.quantities import QuantityError, parse_unit
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
+CONTROLLERS = "fairlead.component.controller"
 LEDGER = ("dissipated", "supplied", "stored")
 RESERVED = {"type", "given", "variant", "path", "effects"}  # attributes of `values.Values` that would hide a parameter
 
@@ -70,8 +82,9 @@ class Declared:
             members = _members(cls)
             cls.declaration = _collect(members)
             _check_answers(cls, members)
-            cls.answers = answers_of(members, _sort(cls))
+            cls.answers = held_to(answers_of(members, _sort(cls)), cls)
             _check(cls)
+            _check_fixed(cls)
 
 
 class Family(Declared, abstract=True):
@@ -138,6 +151,8 @@ def _members(cls: type) -> dict[str, Any]:
 
 def _sort(cls: type) -> str:
     """What sort of class it is, which decides what it may be asked."""
+    if any(base.__name__ == "Controller" and base.__module__ == CONTROLLERS for base in cls.__mro__):
+        return CONTROLLER
     return COMPONENT if issubclass(cls, Component) else COMPOSITE if issubclass(cls, Composite) else EVERYWHERE
 
 
@@ -267,6 +282,19 @@ def _check_named_numbers(cls: type[Declared]) -> None:
         _demand(cls, named, f"{name!r} is {read.default!r} when nothing is connected, which is no parameter")
 
 
+def _check_fixed(cls: type[Declared]) -> None:
+    """What a class of a user's says once and for all: its defaults, and which motions it gives."""
+    if is_bundled(cls):
+        return  # the tests ask those
+    for what in misfits(cls.declaration):
+        _demand(cls, False, what)
+    if cls.answers.prescribes is not None:
+        try:
+            cls.answers.prescribes()
+        except AnswerError as error:
+            raise DeclarationError(" ".join(f"{fault.what} {fault.way_out}" for fault in error.faults)) from error
+
+
 def _check_limits(cls: type[Declared]) -> None:
     """A limiting model can stand where the class stands, with what the class was given."""
     has = cls.declaration
@@ -308,6 +336,11 @@ def terms_of(cls: type[Declared], said: Any) -> dict[str, Any]:
     else:
         flows = said if isinstance(said, tuple) else (said,)
         ports = list(cls.declaration.ports)
+        if said is None or isinstance(said, list | Mapping | str):
+            gave = "None" if said is None else f"a {type(said).__name__}"
+            by_name = ", ".join(f"{port}=..." for port in ports)
+            what = f"the law returns {gave}; it returns what {', '.join(ports) or 'its ports'} take in"
+            raise DeclarationError(f"{what}, in a tuple or as Law({by_name})")
         if len(flows) != len(ports):
             raise DeclarationError(f"the law returns {len(flows)} flows for {len(ports)} ports {ports}")
         terms = dict(zip(ports, flows, strict=True))

@@ -13,11 +13,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
+from fairlead.component.composition import expanded
 from fairlead.component.declare import PATH, Input, Output, Port
 from fairlead.component.effects import switch
 from fairlead.component.friction_block import sound
 from fairlead.component.given import SWITCH
 from fairlead.component.parameters import read
+from fairlead.component.replies import AnswerError
 from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_head
 from fairlead.component.stand_in import stand_in
 from fairlead.component.values import Values, Variant, variant_of
@@ -204,6 +206,9 @@ def _expanded(assembly: Assembly, path: str, values: Values, where: Location) ->
     except TooManyParts:
         assembly.broken.add(path)
         return [] if full else [*TooManyParts(where, path).faults]
+    except AnswerError as error:
+        assembly.broken.add(path)
+        return error.at(where, path)
     except ModelError as error:
         assembly.broken.add(path)
         return [fault if fault.where else Fault(where, f"{path}.{fault.what}", fault.way_out) for fault in error.faults]
@@ -217,8 +222,7 @@ def _place(assembly: Assembly, path: str, values: Values, where: Location) -> No
     if not issubclass(values.type, Composite):
         assembly.add(path, values, where)
         return
-    assert values.type.answers.expand is not None  # of every Composite, see base.py
-    expansion: Expansion = values.type.answers.expand(values, assembly.scene)
+    expansion = expanded(values, assembly.scene)
     assembly.expansions[path] = expansion
     for name, child in expansion.children.items():
         _place(assembly, f"{path}.{name}", child, where)

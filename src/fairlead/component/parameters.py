@@ -34,6 +34,7 @@ from fairlead.component.given import (
     Waveform,
 )  # fmt: skip
 from fairlead.component.mistakes import explain
+from fairlead.component.replies import AnswerError
 from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
 from fairlead.component.values import Values
 from fairlead.errors import Fault, Location
@@ -57,8 +58,11 @@ def read(
     except ValidationError as error:
         tree = Value(dict(raw), where)
         return None, explain(kind, error.errors(include_url=False), tree, path)
-    values = _values(kind, model)
-    return in_force(values), _contradictions(kind, values, raw, path, where)
+    try:
+        values = _values(kind, model)
+        return in_force(values), _contradictions(kind, values, raw, path, where)
+    except AnswerError as error:
+        return None, error.at(where, path)
 
 
 def validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Path) -> Values:

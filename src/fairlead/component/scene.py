@@ -12,9 +12,10 @@ from fairlead.component.effects import switch
 from fairlead.component.given import SWITCH
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
-from fairlead.errors import Fault, Location, ModelError
+from fairlead.errors import Fault, Location, ModelError, listing, shown
 from fairlead.netlist.netlist import Value
 
+NOWHERE = Location("")
 FRAMEWORK_EFFECTS = ("energy",)
 MOST_PARTS = 200_000
 """Parts that a scene may be made of; some minutes of work and a gigabyte of memory. More is a slip of a count."""
@@ -59,10 +60,16 @@ class Scene:
 
         Raises ModelError when settings of the scene contradict each other, and TooManyParts.
         """
+        if not (isinstance(kind, type) and issubclass(kind, Declared)):
+            what = f"scene.make takes a class such as Spring, and was given {kind!r}."
+            raise ModelError([Fault(None, what, "Import the class and give that, without quotes and brackets.")])
         self.tally.add()
         plain = {name: value.plain() for name, value in self.defaults(kind, given).items()}
         plain |= {name: value.plain() for name, value in self.switched(kind, given).items() if name not in given}
-        made = make(self.member(kind, given), **plain, **{n: v for n, v in given.items() if n != _key(kind)})
+        if is_head(member := self.member(kind, given)):
+            what = f"scene.make({kind.__name__}): there is no {member.key} {shown(given.get(member.key))}."
+            raise ModelError([Fault(None, what, f"There are {listing(member.members)}.")])
+        made = _made(member, {**plain, **{n: v for n, v in given.items() if n != _key(kind)}})
         faults = []
         for name, what, way_out in made.type.answers.check(made) if made.type.answers.check is not None else ():
             where = next((given.where for key, given in self.friction.items() if key == name or key in what), None)
@@ -111,6 +118,31 @@ class Scene:
         """Effects of `kind` that the scene switches; what is no switch is told elsewhere."""
         declared = self.member(kind, given).declaration.effects
         return {name: v for name, v in self.effects.items() if name in declared and switch(v.plain()) in SWITCH}
+
+
+def _made(kind: type[Declared], given: dict[str, Any]) -> Values:
+    """Values of a child. Raises ModelError for those that its class does not allow."""
+    from pydantic import ValidationError
+
+    from fairlead.component.mistakes import explain
+
+    try:
+        return make(kind, **given)
+    except ValidationError as error:
+        tree = Value({name: _written(value) for name, value in given.items()}, NOWHERE)
+        faults = explain(kind, error.errors(include_url=False), tree, f"scene.make({kind.__name__}), ")
+        raise ModelError(
+            Fault(None, fault.what.replace("), .", "), ", 1), fault.way_out) for fault in faults
+        ) from error
+
+
+def _written(value: Any) -> Value:
+    """A value of Python in the form in which one of a netlist is explained."""
+    if isinstance(value, Mapping):
+        return Value({str(name): _written(inner) for name, inner in value.items()}, NOWHERE)
+    if isinstance(value, list | tuple):
+        return Value([_written(inner) for inner in value], NOWHERE)
+    return Value(value, NOWHERE)
 
 
 def is_head(kind: type[Declared]) -> TypeGuard[type[Family]]:

@@ -10,6 +10,7 @@ be frozen inside a step; it is refused with the author's file and line.
 from __future__ import annotations
 
 import functools
+import inspect
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -36,6 +37,7 @@ from fairlead.component.piecewise import DEGREE
 from fairlead.component.quantity import tracing
 from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
 from fairlead.component.values import Variant
+from fairlead.errors import did_you_mean
 
 BRANCHES = "a law must not branch on values; write one law per zone"
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
@@ -149,12 +151,20 @@ class _PortReader:
 
     def __init__(self, name: str, declared: Port) -> None:
         domain = declared.domain
+        self.port, self.such_as = name, f"{name}.{domain.across[0][0]}" if domain.across else name
         for (attribute, _), kind in zip(domain.across, ("x", "v"), strict=False):
             setattr(self, attribute, symbol(f"port:{name}:{kind}"))
         if domain.acceleration:
             setattr(self, domain.acceleration, symbol(f"port:{name}:a"))
         setattr(self, domain.through[0] or "_", symbol(f"port:{name}:R"))
         self.inverse_mass = symbol(inverse_mass(name))
+        self._has = [*(one for one, _ in domain.across), domain.acceleration, domain.through[0]]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        has = ", ".join(filter(None, self._has))
+        raise TraceError(f"the port {self.port!r} has {has}, and no {name!r}. {did_you_mean(name, self._has)}".rstrip())
 
 
 def trace(variant: Variant) -> Traced:
@@ -188,6 +198,7 @@ def trace_function(
 ) -> tuple[Any, dict[str, sympy.Expr]]:
     """What a function of a class, such as a curve's `coefficient`, gives; and the tables it reads, where."""
     reads: dict[str, sympy.Expr] = {}
+    function = inspect.unwrap(function)
     names = function.__code__.co_varnames
     return _run(function, dict(zip(names, (_Recorder(variant, "", reads), *arguments), strict=False))), reads
 
@@ -271,6 +282,8 @@ def _branches(place: str, function: Callable[..., Any]) -> TraceError:
 
 def _explained(error: Exception) -> str:
     """What an author did to a symbol that only a number can bear."""
+    if isinstance(error, TraceError):
+        return str(error)
     if "truth value" in str(error):
         return BRANCHES
     if "convert expression to float" in str(error) or "ufunc" in str(error):
@@ -281,6 +294,9 @@ def _explained(error: Exception) -> str:
 def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     """What an author's function gave, when a kernel can compute it."""
     place = source_place(function)
+    if isinstance(value, _PortReader):
+        one = f"the port {value.port!r}, which is not a number; take one of its variables, such as {value.such_as}"
+        raise TraceError(f"{place}: {function.__name__} gives {one}")
     if isinstance(value, str | bool) or not (
         isinstance(value, int | float | sympy.Expr) or hasattr(value, "__float__")
     ):

@@ -9,10 +9,13 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import Any
 
 from fairlead.component.base import Declared
 from fairlead.component.piecewise import PiecewisePolynomial, Sine, constant
+from fairlead.component.replies import AnswerError, asked, is_bundled, place_of
+from fairlead.errors import Fault
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ class Values:
             return given[name]
         declared = object.__getattribute__(self, "type")
         if name in declared.declaration.derived:
-            given[name] = declared.declaration.derived[name].function(self)
+            given[name] = _derived(self, declared, name)
             return given[name]
         function = getattr(declared, name, None)
         if callable(function):
@@ -70,6 +73,19 @@ class Values:
     def __repr__(self) -> str:
         """Type and what was given."""
         return f"{self.type.__name__}({', '.join(f'{k}={v!r}' for k, v in self.given.items())})"
+
+
+def _derived(values: Values, kind: type[Declared], name: str) -> Any:
+    """What a method marked as derived gives. Raises AnswerError for one of a user's that gives no number."""
+    one = kind.declaration.derived[name]
+    if is_bundled(kind):
+        return one.function(values)
+    said = asked(kind, name, one.function, values)
+    if said is not None and not (isinstance(said, Wave) if one.wave else isinstance(said, Real)):
+        what = f"{place_of(one.function)}: {kind.__name__}.{name} gives {said!r}."
+        wanted = "a quantity in time (a Wave)" if one.wave else "a number"
+        raise AnswerError([Fault(None, what, f"What is derived from parameters is {wanted}.")])
+    return said
 
 
 def number_given(values: Values, said: str | float) -> float:

@@ -15,6 +15,7 @@ import networkx as nx
 
 from fairlead.component.declare import TRANSLATIONAL
 from fairlead.component.instantiate import Assembly, Instance, PortRef
+from fairlead.component.replies import AnswerError
 from fairlead.errors import Fault, listing
 from fairlead.flatten.flat_model import Group, Node, Prescribed
 
@@ -62,7 +63,7 @@ def group(
     for node in range(count):
         root, ratio, offset = ties.root(node)
         members.setdefault(root, []).append((node, ratio, offset))
-    facts = _facts(assembly, node_of)
+    facts = _facts(assembly, node_of, faults)
     groups: list[Group] = []
     group_of: dict[int, tuple[int, float, float]] = {}
     for number, tied in enumerate(members.values()):
@@ -93,9 +94,10 @@ def _told_by_a_body(tied: list[tuple[int, float, float]], nodes: list[Node], fac
 
 
 def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> list[Fault]:
-    faults, written = [], nx.Graph()
+    faults: list[Fault] = []
+    written = nx.Graph()
     for instance in assembly.instances.values():
-        for a, b, ratio, offset in _ties(instance):
+        for a, b, ratio, offset in asked(instance, "ties", faults) or ():
             one, two = node_of[PortRef(instance.path, a)], node_of[PortRef(instance.path, b)]
             if not ties.tie(one, two, ratio, offset):
                 loop = nx.shortest_path(written, one, two) if one in written and two in written else []
@@ -119,18 +121,29 @@ def _gap(ties: Ties, instance: Instance, tie: tuple[int, int, float, float]) -> 
     return f"{instance.path} has the length {offset:g}, the others leave {ob - ratio * oa:g}"
 
 
-def _ties(instance: Instance) -> Any:
-    ties = instance.type.answers.ties
-    return ties(instance.values) if ties else ()
+def asked(instance: Instance, name: str, faults: list[Fault]) -> Any:
+    """What a method of a component says of these values; None if it has none, or a wrong one, which is told."""
+    method = getattr(instance.type.answers, name)
+    try:
+        return method(instance.values) if method is not None else None
+    except AnswerError as error:  # once a class will do
+        told = {fault.what for fault in faults}
+        faults += [
+            fault for fault in error.at(instance.where, instance.path)
+            if not any(what.endswith(fault.what.removeprefix(instance.path)) for what in told)
+        ]  # fmt: skip
+        return None
 
 
-def _facts(assembly: Assembly, node_of: dict[PortRef, int]) -> dict[int, list[tuple[str, Instance, PortRef, Any]]]:
+def _facts(
+    assembly: Assembly, node_of: dict[PortRef, int], faults: list[Fault]
+) -> dict[int, list[tuple[str, Instance, PortRef, Any]]]:
     """Per node: inertias, start values and prescriptions of its components."""
     facts: dict[int, list[tuple[str, Instance, PortRef, Any]]] = {}
     for instance in assembly.instances.values():
         says = instance.type.answers
-        for kind, method in (("inertia", says.inertia), ("start", says.start)):
-            for port, value in (method(instance.values) if method is not None else {}).items():
+        for kind in ("inertia", "start"):
+            for port, value in (asked(instance, kind, faults) or {}).items():
                 ref = PortRef(instance.path, port)
                 facts.setdefault(node_of[ref], []).append((kind, instance, ref, value))
         for port, outputs in (says.prescribes() if says.prescribes is not None else {}).items():

@@ -109,7 +109,7 @@ def untraceable(flat: FlatModel) -> list[Fault]:
     for variant, instance in {instance.variant: instance for instance in reversed(flat.instances)}.items():
         try:
             kernel(variant)
-        except TypeError as error:  # TraceError, and what an author's law may raise when it is run
+        except (TypeError, ModelError) as error:  # TraceError, and what an author's law may raise when it is run
             faults[variant] = Fault(instance.where, f"{instance.path}: {error}")
     return list(faults.values())
 

@@ -13,6 +13,7 @@ import numpy as np
 from fairlead.component.base import Composite, Declared
 from fairlead.component.registry import bundled
 from fairlead.component.trace import TraceError
+from fairlead.errors import ModelError
 from fairlead.testing.properties import PROPERTIES
 from fairlead.testing.samples import families, sample
 from fairlead.testing.world import ContractError, World
@@ -42,6 +43,8 @@ class Check:
                 PROPERTIES[self.name](functools.partial(_world, self, rng, optional), rng)
             except TraceError as error:
                 raise ContractError(f"{self.kind.__name__}: its law cannot be traced: {error}") from error
+            except ModelError as error:  # of a method that fails, or gives what it should not
+                raise ContractError(str(error)) from error
 
     def __str__(self) -> str:
         effects = self.kind.declaration.effects
