@@ -8,7 +8,9 @@ from fairlead.component import Parameter, derived
 class Level(Curve, abstract=True):
     """A sliding level, and its own level from rest if wanted."""
 
-    stiction = Parameter("1", "Coefficient to start sliding; that of sliding when not given.", default=None, least=0)
+    stiction = Parameter(
+        "1", "Coefficient to start sliding; that of sliding when not given.", default=None, least=0, usual=(0, 2)
+    )
 
     @derived
     def rest(p):
@@ -33,7 +35,7 @@ class Coulomb(Level):
     """mu(v) = coulomb for every v > 0; from rest `stiction` must be overcome."""
 
     level = "coulomb"
-    coulomb = Parameter("1", "Coefficient while sliding.", least=0)
+    coulomb = Parameter("1", "Coefficient while sliding.", least=0, usual=(0, 2))
 
     def coefficient(p, v):
         """The same at any speed."""
@@ -44,7 +46,7 @@ class Viscous(Level):
     """mu(v) = coulomb + rate v: friction of a lubricated contact; from rest `stiction` must be overcome."""
 
     level = "coulomb"
-    coulomb = Parameter("1", "Coefficient at vanishing speed.", default=0.0, least=0)
+    coulomb = Parameter("1", "Coefficient at vanishing speed.", default=0.0, least=0, usual=(0, 2))
     rate = Parameter("s/m", "Growth of the coefficient with speed.", above=0)
 
     def coefficient(p, v):

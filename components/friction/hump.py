@@ -18,10 +18,10 @@ class Hump(Curve):
     """
 
     level = "coulomb"
-    stiction = Parameter("1", "Coefficient at rest.", least=0)
-    peak = Parameter("1", "Largest coefficient.", above=0)
+    stiction = Parameter("1", "Coefficient at rest.", least=0, usual=(0, 2))
+    peak = Parameter("1", "Largest coefficient.", above=0, usual=(0, 2))
     peak_velocity = Parameter("m/s", "Slip speed of the largest coefficient.", above=0)
-    coulomb = Parameter("1", "Coefficient at high speed.", least=0)
+    coulomb = Parameter("1", "Coefficient at high speed.", least=0, usual=(0, 2))
 
     @derived
     def decay(p):

@@ -9,8 +9,8 @@ class Falling(Curve, abstract=True):
     """What the two have in common: two levels and a speed."""
 
     level = "coulomb"
-    stiction = Parameter("1", "Coefficient at rest.", least=0)
-    coulomb = Parameter("1", "Coefficient at high speed.", least=0)
+    stiction = Parameter("1", "Coefficient at rest.", least=0, usual=(0, 2))
+    coulomb = Parameter("1", "Coefficient at high speed.", least=0, usual=(0, 2))
     velocity = Parameter("m/s", "Stribeck velocity, the scale of the fall.", above=0)
 
     def scale(p):

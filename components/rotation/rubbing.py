@@ -62,7 +62,7 @@ class LeverArm(Component):
 class Rubbing(Composite, abstract=True):
     """What clutch, brake and bearing have in common: a contact at a radius, pressed on one or more faces."""
 
-    radius = Parameter("m", "Mean radius at which friction acts.", above=0)
+    radius = Parameter("m", "Mean radius at which friction acts.", above=0, usual=(1e-3, 10))
     curve = Part(Curve, "Coefficient of friction over slip speed at the radius.")
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
     hands_on = ("method", "creep")

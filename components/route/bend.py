@@ -14,7 +14,7 @@ class Bend(Station):
 
     word = "Bend"
     angle = Parameter("rad", "Angle the line turns through.", above=0)
-    radius = Parameter("m", "Radius of the arc.", above=0)
+    radius = Parameter("m", "Radius of the arc.", above=0, usual=(5e-3, 200))
     friction = Part(Curve, "Friction of the hose on the bend.")
 
     def extent(p):

@@ -32,7 +32,7 @@ class Pulley(Station):
 
     word = "Pulley"
     angle = Parameter("rad", "Angle the line turns through.", above=0)
-    radius = Parameter("m", "Radius of the wheel.", above=0)
+    radius = Parameter("m", "Radius of the wheel.", above=0, usual=(5e-3, 200))
     friction = Part(Curve, "Friction of the line on the wheel.")
     moment = Parameter("kg*m^2", "Moment of inertia of the wheel.", default=5.0, above=0)
     bearing = Block(BEARING, "Friction of the bearing; none when not given.")

@@ -31,7 +31,9 @@ class Winch(Station):
     """
 
     word = "Winch"
-    radius = Parameter("m", "Radius of the drum; of the middle of the line when it has no layers.", above=0)
+    radius = Parameter(
+        "m", "Radius of the drum; of the middle of the line when it has no layers.", above=0, usual=(5e-3, 200)
+    )
     moment = Parameter("kg*m^2", "Inertia of drum and drive at the shaft, without the line.", default=100.0, above=0)
     layers = Choice(("off", "on"), "Whether the radius grows with what is wound on.", default="off")
     width = Parameter("m", "Width between the flanges of the drum.", default=0.8, above=0)

@@ -141,6 +141,17 @@ def si(value: object, unit: str) -> float:
     return _finite(number * (given.factor if given else 1.0), unit, value)
 
 
+def written(value: object, unit: str) -> float:
+    """What a netlist gives for a quantity, in SI. Raises QuantityError as `si` does, and for a bare number in quotes.
+
+    In quotes it is a text; who wants a number writes no quotes, and who wants it in some unit writes that.
+    """
+    if isinstance(value, str) and NUMBER.fullmatch(value.strip()):
+        own = "" if unit == "1" else f", or give its unit too: {value.strip()} {unit}"
+        raise QuantityError(f"'{shown(value)}' is a text, for it is in quotes", f"Leave out the quotes{own}.")
+    return si(value, unit)
+
+
 def whole(value: object) -> object:
     """A whole number for what is one to everybody but a parser, such as 1e6 or a number in quotes; else as it is."""
     try:

@@ -46,6 +46,22 @@ def test_the_good_netlist_is_good(tmp_path):
 
 # (what stands in the good netlist, what a hurried user writes instead, the message)
 SEEDED = [
+    ('{type: Friction, coulomb_force: "{2*mu} N"}', "{type: Friction, coulomb_force: 2,5 N}", "belt.yaml:10:40: pad.coulomb_force = 2,5 N: a comma ends an entry\n    Write a decimal point, not a decimal comma: 2.5 N."),
+    ('{type: Friction, coulomb_force: "{2*mu} N"}', "{type: Friction, coulomb_force: -2,5e3 N}", "belt.yaml:10:40: pad.coulomb_force = -2,5e3 N: a comma ends an entry\n    Write a decimal point, not a decimal comma: -2.5e3 N."),
+    ("run: {stop: 20 s}", "run: {stop: 20,5 s, accuracy: 1e-5}", "belt.yaml:15:13: run.stop = 20,5 s: a comma ends an entry"),
+    ("wall: {type: Ground}", "wall {type: Ground}", "belt.yaml:11:3: wall: a colon is missing before the brace\n    Write wall: {type: Ground}."),
+    ("wall: {type: Ground}", "wall{type: Ground}", "belt.yaml:11:3: wall: a colon is missing before the brace"),
+    ("pad: {type", "pad {type", "belt.yaml:10:3: not YAML: pad: a colon is missing before the brace\n    Write pad: {type: ...}."),
+    ("wall: {type: Ground}", "wall: {type:Ground}", "belt.yaml:11:10: wall.type:Ground: a space is missing behind the colon\n    Write type: Ground."),
+    ("stiffness: 100 N/m", "stiffness:100 N/m", "belt.yaml:9:5: not YAML: stiffness: a space is missing behind the colon\n    Write stiffness: 100 N/m"),
+    ("  pad: {", " pad: {", "belt.yaml:10:2: not YAML: pad is indented to column 2, the entry above it to column 5\n    Entries of one map are indented alike."),
+    ("[spring.b, pad.a]", "[spring.b, pad.a", "belt.yaml:14:5: not YAML: this [ is not closed, as line 15 shows\n    Put ] where it ends."),
+    ('["*"], every', '["*", every', "belt.yaml:16:19: not YAML: this [ is not closed, as column 37 shows"),
+    ("run: {stop: 20 s}", "run: {stop: 20 s", "belt.yaml:15:6: not YAML: this { is not closed, as line 16 shows\n    Put } where it ends."),
+    ("stop: 20 s", "stop: '20'", "belt.yaml:15:13: run.stop = '20' is a text, for it is in quotes\n    Leave out the quotes, or give its unit too: 20 s."),
+    ('"{2*mu} N"', '"{2*mu/0} N"', "{2*mu/0}: division by zero\n    What it is divided by is zero; give a number other than zero there."),
+    ('"{2*mu} N"', '"{2*mu*3 N}"', "pad.coulomb_force: {2*mu*3 N}: this is not arithmetic\n    A quantity in an expression stands in parentheses: (1 m)."),
+    ('"{2*mu} N"', '"{2*mu*(3 Nm)}"', "pad.coulomb_force: {2*mu*(3 Nm)}: 3 Nm: Nm is not a known unit"),
     ("schema: 1\n", "", "belt.yaml:1:1: schema is missing"),
     ("schema: 1", "schema: 2", "belt.yaml:1:9: schema = 2 is not 1\n    Write schema: 1."),
     ("schema: 1", "schema: '1'", "belt.yaml:1:9: schema = '1' is not 1"),
@@ -76,17 +92,17 @@ SEEDED = [
     ("mu: 0.35", "lambda: 0.35", "belt.yaml:4:3: parameters: lambda is not a name"),
     ("mu: 0.35", "friction factor: 0.35", "belt.yaml:4:3: parameters: friction factor is not a name"),
     ("0.1 m/s", "0.1 m/ss", "belt.yaml:5:10: parameters.speed = 0.1 m/ss: ss is not a known unit"),
-    ("0.1 m/s", '"{nu} m/s"', "belt.yaml:5:10: {nu}: there is no parameter nu\n    Did you mean mu?"),
+    ("0.1 m/s", '"{nu} m/s"', "belt.yaml:5:10: parameters.speed: {nu}: there is no parameter nu\n    Did you mean mu?"),
     ("0.1 m/s", '"{speed}"', "belt.yaml:5:10: parameters need each other in a circle: speed -> speed"),
     ("mu: 0.35", 'mu: "{nu}"\n  nu: "{mu}"', "parameters need each other in a circle: "),
-    ('"{2*mu} N"', '"{2*nu} N"', "belt.yaml:10:40: {2*nu}: there is no parameter nu\n    Did you mean mu?"),
-    ('"{2*mu} N"', "{mu}", 'belt.yaml:10:40: {mu} without quotes is a map in YAML\n    Put an expression in quotes: "{mu}".'),
+    ('"{2*mu} N"', '"{2*nu} N"', "belt.yaml:10:40: pad.coulomb_force: {2*nu}: there is no parameter nu\n    Did you mean mu?"),
+    ('"{2*mu} N"', "{mu}", 'belt.yaml:10:40: pad.coulomb_force: {mu} without quotes is a map in YAML\n    Put an expression in quotes: "{mu}".'),
     ('"{2*mu} N"', "{2*mu} N", 'belt.yaml:10:47: not YAML'),
     ('"{2*mu} N"', "{2*mu} N", 'An expression goes in quotes: "{2*mu} N".'),
-    ('"{2*mu} N"', '"2*{mu} N"', "belt.yaml:10:40: 2*{mu} N is not an expression"),
+    ('"{2*mu} N"', '"2*{mu} N"', "belt.yaml:10:40: pad.coulomb_force: 2*{mu} N is not an expression"),
     ('"{2*mu} N"', '"{2*mu N"', "is not an expression"),
     ('"{2*mu} N"', '"{2^mu} N"', "Write ** for a power."),
-    ('"{2*mu} N"', '"{speed} N"', "belt.yaml:10:40: {speed} N has two units, m/s from its parameters and N"),
+    ('"{2*mu} N"', '"{speed} N"', "belt.yaml:10:40: pad.coulomb_force: {speed} N has two units, m/s from its parameters and N"),
     ("run: {stop: 20 s}\n", "", "belt.yaml:1:1: run is missing\n    How far and how exactly to run, such as run: {stop: 20"),
     ("{stop: 20 s}", "{}", "belt.yaml:15:1: run.stop is missing\n    Time at which the run ends."),
     ("{stop: 20 s}", "{stpo: 20 s}", "belt.yaml:15:7: run has no key stpo\n    Did you mean stop? Known keys are stop, start"),
@@ -263,7 +279,7 @@ def test_mistakes_of_an_included_file_stand_at_its_own_lines(tmp_path):
     found = message(tmp_path, GOOD + "include: [part.yaml]\n")
     assert "part.yaml:2:1: an included file has no key run" in found
     assert found.count("part.yaml:4:3: mass.type is missing") == 1
-    assert "part.yaml:5:26: {nu}: there is no parameter nu" in found
+    assert "part.yaml:5:26: m2.mass: {nu}: there is no parameter nu" in found
 
 
 def test_a_tree_of_includes_has_a_bound(tmp_path):
@@ -301,7 +317,7 @@ def test_a_tree_of_includes_has_a_bound(tmp_path):
         ("mu", "9" * 5000, "at most 1000 characters"),
         ("parameters.nu", "1", "there is no"),
         ("connections.0", "1", "there is no component or block connections"),
-        ("spring.stiffness", "{nu}", "--set: {nu}: there is no parameter nu"),
+        ("spring.stiffness", "{nu}", "--set: spring.stiffness: {nu}: there is no parameter nu"),
     ],
 )
 def test_an_override_that_fits_nowhere_is_named(tmp_path, name, text, expected):

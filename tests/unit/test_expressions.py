@@ -37,6 +37,11 @@ SCENE = {"mu": 0.35, "n": 80, "speed": "0.3 m/s", "radius": "500 mm", "angle": "
         ("{pi} rad", f"{math.pi!r} rad"),
         ("{ ( 1 + 2 ) * 3 } mm", "9 mm"),
         ("{exp(log(2))}", 2.0),
+        ("{n*(2 mm)}", "0.16 m"),
+        ("{angle/n*(1 m)/rad}", f"{math.pi / 2 / 80!r} m"),
+        ("{(3 N) * ( 0.5 m )}", "1.5 m^2*kg/s^2"),
+        ("{mu*(1.5e3 N/m)*radius}", f"{0.35 * 1500 * 0.5!r} m*kg/s^2"),
+        ("{(n)*(2)}", 160),
     ],
 )
 def test_an_expression_stands_for_its_value(text, expected):

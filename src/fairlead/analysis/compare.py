@@ -19,10 +19,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fairlead.analysis.names import signals_of
+from fairlead.analysis.suggestion import suggest
 from fairlead.analysis.treatments import kinds_of_treatment
 from fairlead.arguments import Arguments
-from fairlead.errors import FairleadError, Fault, Location, ModelError, RunWarning
+from fairlead.errors import FairleadError, Fault, Location, ModelError, RunWarning, listing
 from fairlead.netlist.settings_file import Setting
+from fairlead.patterns import picked
 
 if TYPE_CHECKING:
     from fairlead.results import Result
@@ -78,6 +81,7 @@ def compare(
     vary = {name: [Setting(value, VARIED) for value in values] for name, values in vary.items()}
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
     _refuse_mistakes(load, fixed, chosen)
+    _refuse_unknown(load({**fixed, **chosen[0]}), signals)
     kinds = kinds_of_treatment(load({**fixed, **chosen[0]}))
     exact = {name: kinds.exact if name.split(".")[-1] == kinds.key else values[0] for name, values in vary.items()}
     accuracy = load({**fixed, **exact}).netlist.run.accuracy
@@ -104,6 +108,16 @@ def _refuse_mistakes(load: Load, fixed: Mapping[str, str], chosen: Sequence[Mapp
             faults |= dict.fromkeys(error.faults)
     if faults:
         raise ModelError(faults)
+
+
+def _refuse_unknown(model: Any, pattern: str) -> None:
+    """Raise ModelError when no recorded signal fits the pattern that the error is to be taken from."""
+    names = dict.fromkeys(signal.name for signal in signals_of(model.assembly))
+    recorded = [name for one in model.netlist.record.signals for name in picked(names, one)]
+    if not picked(dict.fromkeys(recorded), pattern):
+        near, way_out = suggest(pattern, recorded)
+        what = f"--signals: no recorded signal has the name {pattern}. {near}".rstrip()
+        raise ModelError([Fault(None, what, way_out or f"Recorded are {listing(recorded)}.")])
 
 
 def _run(

@@ -19,7 +19,7 @@ from fairlead.system.unknowns import LEDGER
 
 def unknown_signals(assembly: Assembly) -> list[Fault]:
     """Mistakes in `record` and `limits`, told from what the components declare; nothing is compiled for it."""
-    signals = _signals(assembly)
+    signals = signals_of(assembly)
     names = {signal.name: None for signal in signals}
     unknown = ((value, text) for value, text in _recorded(assembly) if not picked(names, text))
     faults = [_no_such(value, text, [*names]) for value, text in itertools.islice(unknown, MOST_FAULTS)]
@@ -31,7 +31,8 @@ def unknown_signals(assembly: Assembly) -> list[Fault]:
     return faults
 
 
-def _signals(assembly: Assembly) -> list[OutputSignal]:
+def signals_of(assembly: Assembly) -> list[OutputSignal]:
+    """All signals of a model, from what its components declare."""
     found = [
         OutputSignal(f"{path}.{name}", output.unit, output.doc, 0)
         for path, instance in assembly.instances.items()

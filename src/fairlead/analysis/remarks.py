@@ -11,6 +11,7 @@ from fairlead.analysis.slow_drives import slow_drives
 from fairlead.analysis.states import State
 from fairlead.analysis.statics import WANTED, Statics, statics
 from fairlead.analysis.station_place import where
+from fairlead.analysis.unusual import unusual
 from fairlead.analysis.widths import too_wide
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
@@ -20,13 +21,13 @@ def remarks(flat: FlatModel) -> list[Fault]:
     """What is odd but not wrong.
 
     Contacts too wide, weak clamps, tight curves, winches without line, rigid seas that are not, slow drives, records
-    of nothing but both ends.
+    of nothing but both ends, values that are hardly meant.
     """
     solved = statics(flat)
     found = list(too_wide(flat))
     for one in solved:
         found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route), *rigid_seas(one.route)]
-    return [*found, *slow_drives(flat, solved), *sparse(flat.assembly.netlist)]
+    return [*found, *slow_drives(flat, solved), *sparse(flat.assembly.netlist), *unusual(flat.assembly)]
 
 
 def weak_clamps(found: Statics) -> Iterator[Fault]:

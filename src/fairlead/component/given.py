@@ -22,7 +22,8 @@ class Parameter:
     """A number with a unit and a range; SI inside, any unit of the same kind in a netlist.
 
     `above`/`below` exclude the bound, `least`/`most` include it. Without a default it must be given.
-    A default of None means "absent": the law must not read it then.
+    A default of None means "absent": the law must not read it then. `usual` is the range in which such a quantity
+    lies in practice; what a netlist gives beyond it is remarked, not refused.
     """
 
     unit: str
@@ -34,6 +35,7 @@ class Parameter:
     most: float | None = None
     mesh: bool = False
     physics: bool = True
+    usual: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

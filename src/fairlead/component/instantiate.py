@@ -130,6 +130,11 @@ class Assembly:
                 has = self.instances[path].type.declaration
                 self.excused.update(PortRef(path, name) for name in (*has.ports, *has.inputs))
 
+    def named(self, ref: PortRef) -> str:
+        """A port by the name that a netlist has for it: that of the outermost component that hands it out."""
+        names = [alias for alias, inner in self.aliases.items() if inner == ref]
+        return min((*names, str(ref)), key=lambda name: (name.count("."), name not in names))
+
     def __str__(self) -> str:
         joins = (f"{' -- '.join(map(str, join.ports))}    {join.where}" for join in self.joins)
         effects = (

@@ -62,6 +62,11 @@ def elsewhere(kind: Any, name: str) -> list[str]:
     return sorted(words, key=lambda word: (word not in kind.offered, word))
 
 
+def _choosing(kind: Any) -> list[str]:
+    """The key whose word chooses the member of a family, such as `method`."""
+    return [kind.key] if kind is not None and issubclass(kind, Family) and kind.key else []
+
+
 def _meant(name: str, allowed: Mapping[str, Any]) -> str:
     return did_you_mean(name, allowed).removeprefix("Did you mean ").removesuffix("?")
 
@@ -117,8 +122,9 @@ def _fault(detail: Any, spot: Spot) -> Fault:
         what = f"{spot.path}: {spot.owner} has no parameter {name}; it belongs to {key} {listing(others)}."
         return Fault(node.named_at, what, f"Write {key}: {others[0]}, or leave {name} out.")
     if detail["type"] == "extra_forbidden":
-        what = f"{spot.path}: {spot.owner} has no parameter {name}. {did_you_mean(name, spot.siblings)}"
-        return Fault(node.named_at, what.rstrip(), f"It has {listing(spot.siblings)}." if spot.siblings else "")
+        known = [*_choosing(spot.member), *spot.siblings]
+        what = f"{spot.path}: {spot.owner} has no parameter {name}. {did_you_mean(name, known)}"
+        return Fault(node.named_at, what.rstrip(), f"It has {listing(known)}." if known else "")
     if detail["type"] == "missing":
         return Fault(node.where, f"{spot.path} is missing; {spot.owner} needs it.", _needed(spot.declared))
     if "error" in context:

@@ -39,7 +39,7 @@ from fairlead.component.tables import read_table, read_waveform, table_schema, w
 from fairlead.component.values import Values
 from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
-from fairlead.quantities import si, wanted, whole
+from fairlead.quantities import wanted, whole, written
 
 NAME = re.compile(r"^[a-z][a-z0-9_]{0,59}$")
 STRICT = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, hide_input_in_errors=True)
@@ -124,7 +124,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
         bounds: dict[str, Any] = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
         limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
         schema = {"type": ["number", "string"], **_schema_bounds(declared)}
-        kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: si(v, u)), limits, _Schema(schema)]
+        kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: written(v, u)), limits, _Schema(schema)]
     elif isinstance(declared, Effect):
         kind = Annotated[Literal["on", "off"], BeforeValidator(switch)]
     elif isinstance(declared, Choice):

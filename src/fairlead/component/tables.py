@@ -41,7 +41,7 @@ from fairlead.component.piecewise import (
 )  # fmt: skip
 from fairlead.component.values import Wave
 from fairlead.errors import did_you_mean, listing, shown
-from fairlead.quantities import NUMBER, QuantityError, si, wanted
+from fairlead.quantities import NUMBER, QuantityError, wanted, written
 
 WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 MOST_POINTS = 100_000
@@ -73,7 +73,7 @@ class TableError(ValueError):
 
 def _si(value: Any, unit: str, *path: str | int) -> float:
     try:
-        return si(value, unit)
+        return written(value, unit)
     except QuantityError as error:
         raise TableError(f" = {error.what}", error.allowed, path) from None
 
@@ -90,7 +90,7 @@ def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave 
     if value is None or isinstance(value, Wave):
         return value
     if not isinstance(value, Mapping):
-        return Wave(constant(si(value, declared.unit)))
+        return Wave(constant(written(value, declared.unit)))
     if not value:
         raise TableError("nothing is given", f"Give {listing(TERMS)}. Or: {wanted(declared.unit)}")
     polynomial, sine = constant(0.0), Sine()
@@ -129,9 +129,11 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
     else:
         rows = value
     if not isinstance(rows, list) or any(not isinstance(row, list | tuple) or len(row) != 2 for row in rows):
+        commas = isinstance(rows, list) and any(isinstance(row, list) and len(row) in (3, 4) for row in rows)
+        hint = " Numbers have a decimal point, not a decimal comma." if commas else ""
         raise TableError(
             "this is not a table",
-            f"Write a list of [{x_name}, y] pairs, or a map with {x_name}, y and kind, or with file.",
+            f"Write a list of [{x_name}, y] pairs, or a map with {x_name}, y and kind, or with file.{hint}",
         )
     if not 2 <= len(rows) <= MOST_POINTS:
         raise TableError(f"a table has 2 to {MOST_POINTS} points, this one has {len(rows)}")

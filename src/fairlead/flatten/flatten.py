@@ -62,7 +62,7 @@ def _without_effect(flat: FlatModel) -> list[Fault]:
         ports = [PortRef(instance.path, n) for n, p in instance.type.declaration.ports.items() if p.domain.mechanical]
         ends = {flat.node_of[port] for port in ports if port in flat.node_of}
         if len(ports) > 1 and len(ends) == 1:
-            both = " and ".join(map(str, ports))
+            both = " and ".join(map(flat.assembly.named, ports))
             what = f"{both} are joined with each other, so {instance.path} has no effect."
             faults.append(Fault(_where_joined(flat, ports), what, "Join them to different bodies."))
     return faults
@@ -103,7 +103,7 @@ def _missing_inputs(flat: FlatModel) -> list[Fault]:
                 continue
             if default is None or (isinstance(default, str) and getattr(instance.values, default) is None):
                 give = f", or give {default}" if isinstance(default, str) else ""
-                what = f"{ref}: nothing is connected to this input [{declared.unit}]."
+                what = f"{flat.assembly.named(ref)}: nothing is connected to this input [{declared.unit}]."
                 faults.append(Fault(instance.where, what, f"Connect an output to it{give}."))
     return faults
 

@@ -33,7 +33,7 @@ def port_graph(assembly: Assembly) -> nx.Graph:
 
 def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef, PortRef], list[Fault]]:
     """Nodes and signal links, and everything wrong with the connections."""
-    faults = [_to_itself(join) for join in assembly.joins if len(set(join.ports)) < len(join.ports)]
+    faults = [_to_itself(assembly, join) for join in assembly.joins if len(set(join.ports)) < len(join.ports)]
     nodes: list[Node] = []
     links: dict[PortRef, PortRef] = {}
     alone: dict[str, list[PortRef]] = {}
@@ -41,10 +41,10 @@ def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef,
         ports = sorted(members, key=str) if len(members) < 50 else list(members)
         declared = {ref: graph.nodes[ref]["declared"] for ref in ports}
         if len({_kind(d) for d in declared.values()}) > 1:
-            faults.append(_mixed(graph, declared))
+            faults.append(_mixed(assembly, graph, declared))
             assembly.excuse({ref.instance for ref, d in declared.items() if not isinstance(d, Port)})
         elif isinstance(declared[ports[0]], Input | Output):
-            found, wrong = _signal(declared, _written(graph, ports))
+            found, wrong = _signal(assembly, declared, _written(graph, ports))
             links |= found
             faults += wrong
             assembly.excused.update(ports if wrong else ())
@@ -68,7 +68,9 @@ def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
     return graph.nodes[ports[0]]["where"]
 
 
-def _signal(declared: dict[PortRef, Input | Output], where: Location) -> tuple[dict[PortRef, PortRef], list[Fault]]:
+def _signal(
+    assembly: Assembly, declared: dict[PortRef, Input | Output], where: Location
+) -> tuple[dict[PortRef, PortRef], list[Fault]]:
     """One output feeds any number of inputs."""
     outputs = [ref for ref, d in declared.items() if isinstance(d, Output)]
     inputs = [ref for ref, d in declared.items() if isinstance(d, Input)]
@@ -76,12 +78,13 @@ def _signal(declared: dict[PortRef, Input | Output], where: Location) -> tuple[d
     if len(declared) == 1 or (len(outputs) == 1 and odd is None):
         return dict.fromkeys(inputs, outputs[0]) if outputs else {}, []
     if odd is not None:
-        what = f"{outputs[0]} is in {declared[outputs[0]].unit}, {odd} wants {declared[odd].unit}."
+        of = declared[outputs[0]].unit
+        what = f"{assembly.named(outputs[0])} is in {of}, {assembly.named(odd)} wants {declared[odd].unit}."
         return {}, [Fault(where, what, "Join an output with inputs of its unit.")]
     if outputs:
-        what = f"{' and '.join(map(str, outputs))} are outputs; a signal has one source."
+        what = f"{' and '.join(map(assembly.named, outputs))} are outputs; a signal has one source."
         return {}, [Fault(where, what, "Keep one of them.")]
-    what = f"{' and '.join(map(str, inputs))} are inputs, and nothing gives the signal."
+    what = f"{' and '.join(map(assembly.named, inputs))} are inputs, and nothing gives the signal."
     return {}, [Fault(where, what, "Add the output that they are to read to this connection.")]
 
 
@@ -94,24 +97,24 @@ def _other_unit(declared: dict[PortRef, Input | Output], output: PortRef) -> Por
     return None
 
 
-def _mixed(graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
+def _mixed(assembly: Assembly, graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
     """Told where the two kinds meet."""
     edges = graph.subgraph(declared).edges
     a, b = min(tuple(sorted(ends)) for ends in edges if len({_kind(declared[end]) for end in ends}) > 1)
     one, two, where = _kind(declared[a]), _kind(declared[b]), edges[a, b]["where"]
+    first, second = assembly.named(a), assembly.named(b)
     if "signal" in (one, two):
-        a, b, one = (b, a, two) if one == "signal" else (a, b, one)
-        return Fault(where, f"{a} is {article(one)} port, {b} a signal; they cannot be joined.",
+        first, second, one = (second, first, two) if one == "signal" else (first, second, one)
+        return Fault(where, f"{first} is {article(one)} port, {second} a signal; they cannot be joined.",
                      "A signal joins one output to inputs; a sensor turns a motion into a signal.")  # fmt: skip
-    return Fault(where, f"{a} is {article(one)} port, {b} {article(two)} one; they cannot be joined.",
-                 f"Join {a} with another {one} port, or put a component with both kinds between them.")  # fmt: skip
+    return Fault(where, f"{first} is {article(one)} port, {second} {article(two)} one; they cannot be joined.",
+                 f"Join {first} with another {one} port, or put a component with both kinds between them.")  # fmt: skip
 
 
-def _to_itself(join: Join) -> Fault:
+def _to_itself(assembly: Assembly, join: Join) -> Fault:
     port = next(port for port in join.ports if join.ports.count(port) > 1)
-    return Fault(
-        join.where, f"{port} is connected to itself.", "Name the port it belongs to, or remove the connection."
-    )
+    what = f"{assembly.named(port)} is connected to itself."
+    return Fault(join.where, what, "Name the port it belongs to, or remove the connection.")
 
 
 def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault]:
@@ -124,9 +127,10 @@ def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault
         instance = assembly.instances[path]
         if len(ports) == len(instance.type.declaration.ports) and path in assembly.netlist.components:
             what = f"{path} is connected to nothing."
-            way_out = f"Connect {', '.join(map(str, ports))}, or remove {path}."
+            way_out = f"Connect {', '.join(map(assembly.named, ports))}, or remove {path}."
         else:
-            what = f"{' and '.join(map(str, ports))} {'are' if len(ports) > 1 else 'is'} connected to nothing."
+            names = " and ".join(map(assembly.named, ports))
+            what = f"{names} {'are' if len(ports) > 1 else 'is'} connected to nothing."
             way_out = "Connect it; a free end needs a Mass, a fixed one a Ground."
         faults.append(Fault(instance.where, what, way_out))
     return faults

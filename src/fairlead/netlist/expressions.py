@@ -5,7 +5,8 @@ is refused. Nothing is ever evaluated as Python.
 
 A parameter that is a quantity ("0.3 m/s") takes part with its dimension: "{2*speed}" is "0.6 m/s", and metres
 do not add to seconds. Angles are a kind of their own here too: with the constants `rad` and `deg`,
-"{speed/radius*rad}" is an angular speed and "{radius*angle/rad}" a length.
+"{speed/radius*rad}" is an angular speed and "{radius*angle/rad}" a length. A quantity is written in parentheses:
+"{angle/n*(1 m)}".
 """
 
 from __future__ import annotations
@@ -37,7 +38,13 @@ CONSTANTS = {
 FUNCTIONS = ("sqrt", "sin", "cos", "exp", "log", "abs", "min", "max")
 RESERVED = frozenset((*CONSTANTS, *FUNCTIONS))
 WHOLE_TEXT = re.compile(r"\{([^{}]*)\}(?: +([^{}\s][^{}]*))?")
-ALLOWED = f"Allowed are parameters, numbers, + - * / ** ( ), {listing(FUNCTIONS)} and {listing(CONSTANTS)}."
+WRITTEN = re.compile(r"\(\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s+([A-Za-zµμΩ°%][^(){}]*?)\s*\)")
+SPELLED = "_quantity_"
+BARE = re.compile(r"[0-9.]+\s+[A-Za-zµμΩ°%]")
+ALLOWED = (
+    "Allowed are parameters, numbers, quantities in parentheses such as (1 m), + - * / ** ( ), "
+    f"{listing(FUNCTIONS)} and {listing(CONSTANTS)}."
+)
 
 
 class ExpressionError(FairleadError, ValueError):
@@ -79,12 +86,14 @@ def substitute(text: str, parameters: Mapping[str, Scalar]) -> Scalar:
 
 def evaluate(text: str, parameters: Mapping[str, Scalar]) -> Quantity:
     """The value of an expression (without braces); raises ExpressionError."""
+    spelled, written = _spelled(text)
     try:
-        result = _walk(parse(text), parameters)
+        result = _walk(parse(spelled), {**parameters, **written} if written else parameters)
     except ExpressionError as error:
         raise ExpressionError(f"{{{shown(text)}}}: {error.what}", error.way_out) from None
     except ZeroDivisionError:
-        raise ExpressionError(f"{{{shown(text)}}}: division by zero") from None
+        advice = "What it is divided by is zero; give a number other than zero there."
+        raise ExpressionError(f"{{{shown(text)}}}: division by zero", advice) from None
     except OverflowError:
         raise ExpressionError(f"{{{shown(text)}}}: the result is too large") from None
     except ValueError:
@@ -99,10 +108,23 @@ def names_in(text: str) -> set[str]:
     """The parameters that "{expression} unit" needs; empty when it cannot be read."""
     match = WHOLE_TEXT.fullmatch(text) if len(text) <= 2 * LONGEST else None
     try:
-        tree = parse(match[1].strip()) if match else ast.Constant(0)
+        spelled, written = _spelled(match[1].strip()) if match else ("0", {})
+        tree = parse(spelled)
     except ExpressionError:
         return set()
-    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - RESERVED
+    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - RESERVED - written.keys()
+
+
+def _spelled(text: str) -> tuple[str, dict[str, Scalar]]:
+    """The expression with a name for every quantity in parentheses, such as `(1 m)`, and the quantities by name."""
+    written: dict[str, Scalar] = {}
+
+    def named(found: re.Match[str]) -> str:
+        name = f"{SPELLED}{len(written)}"
+        written[name] = f"{found[1]} {found[2]}"
+        return f"({name})"
+
+    return WRITTEN.sub(named, text), written
 
 
 def parse(text: str) -> ast.expr:
@@ -114,7 +136,8 @@ def parse(text: str) -> ast.expr:
             warnings.simplefilter("ignore")  # Python's opinion of "1if 2else 3" is not for our users
             tree = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ExpressionError("this is not arithmetic", ALLOWED) from None
+        advice = "A quantity in an expression stands in parentheses: (1 m)." if BARE.search(text) else ALLOWED
+        raise ExpressionError("this is not arithmetic", advice) from None
     if sum(1 for _ in ast.walk(tree)) > 3 * MOST_NODES:
         raise ExpressionError("too many terms", f"An expression has at most {MOST_NODES} parts.")
     return tree
@@ -156,7 +179,8 @@ def _named(name: str, parameters: Mapping[str, Scalar]) -> Quantity:
     try:
         return quantity(content if isinstance(content, str) else shown(content))
     except QuantityError as error:
-        raise ExpressionError(f"{name} = {error.what}", error.allowed) from None
+        of = "" if name.startswith(SPELLED) else f"{name} = "
+        raise ExpressionError(f"{of}{error.what}", error.allowed) from None
 
 
 def _add(sign: int) -> Callable[[Quantity, Quantity], Quantity]:

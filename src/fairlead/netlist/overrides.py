@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.files import UNPRINTABLE
@@ -17,6 +18,9 @@ from fairlead.netlist.netlist import Value
 from fairlead.netlist.yaml12 import resolve
 
 BLOCKS = ("run", "record", "friction", "effects", "initial", "nominal", "limits")
+DOTTED = ("initial", "nominal", "limits")
+"""Blocks whose names are those of signals, with dots and brackets in them."""
+SIDES = ("above", "below")
 LONGEST = 1000
 PLACE = Location("--set")
 
@@ -48,6 +52,8 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
         return Fault(
             PLACE, f"{shown(name)} is not a path", "Write it as in mu, pad.normal_force or run.stop."
         )
+    if path[0] in DOTTED and len(path) > 1:
+        return _placed(tree, _dotted(name), new, name)
     parameters, components = (_block(tree, block) for block in ("parameters", "components"))
     if len(path) == 1:
         if name not in parameters:
@@ -60,6 +66,13 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
     return _placed(tree, path, new, name)
 
 
+def _dotted(name: str) -> list[str]:
+    """The steps to an entry of a block whose names have dots: `limits`, `spring.tension`, `below`."""
+    block, _, key = name.partition(".")
+    signal, _, word = key.rpartition(".")
+    return [block, signal, word] if block == "limits" and signal and word in SIDES else [block, key]
+
+
 def _placed(value: Value, path: list[str], new: Value, name: str) -> Value | Fault:
     """The value with `new` put at the end of the path; maps on the way are made when absent."""
     if not path:
@@ -69,7 +82,7 @@ def _placed(value: Value, path: list[str], new: Value, name: str) -> Value | Fau
     if isinstance(content, list):
         index = _index(content, word)
         if index is None:
-            return Fault(PLACE, f"{shown(name)}: there is no item {shown(word)} in {shown(content)}")
+            return _no_item(content, word, name)
         inner = _placed(content[index], rest, new, name)
         if isinstance(inner, Fault):
             return inner
@@ -81,10 +94,22 @@ def _placed(value: Value, path: list[str], new: Value, name: str) -> Value | Fau
     return inner if isinstance(inner, Fault) else replace(value, content={**entries, word: inner})
 
 
+def _no_item(items: list[Value], word: str, name: str) -> Fault:
+    names = [str(one) for one in _names(items) if one]
+    known = f"Items go by number, 0 to {len(items) - 1}" + (f", or by name: {listing(names)}" if names else "")
+    what = f"{shown(name)}: there is no item {shown(word)} in {shown(items)}"
+    return Fault(PLACE, what, f"{did_you_mean(word, names)} {known if items else 'It has no items'}.".strip())
+
+
+def _names(items: list[Value]) -> list[Any]:
+    """What the items of a list are called; None for one without a name."""
+    return [item.entries["name"].content if "name" in item.entries else None for item in items]
+
+
 def _index(items: list[Value], word: str) -> int | None:
     if word.isascii() and word.isdigit() and len(word) < 10:
         return int(word) if int(word) < len(items) else None
-    names = [item.entries["name"].content if "name" in item.entries else None for item in items]
+    names = _names(items)
     return names.index(word) if word in names else None
 
 

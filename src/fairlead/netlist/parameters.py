@@ -31,20 +31,20 @@ class Parameters:
     values: dict[str, Scalar] = field(default_factory=dict)
     broken: dict[str, Location] = field(default_factory=dict)
 
-    def put_into(self, value: Value) -> tuple[Value, Fault | None]:
-        """The value with its expression, if it holds one, worked out; 0 and a fault when it cannot be."""
+    def put_into(self, value: Value, path: str) -> tuple[Value, Fault | None]:
+        """The value at `path` with its expression, if it has one, worked out; 0 and a fault when it cannot be."""
         text = value.content
         if not isinstance(text, str) or not has_expression(text):
             return value, None
         for name in self.broken.keys() & names_in(text):
             fault = Fault(
-                value.where, f"{shown(text)}: parameter {name} has a mistake, at {self.broken[name]}"
+                value.where, f"{path}: {shown(text)}: parameter {name} has a mistake, at {self.broken[name]}"
             )
             return replace(value, content=0), fault
         try:
             return replace(value, content=substitute(text, self.values), written=text), None
         except ExpressionError as error:
-            return replace(value, content=0), Fault(value.where, error.what, error.way_out)
+            return replace(value, content=0), Fault(value.where, f"{path}: {error.what}", error.way_out)
 
 
 def work_out(given: Mapping[str, Value]) -> tuple[Parameters, list[Fault]]:
@@ -56,7 +56,7 @@ def work_out(given: Mapping[str, Value]) -> tuple[Parameters, list[Fault]]:
             done.broken[name] = fault.where or value.where
     sound = {name: value for name, value in given.items() if name not in done.broken}
     for name in _order(sound, done.broken, faults):
-        value, fault = done.put_into(sound[name])
+        value, fault = done.put_into(sound[name], f"parameters.{name}")
         if fault:
             faults.append(fault)
             done.broken[name] = value.where

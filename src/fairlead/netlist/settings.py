@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
 from fairlead.errors import shown
-from fairlead.quantities import QuantityError, si, wanted, whole
+from fairlead.quantities import QuantityError, wanted, whole, written
 
 
 class Strict(BaseModel):
@@ -26,9 +26,9 @@ def _schema_of(unit: str) -> WithJsonSchema:
 MOST_COUNTED = 10**12  # steps or switches of a budget; a processor needs weeks for them
 
 # Text with a unit (or an expression in braces) or a bare number comes in, an SI float is kept.
-Seconds = Annotated[float, BeforeValidator(lambda value: si(value, "s")), _schema_of("s")]
-Metres = Annotated[float, BeforeValidator(lambda value: si(value, "m")), _schema_of("m")]
-Number = Annotated[float, BeforeValidator(lambda value: si(value, "1")), _schema_of("1")]
+Seconds = Annotated[float, BeforeValidator(lambda value: written(value, "s")), _schema_of("s")]
+Metres = Annotated[float, BeforeValidator(lambda value: written(value, "m")), _schema_of("m")]
+Number = Annotated[float, BeforeValidator(lambda value: written(value, "1")), _schema_of("1")]
 Count = Annotated[int, BeforeValidator(whole), Field(gt=0, le=MOST_COUNTED)]
 Duration = Annotated[Seconds, Field(gt=0)]
 

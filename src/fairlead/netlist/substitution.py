@@ -29,10 +29,14 @@ def fill_tree(tree: Value) -> tuple[Value, list[Fault]]:
         entries["parameters"] = replace(entries["parameters"], content=values)
     for block in FILLED:
         if block in entries:
-            inner = {name: _fill(value, parameters, faults) for name, value in entries[block].entries.items()}
+            begin = "" if block == "components" else f"{block}."
+            inner = {
+                name: _fill(value, parameters, faults, f"{begin}{shown(name)}")
+                for name, value in entries[block].entries.items()
+            }
             entries[block] = replace(entries[block], content=inner or entries[block].content)
     if "record" in entries and (every := entries["record"].entries.get("every")):
-        inner = {**entries["record"].entries, "every": _fill(every, parameters, faults)}
+        inner = {**entries["record"].entries, "every": _fill(every, parameters, faults, "record.every")}
         entries["record"] = replace(entries["record"], content=inner)
     return replace(tree, content=entries), faults
 
@@ -42,22 +46,24 @@ def _expression(value: Value) -> str:
     return value.content if isinstance(value.content, str) and has_expression(value.content) else ""
 
 
-def _fill(value: Value, parameters: Parameters, faults: list[Fault]) -> Value:
-    """The value with every expression in it worked out; one that cannot be becomes 0, with a fault."""
+def _fill(value: Value, parameters: Parameters, faults: list[Fault], path: str) -> Value:
+    """The value at `path` with every expression in it worked out; one that cannot be becomes 0, with a fault."""
     content = value.content
     if len(faults) > MOST_FAULTS:
         return value
     if isinstance(content, dict):
         if bare := _unquoted(content, parameters):
             way_out = f'Put an expression in quotes: "{{{bare}}}".'
-            faults.append(Fault(value.where, f"{{{shown(bare)}}} without quotes is a map in YAML", way_out))
+            faults.append(Fault(value.where, f"{path}: {{{shown(bare)}}} without quotes is a map in YAML", way_out))
             return replace(value, content=0)
         return replace(
-            value, content={name: _fill(item, parameters, faults) for name, item in content.items()}
+            value,
+            content={name: _fill(item, parameters, faults, f"{path}.{shown(name)}") for name, item in content.items()},
         )
     if isinstance(content, list):
-        return replace(value, content=[_fill(item, parameters, faults) for item in content])
-    filled, fault = parameters.put_into(value)
+        filled_in = [_fill(item, parameters, faults, f"{path}[{k}]") for k, item in enumerate(content)]
+        return replace(value, content=filled_in)
+    filled, fault = parameters.put_into(value, path)
     faults += [fault] if fault else []
     return filled
 

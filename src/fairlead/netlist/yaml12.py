@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -29,6 +29,8 @@ HEXADECIMAL = re.compile(r"0x([0-9a-fA-F]+)")
 FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 INFINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)")
 NOT_A_NUMBER = re.compile(r"\.(?:nan|NaN|NAN)")
+SPACELESS = re.compile(r"([A-Za-z_]\w*):(\S.{0,60})")
+COLONLESS = re.compile(r"([A-Za-z_]\w*)\s*\{\s*(\w+)")
 LONGEST_LINE = 200  # characters on each side of a mistake that are looked at for its cause
 MOST_DIGITS = 300  # beyond that no float holds it, and Python itself refuses to read 4300
 
@@ -97,6 +99,7 @@ class _Composer:
     deepest: int = 0
     faults: list[Fault] = field(default_factory=list)
     anchors: dict[str, _Anchored | None] = field(default_factory=dict)
+    path: list[str] = field(default_factory=list)  # the keys on the way to where it is
     events: Iterator[Any] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -157,13 +160,43 @@ class _Composer:
         while not isinstance(event := next(self.events), yaml.MappingEndEvent):
             where = self.place(event)
             name = self.key(event, depth)
+            self.path.append(name or "")
             value = replace(self.node(next(self.events), depth + 1), key_where=where)
-            if name in entries:
+            self.path.pop()
+            if not getattr(event, "style", "") and (mended := self.mended(event, name, value, entries)):
+                name, value = mended
+            elif name in entries:
                 first = entries[name].key_where
                 self.complain(event, f"{shown(name)} is given twice", f"It stands at {first} already.")
-            elif name is not None:
+                continue
+            if name is not None:
                 entries[name] = value
         return entries
+
+    def mended(self, event: Any, name: str | None, value: Value, entries: Mapping[str, Value]) -> Any:
+        """Name and value that were meant by what YAML reads otherwise, with a fault; None for what is as it looks."""
+        if name is None:
+            return None
+        where = ".".join(shown(word) for word in [*self.path, name] if word not in ("", "components"))
+        if value.content is None and name[:1].isdigit() and entries:  # 2,5 kg
+            last, before = list(entries.items())[-1]
+            number = f"{shown(before.content)},{name}"
+            if isinstance(before.content, int) and before.where.line == self.place(event).line:
+                of = where.removesuffix(shown(name)) + last
+                point = number.replace(",", ".")
+                what = f"{of} = {shown(number)}: a comma ends an entry"
+                self.faults.append(Fault(before.where, what, f"Write a decimal point, not a decimal comma: {point}."))
+                return last, replace(before, content=resolve(point))
+        if value.content is None and (found := SPACELESS.fullmatch(name)):  # mass:2 kg
+            self.complain(event, f"{where}: a space is missing behind the colon", f"Write {found[1]}: {found[2]}.")
+            return found[1], replace(value, content=resolve(found[2]))
+        if (found := COLONLESS.fullmatch(name)) and isinstance(value.content, str) and value.content.endswith("}"):
+            rest = value.content.removesuffix("}").strip()
+            what = f"{found[1]}: a colon is missing before the brace"
+            self.complain(event, what, f"Write {found[1]}: {{{found[2]}: {shown(rest)}}}.")
+            inner = {found[2]: replace(value, content=resolve(rest))}
+            return found[1], replace(value, content=inner)
+        return None
 
     def key(self, event: Any, depth: int) -> str | None:
         """The text of a key; None, with a fault, for what cannot be one."""
@@ -206,26 +239,60 @@ def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
     if mark is None:
         return Fault(Location(file), f"not YAML: {error.problem}")
     opened = error.context_mark
-    if opened is not None and opened.line < mark.line and _stays_open(text, opened.index):
+    if opened is not None and opened.index < mark.index and _stays_open(text, opened.index):
         bracket, close = (("{", "}"), ("[", "]"))[text[opened.index] == "["]
-        what = f"not YAML: this {bracket} is not closed, as line {mark.line + 1} shows"
+        shows = f"line {mark.line + 1}" if opened.line < mark.line else f"column {mark.column + 1}"
+        what = f"not YAML: this {bracket} is not closed, as {shows} shows"
         way_out = f"Put {close} where it ends."
         return Fault(Location(file, opened.line + 1, opened.column + 1), what, way_out)
     lines = text.splitlines()
     line = lines[mark.line] if mark.line < len(lines) else ""
+    place = Location(file, mark.line + 1, mark.column + 1)
+    if opened is not None and "block mapping" in (error.context or "") and (said := _misplaced(lines, opened, mark)):
+        return Fault(place, *said)
+    near = dict.fromkeys([mark.line, opened.line if opened is not None else mark.line, max(mark.line - 1, 0)])
+    for number in (one for one in near if one < len(lines)):
+        if said := _run_together(lines[number].strip()):
+            return Fault(Location(file, number + 1, len(lines[number]) - len(lines[number].lstrip()) + 1), *said)
     context = f" {error.context}" if error.context else ""
     what = f"not YAML: {error.problem}{context}"
-    return Fault(Location(file, mark.line + 1, mark.column + 1), what, _advice(line, mark.column))
+    return Fault(place, what, _advice(line, mark.column))
+
+
+def _run_together(line: str) -> tuple[str, str] | None:
+    """Of a line in which a colon is missing, or the space behind it: what is wrong, and what to write."""
+    if found := COLONLESS.match(line):
+        return f"not YAML: {found[1]}: a colon is missing before the brace", f"Write {found[1]}: {{{found[2]}: ...}}."
+    if found := SPACELESS.match(line):
+        return f"not YAML: {found[1]}: a space is missing behind the colon", f"Write {found[1]}: {found[2]}"
+    return None
+
+
+def _misplaced(lines: list[str], opened: Any, mark: Any) -> tuple[str, str] | None:
+    """Of an entry that begins in no column in which one may begin: what it is, and where the others begin."""
+    line = lines[mark.line] if mark.line < len(lines) else ""
+    if mark.column != len(line) - len(line.lstrip()) or mark.column == opened.column:
+        return None
+    word = re.split(r"[:\s]", line.strip(), maxsplit=1)[0]
+    above = next((one for one in reversed(lines[: mark.line]) if one.strip() and not one.lstrip().startswith("#")), "")
+    column = len(above) - len(above.lstrip()) + 1
+    what = f"not YAML: {shown(word)} is indented to column {mark.column + 1}, the entry above it to column {column}"
+    return what, "Entries of one map are indented alike."
 
 
 def _stays_open(text: str, start: int) -> bool:
     """Whether the bracket at `start` has no other that closes it; what stands in quotes or a comment is passed over."""
     if text[start : start + 1] not in ("{", "["):
         return False
-    depth = 0
+    open_ = []
     for found in re.finditer(r"[\[\]{}]|'[^'\n]*'|\"[^\"\n]*\"|#[^\n]*", text[start:]):
-        depth += {"{": 1, "[": 1, "}": -1, "]": -1}.get(found[0], 0)
-        if depth == 0:
+        if found[0] in "[{":
+            open_.append(found[0])
+        elif found[0] in "]}":
+            if open_[-1] + found[0] not in ("[]", "{}"):
+                return len(open_) == 1
+            open_.pop()
+        if not open_:
             return False
     return True
 

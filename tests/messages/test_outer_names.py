@@ -1,0 +1,96 @@
+"""Messages speak of ports, entries and items by the names a user writes."""
+
+import pytest
+
+import fairlead
+from fairlead.errors import ModelError
+
+SERVO = """
+components:
+  motor: {type: PmDrive, constant: 0.5 N*m/A, most_current: 20 A, inertia: 0.01 kg*m^2}
+  screw: {type: Rack, radius: 10 mm}
+  block: {type: Mass, mass: 1 kg}
+connections:
+  - [motor.shaft, screw.rack]
+  - [screw.pinion, block.flange]
+run: {stop: 1 s}
+"""
+SPRING = """
+parameters: {k: 1}
+components:
+  wall: {type: Ground}
+  spring: {type: Spring, stiffness: 100 N/m}
+  pad: {type: Contact, normal_force: 1 N, curve: 0.3}
+  block: {type: Mass, mass: 1 kg}
+connections: [[wall.flange, spring.a, pad.a], [spring.b, block.flange, pad.b]]
+run: {stop: 0.1 s}
+record: {plots: [{title: one, signals: [block.x]}]}
+limits: {spring.tension: {below: 50 N}}
+"""
+
+
+def told(model):
+    with pytest.raises(ModelError) as caught:
+        model.check()
+    return str(caught.value)
+
+
+def test_a_port_of_a_composite_goes_by_its_outer_name(scene):
+    said = told(scene(SERVO))
+    assert "motor.shaft is a rotational port, screw.rack a translational one" in said
+    assert "motor.rotor" not in said
+
+
+def test_initial_and_limits_are_set_by_name(scene):
+    limits = {"limits.spring.tension.below": "7 N", "limits.block.x.above": "-1"}
+    model = scene(SPRING, **{"initial.block.x": "3 mm", **limits})
+    assert model.netlist.initial["block.x"].plain() == "3 mm"
+    assert model.netlist.limits["spring.tension"].plain() == {"below": "7 N"}
+    assert model.netlist.limits["block.x"].plain() == {"above": -1}
+    assert model.run(out=None)["block.x"][0] == pytest.approx(3e-3)
+
+
+def test_a_misspelt_name_in_such_a_block_is_told_whole(scene):
+    said = told(scene(SPRING, **{"initial.blok.x": "1"}))
+    assert "initial.blok.x: no unknown has this name. Did you mean block.x?" in said
+    assert "limits.spring.tention: no signal" in told(scene(SPRING, **{"limits.spring.tention.below": "1 N"}))
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("pad.metod", "Did you mean method?"),
+        ("pad.normal_forc", "Did you mean normal_force?"),
+        ("padd.normal_force", "Did you mean pad?"),
+        ("rn.stop", "Did you mean run?"),
+        ("kk", "Did you mean k?"),
+    ],
+)
+def test_a_misspelt_path_offers_the_nearest(scene, name, says):
+    with pytest.raises(ModelError) as caught:
+        scene(SPRING, **{name: "1"}).check()
+    assert says in str(caught.value)
+
+
+def test_an_item_that_there_is_not_is_told_with_those_that_there_are():
+    with pytest.raises(ModelError) as caught:
+        fairlead.load("single_bend", set={"route.stations.bent.radius": "1 m"}).check()
+    assert "there is no item bent in a list of" in str(caught.value)
+    assert "Items go by number, 0 to" in str(caught.value)
+
+
+def test_what_is_varied_and_compared_is_looked_at_before_anything_runs(tmp_path):
+    from fairlead.analysis.compare import compare
+
+    file = tmp_path / "scene.yaml"
+    file.write_text(f"schema: 1\nname: scene{SPRING}", encoding="utf-8")
+
+    def load(settings):
+        return fairlead.load(file, set=settings)
+
+    with pytest.raises(ModelError, match=r"--vary: pad\.method: there is no method foo") as caught:
+        compare(load, {"pad.method": ["hold", "foo"]}, out=tmp_path / "one")
+    assert caught.value.exit_code == 1
+    with pytest.raises(ModelError, match=r"--signals: no recorded signal has the name blok\.x\. Did you mean block\.x"):
+        compare(load, {"pad.method": ["hold", "tanh"]}, out=tmp_path / "two", signals="blok.x")
+    assert not (tmp_path / "two").exists()
