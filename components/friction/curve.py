@@ -21,6 +21,7 @@ class Curve(Family, abstract=True):
 
     asked_with = {"velocity_shift": None}  # not every method knows it, so the contract suite does not give it at random
     key = "curve"
+    needs = {"coefficient": "coefficient(p, v): friction over normal force at slip speed v >= 0 [m/s]"}
     default_word = "coulomb"
     bare = ("coulomb", "coulomb")
     backward = Table("m/s", "1", "Slip speed and coefficient for backward slip; as forward when absent.", default=None)
@@ -33,8 +34,8 @@ class Curve(Family, abstract=True):
     )
 
     def breakaway(p):
-        """Coefficient that slipping must overcome to begin."""
-        return p.stiction
+        """Coefficient that slipping must overcome to begin: `stiction` if there is one, else that at no speed."""
+        return p.stiction if "stiction" in p.type.declaration.parameters else p.coefficient(0)
 
     @derived
     def breakaway_backward(p):

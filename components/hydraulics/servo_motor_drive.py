@@ -42,6 +42,7 @@ class MotorFriction(Component):
     None while a closed valve holds the shaft: two things that hold cannot be told apart.
     """
 
+    exempt = {"units": "A torque is handed to a contact at a radius of 1 m, as the force there (docs/drives.md)."}
     dry = Parameter("N*m", "Without load.", default=0.0, least=0)
     efficiency = Parameter("1", "Share of the torque of the oil that arrives.", default=1.0, above=0, most=1)
     loaded = Input("N*m", "Torque of the oil, without sign.")

@@ -11,6 +11,7 @@ from fairlead.component import Component, Composite, Effect, Expansion, Input, L
 class LoadLoss(Component):
     """Friction torque of teeth under load:  loss = (1 - efficiency) * |torque carried|, signal in and out."""
 
+    exempt = {"units": "A torque is handed to a contact at a radius of 1 m, as the force there (docs/drives.md)."}
     efficiency = Parameter("1", "Share of the torque that arrives when a drives b.", above=0, most=1)
     carried = Input("N*m", "Torque carried, without sign.")
     loss = Output("N", "Friction at a radius of 1 m.")

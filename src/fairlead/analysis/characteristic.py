@@ -24,6 +24,8 @@ from fairlead.component.holding import Hold
 from fairlead.component.values import Values
 
 DRIVEN = 1.5  # applied force over stiction, for zones that steady slip never sees
+SPEEDS = (1e-7, 1e2)  # m/s; where the range of a curve is looked for
+LEVEL = 0.02  # share of a coefficient up to which it does not change
 POINTS = 500  # slip speeds of each sign, from a hundredth of the smallest scale to ten times the largest
 LOAD_SHARES = (0.5, 0.99)  # of the holding capacity, at which creep is told
 Floats = NDArray[np.float64]
@@ -142,10 +144,29 @@ def _slips(p: Values) -> Floats:
     """Slip speeds of both signs, logarithmic, that show the treatment's own scale and the curve's."""
     own = [p.path(p.type.answers.sticks_below)] if p.type.answers.sticks_below else []
     changes = p.type.answers.changes_over
-    curve = [scale for scale in (changes(p),) if scale] if changes is not None else []
+    curve = [scale for scale in (changes(p) or _range(p),) if scale] if changes is not None else []
     scales = [*own, *curve] or [1e-3]
     half = np.geomspace(min(scales) / 100, max([*curve, *(100 * s for s in own), *scales]) * 10, POINTS)
     return np.concatenate([-half[::-1], half])
+
+
+def _range(p: Values) -> float | None:
+    """Speed [m/s] over which the curve of a contact changes, measured, where the curve does not say; None when level.
+
+    Where it levels out, that is where two thirds of the change are done; where it goes on, where it has changed by as
+    much as it begins with.
+    """
+    curve = next((one for one in p.given.values() if isinstance(one, Values) and hasattr(one.type, "coefficient")), None)
+    if curve is None:
+        return None
+    speeds = np.geomspace(*SPEEDS, POINTS)
+    change = np.abs(np.array([float(curve.coefficient(float(v))) for v in speeds]) - float(curve.coefficient(0.0)))
+    whole, first = float(change.max()), abs(float(curve.coefficient(0.0)))
+    if whole <= LEVEL * first or whole == 0.0:
+        return None
+    late = change[speeds > SPEEDS[1] / 10]
+    part = 2 / 3 * whole if np.ptp(late) <= LEVEL * whole else min(first or whole, whole)
+    return float(speeds[np.argmax(change >= part)])
 
 
 def _columns(points: list[tuple[float, float]]) -> tuple[Floats, Floats]:

@@ -53,6 +53,7 @@ from fairlead.component.defaults import misfits
 from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.holding import HoldPosition
 from fairlead.component.replies import AnswerError, held_to, is_bundled
+from fairlead.errors import did_you_mean
 from fairlead.quantities import QuantityError, parse_unit
 
 PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
@@ -102,6 +103,7 @@ class Family(Declared, abstract=True):
     bare: ClassVar[tuple[str, str] | None] = None  # (word, parameter)
     members: ClassVar[dict[str, type[Family]]]
     joined: ClassVar[int] = 0  # members of all families so far
+    needs: ClassVar[dict[str, str]] = {}  # methods that every member has: how it is called, with what it gives
 
     def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
         """Collect declarations, and join the family."""
@@ -109,6 +111,8 @@ class Family(Declared, abstract=True):
         if abstract and "key" in cls.__dict__:
             cls.members = {}
         elif not abstract:
+            for name, said in cls.needs.items():
+                _demand(cls, callable(getattr(cls, name, None)), f"a {cls.key or 'member'} needs a method {said}")
             cls.word = cls.__dict__.get("word") or _snake(cls.__name__)
             cls.members[cls.word] = cls
             Family.joined += 1
@@ -261,7 +265,7 @@ def _check_units(cls: type[Declared]) -> None:
             try:
                 parse_unit(unit)
             except QuantityError as error:
-                _demand(cls, False, f"{name!r}: {error}")
+                _demand(cls, False, f"{name!r}: {error.what}. {error.allowed} Units are written as N/m, kg*m^2 or 1/s")
 
 
 def _check_named_numbers(cls: type[Declared]) -> None:
@@ -350,9 +354,22 @@ def terms_of(cls: type[Declared], said: Any) -> dict[str, Any]:
     missing = {*has.ports, *has.states, *has.unknowns} - set(terms) - _passive(cls)
     if any(isinstance(term, HoldPosition) for term in terms.values()):  # it puts its force on its ports itself
         missing -= set(has.ports)
-    if unknown or missing:
-        raise DeclarationError(f"the law gives {sorted(unknown)} unasked and leaves out {sorted(missing)}")
+    if unknown:
+        near = " ".join(filter(None, (did_you_mean(name, known) for name in sorted(unknown))))
+        left = f" and leaves out {sorted(missing)}" if missing else ""
+        raise DeclarationError(f"the law gives {sorted(unknown)} unasked{left}. {near}".rstrip())
+    if missing:
+        raise DeclarationError(f"the law leaves out {', '.join(_wanted(has, name) for name in sorted(missing))}")
     return terms
+
+
+def _wanted(has: Declaration, name: str) -> str:
+    """What a law has to give for a name, as it is written."""
+    if name in has.states:
+        return f"the rate of the state {name}: Law(..., {name}=...) in {has.states[name].unit}/s"
+    if name in has.unknowns:
+        return f"what must be zero for the unknown {name}: Law(..., {name}=...)"
+    return f"what the port {name} takes in: Law(..., {name}=...)"
 
 
 def _passive(cls: type[Declared]) -> set[str]:

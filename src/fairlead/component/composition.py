@@ -73,7 +73,7 @@ def _wrong_end(end: Any, said: Expansion) -> Iterator[str]:
     child = said.children.get(inner)
     if child is None:
         if not any(inner.startswith(f"{name}.") for name in said.children):  # of a child of a child
-            near = did_you_mean(inner, said.children)
+            near = did_you_mean(inner, said.children) or f"Its children are {listing(said.children)}."
             yield f"joins {end}, and there is no child {inner!r}. {near}".rstrip()
         return
     if issubclass(child.type, Composite):

@@ -85,7 +85,9 @@ def _wrong_number(one: Parameter, default: Any) -> str:
         (one.above is not None and value <= one.above) or (one.least is not None and value < one.least)
         or (one.below is not None and value >= one.below) or (one.most is not None and value > one.most)
     )  # fmt: skip
-    return "that is outside of its own range" if outside else ""
+    words = {"above": one.above, "at least": one.least, "below": one.below, "at most": one.most}
+    allowed = " and ".join(f"{word} {bound:g}" for word, bound in words.items() if bound is not None)
+    return f"that is outside of its own range, {allowed}" if outside else ""
 
 
 def _number(value: Any) -> bool:

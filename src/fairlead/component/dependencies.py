@@ -17,6 +17,7 @@ from typing import Any
 
 from fairlead.component.answers import SET_HERE
 from fairlead.component.declare import Derived, Guard, Sampled, Shared, ZoneLaw
+from fairlead.component.replies import is_bundled
 from fairlead.component.values import Variant
 
 
@@ -27,14 +28,26 @@ def dependencies(variant: Variant) -> str:
     for base in variant.type.__mro__[:-1]:
         pieces += _of(base, seen)
     pieces += [f"{name}: {dependencies(part)}" for name, part in variant.parts]
+    pieces += [] if is_bundled(variant.type) else [_looked_at(variant.type)]
     return "\n".join([*pieces, _framework()])
+
+
+def _looked_at(kind: Any) -> str:
+    """What a user's class declares that decides no code, and is looked at when its laws are traced: units."""
+    has = kind.declaration
+    units = {
+        name: (one.x, one.y) if hasattr(one, "x") else getattr(one, "unit", "")
+        for named in (has.parameters, has.inputs, has.outputs, has.states, has.unknowns, has.discrete)
+        for name, one in named.items()
+    }
+    return repr((units, "units" in kind.answers.exempt))
 
 
 @functools.cache
 def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
-    tracing = "declare given declaration answers base functions holding hold_rows keys symbols trace values piecewise"
+    tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols trace values piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
     text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away "
     text += "flow_rates"

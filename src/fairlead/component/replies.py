@@ -157,10 +157,13 @@ def _inertia(value: Any, has: Declaration) -> Any:
 
 def _start(value: Any, has: Declaration) -> Any:
     for name, given in _map(value, has.ports).items():
-        mechanical = has.ports[name].domain.mechanical
-        parts = given if isinstance(given, tuple) and len(given) == 2 and mechanical else (given,)
-        if not all(part is None or _is_finite(part) for part in parts):
-            raise Wrong(f"gives {_said(given)} for {name}.")
+        if has.ports[name].domain.mechanical:
+            fits = given is None or (isinstance(given, tuple) and len(given) == 2)
+            wanted, parts = "the pair (position, speed)", given if fits and given is not None else ()
+        else:
+            fits, wanted, parts = True, "a number", (given,)
+        if not fits or not all(part is None or _is_finite(part) for part in parts):
+            raise Wrong(f"gives {_said(given)} for {name}; that is {wanted}.")
     return value
 
 

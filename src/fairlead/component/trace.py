@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,6 +20,7 @@ import sympy
 from fairlead.component.base import LEDGER, source_place, terms_of
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Law, Port
+from fairlead.component.dimensions import line_of, misfits
 from fairlead.component.given import Choice, Count, Part, Table, Waveform
 from fairlead.component.hold_rows import (
     HoldRow,
@@ -35,12 +35,15 @@ from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.quantity import tracing
+from fairlead.component.replies import is_bundled
 from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
 from fairlead.component.values import Variant
 from fairlead.errors import did_you_mean
 
 BRANCHES = "a law must not branch on values; write one law per zone"
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
+AUTHORS = ("fairlead.components.", "fairlead_library_")
+"""How the modules begin in which laws and parts of laws are written."""
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
 
 
@@ -91,6 +94,7 @@ class _Recorder:
 
     def __init__(self, variant: Variant, prefix: str, reads: dict[str, sympy.Expr]) -> None:
         self._variant, self._prefix, self._reads = variant, prefix, reads
+        self.type = variant.type
 
     def __getattr__(self, name: str) -> Any:
         variant, has = self._variant, self._variant.type.declaration
@@ -176,7 +180,39 @@ def trace(variant: Variant) -> Traced:
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():
         zone.guards += [guard for path in zone.tables if path not in timed for guard in _borders(path, zone)]
+    if foreign := [one for one in (variant, *_parts(variant)) if not is_bundled(one.type)]:
+        _check_units(variant, has, zones, foreign)
+        _check_outputs(variant, has, zones)
     return Traced(variant, zones, tables, timed, _trace_sample(variant, has))
+
+
+def _parts(variant: Variant) -> Iterator[Variant]:
+    for _, part in variant.parts:
+        yield part
+        yield from _parts(part)
+
+
+def _check_units(variant: Variant, has: Declaration, zones: dict[str, TracedZone], foreign: list[Variant]) -> None:
+    """Refuse a law of a user's own class, or with a part of one, whose units do not go together. Raises TraceError."""
+    if "units" in variant.type.answers.exempt:
+        return
+    for wrong in misfits(variant, zones):
+        code = wrong.function.__code__
+        given = _arguments(variant, has, wrong.zone, {})
+        files = {inspect.getsourcefile(one.type) or "" for one in foreign}
+        names = code.co_varnames[: code.co_argcount]
+        place = line_of(wrong.function, {name: given[name] for name in names}, variant, files)
+        raise TraceError(f"{place}: {wrong.function.__qualname__}: {wrong.what}")
+
+
+def _check_outputs(variant: Variant, has: Declaration, zones: dict[str, TracedZone]) -> None:
+    """Refuse an output of a user's class that no law gives; what is off may take its outputs along."""
+    if is_bundled(variant.type) or "off" in dict(variant.words).values():
+        return
+    for name in has.outputs:
+        if not any(name in zone.outputs for zone in zones.values()):
+            place, kind = source_place(next(iter(has.laws.values()))), variant.type.__name__
+            raise TraceError(f"{place}: {kind}: no law gives the output {name!r}. Add it: Law(..., {name}=...)")
 
 
 def _trace_sample(variant: Variant, has: Declaration) -> dict[str, sympy.Expr]:
@@ -267,12 +303,36 @@ def _run(function: Callable[..., Any], arguments: dict[str, Any]) -> Any:
     except Exception as error:
         if asked:
             raise _branches(asked[0], function) from error
-        frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == code.co_filename]
-        line = frames[-1].lineno if frames else code.co_firstlineno
-        raise TraceError(f"{code.co_filename}:{line}: {function.__qualname__}: {_explained(error)}") from error
+        place, name = _deepest(error, function)
+        raise TraceError(f"{place}: {name}: {_explained(error)}") from error
     if asked:
         raise _branches(asked[0], function)
     return said
+
+
+def _deepest(error: Exception, function: Callable[..., Any]) -> tuple[str, str]:
+    """file:line and name of the function of an author's in which it fails: the law, or one of a part that it asks."""
+    code, module = function.__code__, str(function.__globals__.get("__name__"))
+    place, name = f"{code.co_filename}:{code.co_firstlineno}", function.__qualname__
+    step = error.__traceback__
+    while step is not None:
+        frame, where = step.tb_frame, str(step.tb_frame.f_globals.get("__name__", ""))
+        if where == module or where.startswith(AUTHORS):
+            place = f"{frame.f_code.co_filename}:{step.tb_lineno}"
+            name = function.__qualname__ if frame.f_code is code else getattr(frame.f_code, "co_qualname", name)
+        step = step.tb_next
+    return place, name
+
+
+def author_of(error: BaseException, kind: type) -> tuple[str, str]:
+    """file:line and name of the method of a class, or of a part of one, in which something fails."""
+    place, name, step = source_place(kind), kind.__name__, error.__traceback__
+    while step is not None:
+        frame, where = step.tb_frame, str(step.tb_frame.f_globals.get("__name__", ""))
+        if where == kind.__module__ or where.startswith(AUTHORS):
+            place, name = f"{frame.f_code.co_filename}:{step.tb_lineno}", frame.f_code.co_name
+        step = step.tb_next
+    return place, name
 
 
 def _branches(place: str, function: Callable[..., Any]) -> TraceError:

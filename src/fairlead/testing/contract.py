@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import functools
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from fairlead.component.base import Composite, Declared
+from fairlead.component.composition import expanded
 from fairlead.component.registry import bundled
+from fairlead.component.scene import Scene
 from fairlead.component.trace import TraceError
 from fairlead.errors import ModelError
 from fairlead.testing.properties import PROPERTIES
-from fairlead.testing.samples import families, sample
+from fairlead.testing.samples import SampleError, families, sample
 from fairlead.testing.world import ContractError, World
 
 
@@ -41,10 +43,16 @@ class Check:
         for optional in (True, False):
             try:
                 PROPERTIES[self.name](functools.partial(_world, self, rng, optional), rng)
+            except ContractError:
+                raise
             except TraceError as error:
                 raise ContractError(f"{self.kind.__name__}: its law cannot be traced: {error}") from error
             except ModelError as error:  # of a method that fails, or gives what it should not
                 raise ContractError(str(error)) from error
+            except SampleError as error:
+                raise ContractError(str(error)) from error
+            except (KeyError, AttributeError, TypeError, ValueError, ArithmeticError) as error:
+                raise ContractError(_odd(self, error)) from error
 
     def __str__(self) -> str:
         effects = self.kind.declaration.effects
@@ -66,7 +74,7 @@ def checks(kind: type[Declared], **given: Any) -> list[Check]:
 
 def contract(kind: type[Declared], **given: Any) -> None:
     """Ask every property of a class. Raises ContractError with all that are broken, one sentence each."""
-    broken = []
+    broken = [*_unmade(kind, given)] if issubclass(kind, Composite) else []
     for check in checks(kind, **given):
         try:
             check()
@@ -74,6 +82,26 @@ def contract(kind: type[Declared], **given: Any) -> None:
             broken.append(f"{check.name}: {error}")
     if broken:
         raise ContractError("\n".join(broken))
+
+
+def _odd(check: Check, error: Exception) -> str:
+    """What a property could not be asked for."""
+    from fairlead.component.trace import author_of
+
+    place, name = author_of(error, check.kind)
+    said = f"{type(error).__name__}: {error}"
+    return f"{check.kind.__name__}: {name} fails at {place} with random numbers within the declared ranges: {said}"
+
+
+def _unmade(kind: type[Declared], given: dict[str, Any]) -> Iterator[str]:
+    """Why a composite with random parameters cannot be made, if it cannot."""
+    rng = np.random.default_rng(zlib.crc32(kind.__name__.encode()))
+    for optional in (True, False):
+        try:
+            expanded(sample(kind, rng, given, optional), Scene())
+        except (ModelError, SampleError) as error:
+            yield f"expand: {error}"
+            return
 
 
 def _world(check: Check, rng: np.random.Generator, optional: bool) -> World:

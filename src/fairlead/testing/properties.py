@@ -138,11 +138,34 @@ def energy(make: Maker, rng: np.random.Generator) -> None:
         stored = world.ask(layout.OUTPUT, at.shifted(rates, STEP * 1j))[-3]
         dissipated, supplied = (float(x) for x in world.ask(layout.OUTPUT, at)[-2:].real)
         rate = stored.imag / STEP
-        if not _close(taken, rate + dissipated - supplied, max(_power_met(world, at), abs(taken), abs(rate))):
+        told, scale = rate + dissipated - supplied, max(_power_met(world, at), abs(taken), abs(rate))
+        if not _close(taken, told, scale):
             raise ContractError(
                 f"{world.where(at)}: energy is not accounted for: it takes in {taken:.6g} W, stores {rate:.6g} W, "
-                f"dissipates {dissipated:.6g} W and is supplied {supplied:.6g} W"
+                f"dissipates {dissipated:.6g} W and is supplied {supplied:.6g} W{_cause(world, at, rates, told, scale)}"
             )
+
+
+def _cause(world: World, at: Instant, rates: Mapping[str, float], told: float, scale: float) -> str:
+    """What would close the ledger: other signs, or any line of it at all."""
+    taken = _power_in(world, at, dict(rates))
+    if not any(_ledger_lines(world)):
+        lines = "stored= [J], dissipated= or supplied= [W]"
+        return f". No law has a line of the ledger: add {lines} to Law(...), or methods of these names"
+    if _close(taken, -told, scale):
+        return ". With the opposite sign it would close: a port takes in what acts on the component there, +pull at b"
+    for name in world.kind.declaration.ports:
+        without = _power_of(world, at, rates, name)
+        if without and _close(taken - 2 * without, told, scale):
+            return f". With the opposite sign of what {name} takes in it would close"
+    return ""
+
+
+def _ledger_lines(world: World) -> Iterator[bool]:
+    """Whether the laws of a class give a line of the ledger, zone by zone."""
+    from fairlead.component.trace import trace
+
+    return (any(zone.ledger.values()) for zone in trace(world.rig.variant).zones.values())
 
 
 def settles(make: Maker, rng: np.random.Generator) -> None:
@@ -163,7 +186,11 @@ def zones_reached(make: Maker, rng: np.random.Generator) -> None:
             if not missing:
                 return
     names = ", ".join(sorted(missing))
-    raise ContractError(f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there")
+    raise ContractError(
+        f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there. The search of "
+        f"{40 * INSTANTS} random instants has ended, which does not say that there is none: give parameters at which "
+        f"the zone is met, contract({world.kind.__name__}, name=...) or asked_with, or say why in exempt"
+    )
 
 
 def outputs_given(make: Maker, rng: np.random.Generator) -> None:
@@ -175,6 +202,16 @@ def outputs_given(make: Maker, rng: np.random.Generator) -> None:
     for name in world.kind.declaration.outputs:
         if not any(name in zone.outputs for zone in zones):
             raise ContractError(f"{world.rig.variant.label}: output {name} is declared and given by no law")
+
+
+def units(make: Maker, rng: np.random.Generator) -> None:
+    """Terms of a sum are of one unit, and what a law gives is of the unit that is declared."""
+    from fairlead.component.dimensions import misfits
+    from fairlead.component.trace import trace
+
+    world = make()
+    for wrong in misfits(world.rig.variant, trace(world.rig.variant).zones):
+        raise ContractError(f"{world.rig.variant.label} in zone {wrong.zone}: {wrong.what}")
 
 
 def instances(make: Maker, rng: np.random.Generator) -> None:
@@ -224,7 +261,7 @@ def odd(make: Maker, rng: np.random.Generator) -> None:
 
 _ALL = (
     derivatives, machine_code, as_written, balance, dissipates, energy, settles, zones_reached, outputs_given,
-    instances, odd,
+    units, instances, odd,
 )  # fmt: skip
 PROPERTIES: dict[str, Callable[[Maker, np.random.Generator], None]] = {each.__name__: each for each in _ALL}
 
@@ -324,15 +361,18 @@ def _rates(world: World, at: Instant, rng: np.random.Generator) -> dict[str, flo
 
 def _power_in(world: World, at: Instant, rates: dict[str, float]) -> float:
     """Flow times rate over all ports, with the inertia of the component and the reaction of a prescribed motion."""
-    flows, inertia, total = world.flows(at), _inertia(world), 0.0
-    for name, port in world.kind.declaration.ports.items():
-        across = "v" if port.domain.mechanical else "x"
-        flow = flows.get(f"port:{name}", 0.0).real if f"port:{name}" in flows else 0.0
-        flow += inertia.get(name, 0.0) * rates[f"port:{name}:{across}"]
-        if name in world.prescribed:
-            flow -= at.values[f"port:{name}:R"]
-        total += flow * at.values[f"port:{name}:{across}"]
-    return float(total)
+    return sum(_power_of(world, at, rates, name) for name in world.kind.declaration.ports)
+
+
+def _power_of(world: World, at: Instant, rates: Mapping[str, float], name: str) -> float:
+    """The same of one port."""
+    flows, port = world.flows(at), world.kind.declaration.ports[name]
+    across = "v" if port.domain.mechanical else "x"
+    flow = flows[f"port:{name}"].real if f"port:{name}" in flows else 0.0
+    flow += _inertia(world).get(name, 0.0) * rates[f"port:{name}:{across}"]
+    if name in world.prescribed:
+        flow -= at.values[f"port:{name}:R"]
+    return float(flow * at.values[f"port:{name}:{across}"])
 
 
 def _power_met(world: World, at: Instant) -> float:
