@@ -20,6 +20,9 @@ from fairlead.component import (
 )  # fmt: skip
 
 
+LAG = 1e-3  # s; of a command whose rate is limited
+
+
 class Pi(Component, abstract=True):
     """Half-model: what both forms are given."""
 
@@ -53,10 +56,11 @@ class Pi(Component, abstract=True):
 class ContinuousPi(Pi):
     """wanted = k_ff r + k_a ahead + K_p e + I,  dI/dt = K_p/T_i e + (u - wanted)/T_t,  u = slew(clip(wanted)).
 
-    The command u is a state, `smoothing` behind what is wanted.
+    Without `smoothing` and `slew` the command is what is wanted, at once. With either it is a state that follows behind;
+    a `slew` alone takes a lag of 1 ms.
     """
 
-    smoothing = Parameter("s", "Lag of the command.", default=1e-3, above=0)
+    smoothing = Parameter("s", "Lag of the command; none when not given.", default=None, above=0)
     summed = State("1", "I.", nominal=0.1)
     applied = State("1", "Command.", nominal=0.1)
     zones = Zones("within", "above", "below")
@@ -65,13 +69,9 @@ class ContinuousPi(Pi):
     def controlling(p, reference, measured, ahead, summed, applied, zone):
         """What is wanted is limited; what that leaves out is taken from the integral."""
         error, wanted = reference - measured, wanted_of(p, reference, measured, ahead, summed)
-        behind = {"above": p.high, "below": p.low}.get(zone, wanted) - applied
-        if p.slew is None:
-            rate = behind / p.smoothing
-        else:
-            rate = p.slew * tanh(behind / (p.slew * p.smoothing))
-        gathered = p.gain / p.integral_time * error + (applied - wanted) / p.tracking
-        return Law(summed=gathered, applied=rate, command=applied, error=error, integral=summed)
+        command, rate = behind(p, {"above": p.high, "below": p.low}.get(zone, wanted), applied)
+        gathered = p.gain / p.integral_time * error + (command - wanted) / p.tracking
+        return Law(summed=gathered, applied=rate, command=command, error=error, integral=summed)
 
     @guard("*", to="above", unit="1")
     def rises_above(p, reference, measured, ahead, summed):
@@ -94,6 +94,16 @@ class ContinuousPi(Pi):
         return wanted_of(p, reference, measured, ahead, summed) - p.low
 
 
+def behind(p, target, applied):
+    """The command on its way to what is wanted within the limits, and the rate of the state that it may be."""
+    if p.smoothing is None and p.slew is None:
+        return target, 0
+    lag = LAG if p.smoothing is None else p.smoothing
+    if p.slew is None:
+        return applied, (target - applied) / lag
+    return applied, p.slew * tanh((target - applied) / (p.slew * lag))
+
+
 def wanted_of(p, reference, measured, ahead, integral):
     """The command before it is limited."""
     return p.feed_forward * reference + p.ahead_gain * ahead + p.gain * (reference - measured) + integral
@@ -109,7 +119,7 @@ class PiController(Pi):
 
     sampling = Effect("The controller works in samples; off: continuously.", off=ContinuousPi)
     period = Parameter("s", "T_s.", default=0.01, above=0)
-    smoothing = Parameter("s", "Lag of the command, when it works continuously.", default=1e-3, above=0)
+    smoothing = Parameter("s", "Lag of the command, when it works continuously.", default=None, above=0)
     delay = Choice(("sample", "none"), "Whether the value measured is one sample old.", default="sample")
     initial = Parameter("1", "Value measured before the start.", default=0.0)
     seen = Discrete("1", "Value measured one sample ago.", start="initial")

@@ -1,6 +1,6 @@
-"""A force given in time."""
+"""A force given in time or by a signal."""
 
-from fairlead.component import Component, Law, Output, Translational, Waveform
+from fairlead.component import Component, Input, Law, Output, Translational, Waveform
 
 
 class ForceSource(Component):
@@ -14,3 +14,15 @@ class ForceSource(Component):
         """The flange takes in the opposite of the force it gives."""
         force = p.force(t)
         return Law(flange=-force, applied=force, supplied=force * flange.v)
+
+
+class ForceActuator(Component):
+    """Pulls its flange in the direction of +x with the force that a signal says: an ideal drive."""
+
+    flange = Translational("where the force acts")
+    force = Input("N", "Force, positive towards +x.", signed=True)
+    power = Output("W", "Power given.")
+
+    def law(p, flange, force):
+        """All power given is supplied."""
+        return Law(flange=-force, power=force * flange.v, supplied=force * flange.v)

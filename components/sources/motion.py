@@ -1,9 +1,9 @@
-"""A motion given in time."""
+"""A motion given in time, along a line or of a shaft."""
 
 import itertools
 import math
 
-from fairlead.component import Component, Law, Output, Parameter, Translational, Waveform, derived_wave
+from fairlead.component import Component, Law, Output, Parameter, Rotational, Translational, Waveform, derived_wave
 from fairlead.component.piecewise import Sine
 from fairlead.component.values import Wave
 
@@ -16,6 +16,16 @@ def jumps(path):
         left, right = (sum(c * (row[0] - piece[2]) ** k for k, c in enumerate(piece[3:])) for piece in (before, row))
         if abs(right - left) > LEAST_JUMP * max(1.0, abs(left), abs(right)):
             yield float(row[0]), float(right - left)
+
+
+def integrated(rate, origin):
+    """A quantity in time whose rate is given, and which is `origin` at t = 0."""
+    path, sine = rate.polynomial.integral(0.0), rate.sine
+    swing = Sine()
+    if sine.amplitude != 0:
+        swing = Sine(sine.amplitude / sine.omega, sine.omega, sine.phase - math.pi / 2)
+    path.rows[:, 3] += origin - swing.amplitude * math.sin(swing.phase)
+    return Wave(path, swing)
 
 
 class MotionSource(Component):
@@ -65,11 +75,54 @@ class MotionSource(Component):
     @derived_wave
     def motion(p):
         """The position as one wave."""
-        if p.position is not None:
-            return p.position
-        path, sine = p.velocity.polynomial.integral(0.0), p.velocity.sine
-        swing = Sine()
-        if sine.amplitude != 0:
-            swing = Sine(sine.amplitude / sine.omega, sine.omega, sine.phase - math.pi / 2)
-        path.rows[:, 3] += (p.origin or 0.0) - swing.amplitude * math.sin(swing.phase)
-        return Wave(path, swing)
+        return p.position if p.position is not None else integrated(p.velocity, p.origin or 0.0)
+
+
+class SpeedSource(Component):
+    """Turns its shaft as prescribed, whatever torque that takes: an ideal drive of given speed.
+
+    Give either `speed` (the angle follows by integration from `origin`) or `angle`.
+    """
+
+    shaft = Rotational("the driven shaft")
+    speed = Waveform("rad/s", "Angular speed in time.", default=None)
+    angle = Waveform("rad", "Angle in time.", default=None)
+    origin = Parameter(
+        "rad", "Angle at t = 0 when the speed is given; else where the driven shaft starts.", default=None,
+        physics=False,
+    )
+    turned = Output("rad", "Angle.")
+    rate = Output("rad/s", "Angular speed.")
+    acceleration = Output("rad/s^2", "Angular acceleration.")
+    torque = Output("N*m", "Torque the source gives, positive forward.")
+
+    def law(p, shaft, t):
+        """Angle and its derivatives; the ledger takes the torque from the balance at the node."""
+        return Law(
+            shaft=0, turned=p.motion(t), rate=p.motion.rate(t), acceleration=p.motion.second(t), torque=shaft.torque,
+            supplied=shaft.torque * shaft.speed,
+        )  # fmt: skip
+
+    moves_as = "motion"
+
+    def prescribes():
+        """Names of the outputs that are the angle, speed and acceleration of the shaft."""
+        return {"shaft": ("turned", "rate", "acceleration")}
+
+    def check(p):
+        """Exactly one of the two ways."""
+        if (p.speed is None) == (p.angle is None):
+            yield "", "give either speed or angle", "A speed is integrated from `origin`."
+        for at, jump in jumps(p.angle.polynomial) if p.angle is not None else ():
+            what = f"the angle jumps by {jump:.3g} rad at t = {at:g} s, which takes an infinite torque"
+            yield "angle", what, "Give a ramp, or a speed, which is integrated."
+
+    def starts_at(p, x):
+        """Where the driven shaft starts, when only a speed is given."""
+        if p.angle is None and p.origin is None:
+            p.motion.polynomial.rows[:, 3] += x - p.motion(0.0)
+
+    @derived_wave
+    def motion(p):
+        """The angle as one wave."""
+        return p.angle if p.angle is not None else integrated(p.speed, p.origin or 0.0)

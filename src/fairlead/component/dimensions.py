@@ -74,11 +74,10 @@ def misfits(variant: Variant, zones: Mapping[str, Any]) -> Iterator[Wrong]:
         law = has.laws[name]
         units = {port: has.ports[port].domain.through[1] for port in zone.flows}
         units |= {output: has.outputs[output].unit for output in zone.outputs}
-        units |= {state: f"{has.states[state].unit}/s".removeprefix("1") for state in has.states}
+        units |= {name: f"{state.unit}/s" for name, state in has.states.items()}
         for term, value in {**zone.flows, **zone.own, **zone.outputs}.items():
-            unit = units.get(term)
-            rate = "1/s" if unit == "/s" else unit
-            if what := misfit(value, variant) if rate is None else misfit_as(value, rate, _called(term, has), variant):
+            unit, of = units.get(term), _called(term, has)
+            if what := misfit(value, variant) if unit is None else misfit_as(value, unit, of, variant):
                 yield Wrong(what, name, law)
         for line, value in zone.ledger.items():
             method = getattr(answers, line) or law
