@@ -19,7 +19,6 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 
-
 LAG = 1e-3  # s; of a command whose rate is limited
 
 
@@ -56,8 +55,8 @@ class Pi(Component, abstract=True):
 class ContinuousPi(Pi):
     """wanted = k_ff r + k_a ahead + K_p e + I,  dI/dt = K_p/T_i e + (u - wanted)/T_t,  u = slew(clip(wanted)).
 
-    Without `smoothing` and `slew` the command is what is wanted, at once. With either it is a state that follows behind;
-    a `slew` alone takes a lag of 1 ms.
+    Without `smoothing` and `slew` the command is what is wanted, at once. With either it is a state that follows
+    behind; a `slew` alone takes a lag of 1 ms.
     """
 
     smoothing = Parameter("s", "Lag of the command; none when not given.", default=None, above=0)

@@ -96,7 +96,8 @@ record: {signals: [both.signal, block.v], every: 100 ms}
 
 def test_a_limited_command_winds_nothing_up(simulate):
     """A mass that is out of reach for 2 s keeps the integral where the limit is: it turns within a tracking time."""
-    text = SPEED.replace("PiController", "Pid").replace("low: -10, high: 10", "low: -0.1, high: 0.1, tracking_time: 0.1 s")
+    limits = "low: -0.1, high: 0.1, tracking_time: 0.1 s"
+    text = SPEED.replace("PiController", "Pid").replace("low: -10, high: 10", limits)
     text = text.replace("value: 1}", "value: {step: {from: 1, to: -1, at: 2 s}}}")
     result = simulate(text)
     assert result.at("control.command", 1.9) == pytest.approx(0.1)

@@ -1,4 +1,4 @@
-"""A curve of one's own needs `coefficient` and nothing else; what it leaves out follows from that, and mistakes name it."""
+"""A curve of one's own needs `coefficient` alone; the rest follows from that, and mistakes in it name it."""
 
 import re
 

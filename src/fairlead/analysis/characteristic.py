@@ -156,7 +156,8 @@ def _range(p: Values) -> float | None:
     Where it levels out, that is where two thirds of the change are done; where it goes on, where it has changed by as
     much as it begins with.
     """
-    curve = next((one for one in p.given.values() if isinstance(one, Values) and hasattr(one.type, "coefficient")), None)
+    parts = (one for one in p.given.values() if isinstance(one, Values))
+    curve = next((one for one in parts if hasattr(one.type, "coefficient")), None)
     if curve is None:
         return None
     speeds = np.geomspace(*SPEEDS, POINTS)

@@ -47,7 +47,8 @@ def _looked_at(kind: Any) -> str:
 def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
-    tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols trace values piecewise"
+    tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols trace values "
+    tracing += "piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
     text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away "
     text += "flow_rates"
