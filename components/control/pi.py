@@ -109,7 +109,9 @@ def wanted_of(p, reference, measured, ahead, integral):
 
 
 class PiController(Pi):
-    """wanted = k_ff r + k_a ahead + K_p e + I,  u = slew(clip(wanted)),  I += T_s (K_p/T_i e + (u - wanted)/T_t).
+    """A PI controller with feed-forward, limits, slew and anti-windup, sampled or ideal.
+
+    wanted = k_ff r + k_a ahead + K_p e + I,  u = slew(clip(wanted)),  I += T_s (K_p/T_i e + (u - wanted)/T_t).
 
     Every `period` T_s the command is computed and then held; I is that before the sample. `delay: sample` takes the
     value measured one sample earlier, as a processor does that needs its period to compute. Steady with a plant

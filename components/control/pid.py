@@ -129,7 +129,9 @@ def ideal(p, reference, measured, ahead, integral, slow):
 
 
 class Pid(PidLaw):
-    """wanted = K_p e + I + D + k_a ahead,  u = clip(wanted), every `period` T_s, and held in between.
+    """A PID controller with limits and anti-windup, sampled or ideal; D acts on the value measured.
+
+    wanted = K_p e + I + D + k_a ahead,  u = clip(wanted), every `period` T_s, and held in between.
 
     I += T_s (K_p/T_i e + (u - wanted)/T_t),  D = -K_p T_d (y - s)/(T_f + T_s),  s += T_s/(T_f + T_s) (y - s).
     `effects: {sampling: off}` makes it ideal: continuous, at once.

@@ -4,9 +4,9 @@ from fairlead.component import Component, Input, Law, Output, Parameter
 
 
 class Sum(Component):
-    """signal = gain_a a + gain_b b + gain_c c + gain_d d + offset; an input that nothing is connected to counts 0.
+    """Up to four signals added, each times its gain; an input that nothing is connected to counts 0.
 
-    A difference is `gain_b: -1`.
+    signal = gain_a a + gain_b b + gain_c c + gain_d d + offset. A difference is `gain_b: -1`.
     """
 
     a = Input("1", "First summand.", 0.0, signed=True)

@@ -239,7 +239,8 @@ def test_warnings_are_one_line_on_standard_error(
 
 def test_describe_tells_types_from_models(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fairlead, "describe_type", lambda name, libraries: f"the type {name}", raising=False)
-    assert command("describe", "Spring").stdout == "the type Spring\n"
+    assert command("describe", "Spring", "--all").stdout == "the type Spring\n"
+    assert "stiffness" in command("describe", "Spring").stdout
     assert command("describe", "belt", "--stage", "system").stdout == "the output of system\n"
     assert command("describe", "Odd.yaml").stdout == "the output of flatten\n"
 

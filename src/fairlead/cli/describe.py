@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fairlead.cli.options import Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo
 
 
@@ -29,17 +29,38 @@ def describe(
     settings: Settings,
     libraries: Libraries,
     stage: Annotated[Stage, typer.Option(help="For a netlist: the stage to look at.")] = Stage.FLATTEN,
+    everything: Annotated[bool, typer.Option("--all", help="Of a type: its zones and equations as well.")] = False,
+    as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Print a netlist as a stage left it, or a component type: ports, parameters, zones, equations."""
+    """Print a netlist as a stage left it, or a component type: ports, parameters, signals, and --all of it."""
     import fairlead
 
-    if is_type_name(subject):
+    if is_type_name(subject) and everything and not as_json:
         text = fairlead.describe_type(subject, libraries)
+    elif is_type_name(subject):
+        text = _at_a_glance(subject, libraries, as_json)
     else:
         text = fairlead.load(subject, set=parse_settings(settings), libraries=libraries).describe(stage.value)
     echo(text)
+
+
+def _at_a_glance(subject: str, libraries: list[str], as_json: bool) -> str:
+    """What one needs to use a type, or all types, as a page or as JSON."""
+    import json
+
+    from fairlead.component.registry import known_types
+    from fairlead.system.catalogue import catalogue, innards, record, sentence, short
+    from fairlead.system.describe import named
+
+    types = known_types(libraries)
+    if subject == "types":
+        inside = innards(types)
+        rows = [{"type": n, "doc": sentence(kind), "inside": n in inside} for n, kind in sorted(types.items())]
+        return json.dumps(rows, indent=2) if as_json else "\n".join(catalogue(types))
+    kind = named(subject, types)
+    return json.dumps(record(subject, kind), indent=2) if as_json else "\n".join(short(subject, kind))
 
 
 def is_type_name(subject: str) -> bool:

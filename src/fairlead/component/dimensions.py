@@ -139,7 +139,7 @@ def _of(value: sympy.Expr, variant: Variant) -> Dimension | None:
     if value.is_Add or isinstance(value, sympy.Max | sympy.Min):
         return _alike(value.args, inner)
     if value.is_Mul:
-        return None if None in inner else tuple(map(sum, zip(*inner, strict=True)))  # type: ignore[arg-type]
+        return None if None in inner else tuple(map(sum, zip(*inner, strict=True)))
     if value.is_Pow:
         exponent = value.args[1]
         if not exponent.is_Rational or inner[0] is None:

@@ -1,7 +1,7 @@
 """`fairlead describe TYPE`: everything a user may ask about a component type, as text.
 
     describe("Tether", types)       ports, parameters, zones, transitions, equations
-    describe("types", types)        all types, by the folder they lie in
+    describe("types", types)        all types, by family (catalogue.py, which also has the short page of a type)
 
 The equations are those that are traced and compiled, so this page cannot go stale.
 """
@@ -10,13 +10,15 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterable, Iterator, Mapping
+from typing import cast
 
 from fairlead.component.base import Declared, Family
 from fairlead.component.scene import is_head
 from fairlead.errors import UsageError, did_you_mean
 from fairlead.system.behaviour import behaviour, functions
-from fairlead.system.columns import columns, heading, paragraph
-from fairlead.system.interface import beyond, derived_rows, first_line, interface, parameter_rows, shared
+from fairlead.system.catalogue import catalogue
+from fairlead.system.columns import heading, paragraph
+from fairlead.system.interface import beyond, derived_rows, interface, parameter_rows, shared
 from fairlead.system.specimen import families_of
 
 ALL_TYPES = "types"
@@ -25,29 +27,19 @@ ALL_TYPES = "types"
 def describe(name: str, types: Mapping[str, type[Declared]]) -> str:
     """All about a type or, by its class name, a kind of a family; or all `types`. Raises UsageError."""
     if name == ALL_TYPES:
-        return "\n".join(_catalogue(types))
+        return "\n".join(catalogue(types))
+    kind = named(name, types)
+    return "\n".join(_type(name, kind) if name in types else _kind(cast(type[Family], kind)))
+
+
+def named(name: str, types: Mapping[str, type[Declared]]) -> type[Declared]:
+    """The type of a name, or the kind of a family whose class has it. Raises UsageError."""
     kinds = _kinds(types.values())
-    if name in types:
-        return "\n".join(_type(name, types[name]))
-    if name in kinds:
-        return "\n".join(_kind(kinds[name]))
+    if name in types or name in kinds:
+        return types[name] if name in types else kinds[name]
     near = " " + did_you_mean(name, [*types, *kinds])
     lists = f"`fairlead describe {ALL_TYPES}` lists them."
     raise UsageError(f"There is no component type {name}.{near.rstrip()}\n    {lists}")
-
-
-def _catalogue(types: Mapping[str, type[Declared]]) -> Iterator[str]:
-    """Types by folder, each with its sentence."""
-    folders: dict[str, list[tuple[str, str]]] = {}
-    for name, kind in sorted(types.items()):
-        folder = kind.__module__.removeprefix("fairlead.components.").rpartition(".")[0] or kind.__module__
-        folders.setdefault(folder, []).append((name, first_line(kind).rstrip(":")))
-    widest = max(map(len, types), default=0)
-    for folder, rows in sorted(folders.items()):
-        yield folder
-        yield from columns((f"{name:<{widest}}", said) for name, said in rows)
-        yield ""
-    yield "`fairlead describe TYPE` says all about one of them."
 
 
 def _kinds(types: Iterable[type[Declared]]) -> dict[str, type[Family]]:

@@ -36,6 +36,17 @@ def interface(has: Declaration) -> Iterator[str]:
     yield from _signals("unknowns", has.unknowns)
 
 
+def connections(has: Declaration) -> Iterator[str]:
+    """Ports, inputs and outputs: what a netlist joins."""
+    if has.ports:
+        yield from heading("ports")
+        yield from columns(
+            (name, port.domain.name, _variables(port.domain), port.doc) for name, port in has.ports.items()
+        )
+    yield from _signals("inputs", has.inputs)
+    yield from _signals("outputs", has.outputs)
+
+
 def shared(all_: Iterable[Declaration]) -> Declaration:
     """What several declarations have in common, by name."""
     first, *others = all_
