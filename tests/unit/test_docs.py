@@ -19,7 +19,7 @@ import fairlead
 from fairlead.cli import app
 from fairlead.component.given import Waveform
 from fairlead.component.registry import known_types
-from fairlead.component.tables import TERMS, read_waveform
+from fairlead.component.waveforms import TERMS, read_waveform
 from fairlead.netlist.yaml12 import read_yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

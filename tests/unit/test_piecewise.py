@@ -8,7 +8,8 @@ import pytest
 
 from fairlead.component.given import Table, Waveform
 from fairlead.component.piecewise import constant, linear_table, monotone_cubic_table, pieces
-from fairlead.component.tables import add, read_table, read_waveform
+from fairlead.component.tables import read_table
+from fairlead.component.waveforms import add, read_waveform
 
 HERE = pathlib.Path()
 X, Y = [0.0, 1.0, 2.5, 3.0], [1.0, 3.0, 3.0, -1.0]

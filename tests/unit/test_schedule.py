@@ -7,7 +7,7 @@ import pytest
 
 from fairlead.analysis.schedule import Schedule, followed, rate, scaled
 from fairlead.component.given import Waveform
-from fairlead.component.tables import read_waveform
+from fairlead.component.waveforms import read_waveform
 
 STEP = {"table": {"t": [0, 0.01, 4, 4.01], "y": [0, 0.5, 0.5, -0.5]}}
 

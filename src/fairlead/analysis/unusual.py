@@ -120,11 +120,17 @@ def _late(where: str, wave: Wave, node: Value, netlist: Netlist) -> Iterator[Fau
 
 def _of_time(node: Value) -> Location | None:
     """Where the time stands at which a step or a ramp begins."""
-    for inner in node.entries.values():
+    for inner in _maps(node):
         for word in ("at", "start"):
             if word in inner.entries:
                 return inner.entries[word].where
     return None
+
+
+def _maps(node: Value) -> Iterator[Value]:
+    """The terms of a quantity in time; several of a kind stand in a list."""
+    for inner in node.entries.values():
+        yield from inner.content if isinstance(inner.content, list) else (inner,)
 
 
 def _stretched(path: str, line: Any, netlist: Netlist) -> Iterator[Fault]:

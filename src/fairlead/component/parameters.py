@@ -35,8 +35,9 @@ from fairlead.component.given import (
 )  # fmt: skip
 from fairlead.component.mistakes import explain
 from fairlead.component.replies import AnswerError
-from fairlead.component.tables import read_table, read_waveform, table_schema, waveform_schema
+from fairlead.component.tables import read_table, table_schema
 from fairlead.component.values import Values
+from fairlead.component.waveforms import read_waveform, waveform_schema
 from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
 from fairlead.quantities import wanted, whole, written

@@ -1,17 +1,7 @@
-"""Tables and quantities in time as a user writes them, turned into piecewise polynomials.
+"""Tables as a user writes them, turned into piecewise polynomials; `waveforms.py` has quantities in time.
 
 A table is a list of [x, y] pairs, a map {x: [...], y: [...], kind: linear|cubic, beyond: constant|line}, or
 {file: data.csv} with the same two words. Beyond its ends a table stays constant unless it says `line`.
-
-A quantity in time is a number, or a map of terms that add up:
-
-    constant: 3 N
-    ramp: {to: 3 N, over: 1 s, from: 0 N, start: 0 s}
-    step: {to: 3 N, at: 1 s, from: 0 N}
-    drift: {rate: 0.05 m/s, start: 0 s}
-    sine: {amplitude: 1 N, frequency: 2 Hz, phase: 0 deg, offset: 0 N}
-    trapezoid: {to: 3 N, start: 0 s, rise: 1 s, stay: 5 s, fall: 1 s, from: 0 N}
-    table: as above, with t for x
 """
 
 from __future__ import annotations
@@ -25,23 +15,14 @@ import pathlib
 from collections.abc import Callable, Iterator, Mapping, Set
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from fairlead.component.given import Table, Waveform
+from fairlead.component.given import Table
 from fairlead.component.piecewise import (
-    DEGREE,
-    FAR,
     PiecewisePolynomial,
-    Sine,
-    constant,
     linear_table,
     monotone_cubic_table,
-    pieces,
 )  # fmt: skip
-from fairlead.component.values import Wave
 from fairlead.errors import did_you_mean, listing, shown
-from fairlead.quantities import NUMBER, QuantityError, wanted, written
+from fairlead.quantities import NUMBER, QuantityError, written
 
 WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 MOST_POINTS = 100_000
@@ -71,7 +52,8 @@ class TableError(ValueError):
         return TableError(self.what, self.way_out, (*path, *self.path), of_name=self.of_name)
 
 
-def _si(value: Any, unit: str, *path: str | int) -> float:
+def si_at(value: Any, unit: str, *path: str | int) -> float:
+    """A quantity in SI; what is wrong with it is told at `path`. Raises TableError."""
     try:
         return written(value, unit)
     except QuantityError as error:
@@ -82,42 +64,15 @@ def read_table(value: Any, declared: Table, folder: pathlib.Path) -> PiecewisePo
     """A table in SI. Raises TableError with what is wrong and what is allowed."""
     if isinstance(value, PiecewisePolynomial):
         return value
-    return _points(value, declared.x, declared.y, "x", folder)
+    return points(value, declared.x, declared.y, "x", folder)
 
 
-def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave | None:
-    """A quantity in time, in SI. Raises TableError."""
-    if value is None or isinstance(value, Wave):
-        return value
-    if not isinstance(value, Mapping):
-        return Wave(constant(written(value, declared.unit)))
-    if not value:
-        raise TableError("nothing is given", f"Give {listing(TERMS)}. Or: {wanted(declared.unit)}")
-    polynomial, sine = constant(0.0), Sine()
-    for name, settings in value.items():
-        if name not in TERMS:
-            way_out = f"There are {listing(TERMS)}."
-            raise TableError(
-                f"there is no such waveform. {did_you_mean(str(name), TERMS)}".rstrip(" ."),
-                way_out,
-                (str(name),),
-                of_name=True,
-            )
-        try:
-            term = TERMS[name](settings, declared.unit, folder)
-        except TableError as error:
-            raise error.below(name) from None
-        if isinstance(term, tuple):
-            term, sine = term
-        polynomial = add(polynomial, term)
-    return Wave(polynomial, sine)
-
-
-def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> PiecewisePolynomial:
+def points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Path) -> PiecewisePolynomial:
+    """A table of these units as pieces, `x_name` is what its first column is called. Raises TableError."""
     words = {"kind": "linear", "beyond": "constant"}
     at: Callable[[int, int], Place] = _row
     if isinstance(value, Mapping):
-        _only(value, {x_name, "y", "file", *WORDS})
+        only(value, {x_name, "y", "file", *WORDS})
         for word, allowed in WORDS.items():
             words[word] = str(value.get(word, words[word]))
             if words[word] not in allowed:
@@ -137,8 +92,8 @@ def _points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.P
         )
     if not 2 <= len(rows) <= MOST_POINTS:
         raise TableError(f"a table has 2 to {MOST_POINTS} points, this one has {len(rows)}")
-    x = [_si(row[0], x_unit, *at(k, 0)[0]) for k, row in enumerate(rows)]
-    y = [_si(row[1], y_unit, *at(k, 1)[0]) for k, row in enumerate(rows)]
+    x = [si_at(row[0], x_unit, *at(k, 0)[0]) for k, row in enumerate(rows)]
+    y = [si_at(row[1], y_unit, *at(k, 1)[0]) for k, row in enumerate(rows)]
     for k, (before, after) in enumerate(itertools.pairwise(x)):
         if not after > before:
             path, said = at(k + 1, 0)
@@ -252,7 +207,8 @@ def _inside(folder: pathlib.Path, name: str) -> pathlib.Path:
     return path
 
 
-def _only(settings: Any, allowed: Set[str], needed: Set[str] = frozenset()) -> None:
+def only(settings: Any, allowed: Set[str], needed: Set[str] = frozenset()) -> None:
+    """Raise TableError for a map that has others than these names, or lacks some."""
     names = listing(sorted(allowed))
     if not isinstance(settings, Mapping):
         raise TableError(f" = {shown(settings)} is not a map", f"Write a map with {names}.")
@@ -264,99 +220,6 @@ def _only(settings: Any, allowed: Set[str], needed: Set[str] = frozenset()) -> N
         raise TableError(f"{name} is missing", f"Needed: {listing(sorted(needed))}.")
 
 
-def _numbers(settings: Any, **declared: tuple[str, float | None]) -> dict[str, float]:
-    """Settings in SI: name -> (unit, default or None when it must be given)."""
-    _only(settings, set(declared), {n for n, (_, default) in declared.items() if default is None})
-    return {n: _si(settings.get(n, default), unit, n) for n, (unit, default) in declared.items()}
-
-
-def _positive(settings: dict[str, float], *names: str) -> None:
-    for name in names:
-        if settings[name] < 0:
-            raise TableError(f" = {settings[name]:g} s is negative", "A time span is zero or more.", (name,))
-
-
-def _path_of_points(times: list[float], levels: list[float]) -> PiecewisePolynomial:
-    """Straight lines through points; two points at one time are a jump."""
-    borders, terms = [times[0]], [[levels[0]]]
-    for (t0, y0), (t1, y1) in itertools.pairwise(zip(times, levels, strict=True)):
-        if t1 > t0:
-            terms.append([y0, (y1 - y0) / (t1 - t0)])
-            borders.append(t1)
-    return pieces(borders, [*terms, [levels[-1]]])
-
-
-def _ramp(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    s = _numbers(settings, to=(unit, None), over=("s", None), start=("s", 0.0), **{"from": (unit, 0.0)})
-    _positive(s, "over")
-    return _path_of_points([s["start"], s["start"] + s["over"]], [s["from"], s["to"]])
-
-
-def _step(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    s = _numbers(settings, to=(unit, None), at=("s", 0.0), **{"from": (unit, 0.0)})
-    return pieces([s["at"]], [[s["from"]], [s["to"]]])
-
-
-def _drift(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    s = _numbers(settings, rate=(f"{unit}/s", None), start=("s", 0.0))
-    return pieces([s["start"]], [[0.0], [0.0, s["rate"]]])
-
-
-def _trapezoid(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    s = _numbers(settings, to=(unit, None), start=("s", 0.0), rise=("s", None), stay=("s", None), fall=("s", None),
-                 **{"from": (unit, 0.0)})  # fmt: skip
-    _positive(s, "rise", "stay", "fall")
-    times = [s["start"]]
-    for phase in ("rise", "stay", "fall"):
-        times.append(times[-1] + s[phase])
-    return _path_of_points(times, [s["from"], s["to"], s["to"], s["from"]])
-
-
-def _sine(settings: Any, unit: str, folder: pathlib.Path) -> tuple[PiecewisePolynomial, Sine]:
-    s = _numbers(settings, amplitude=(unit, None), frequency=("Hz", None), phase=("rad", 0.0), offset=(unit, 0.0))
-    return constant(s["offset"]), Sine(s["amplitude"], 2 * math.pi * s["frequency"], s["phase"])
-
-
-def _table(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    return _points(settings, "s", unit, "t", folder)
-
-
-def _constant(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    return constant(_si(settings, unit))
-
-
-TERMS: dict[str, Callable[[Any, str, pathlib.Path], Any]] = {
-    "constant": _constant, "ramp": _ramp, "step": _step, "drift": _drift, "sine": _sine, "trapezoid": _trapezoid,
-    "table": _table,
-}  # fmt: skip
-
-
-def add(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
-    """Piece by piece over the borders of both."""
-    if len(a.rows) == 1 and not a.rows[0, 3:].any():
-        return b
-    borders = sorted({x for p in (a, b) for x in p.rows[1:, 0]})
-    starts = [-FAR, *borders]
-    references = [x if x > -FAR else (borders[0] if borders else 0.0) for x in starts]
-    inside = [(x + y) / 2 if x > -FAR and y < FAR else (y - 1 if x <= -FAR and y < FAR else x + 1 if x > -FAR else 0.0)
-              for x, y in zip(starts, [*borders, FAR], strict=True)]  # fmt: skip
-    at, about = np.array(inside), np.array(references)
-    terms = _about(a, at, about) + _about(b, at, about)
-    return pieces(borders, terms.tolist())
-
-
-def _about(p: PiecewisePolynomial, at: NDArray[np.float64], references: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Coefficients (n, DEGREE + 1), about each reference, of the pieces that hold the places `at` (n,)."""
-    number = np.clip(np.searchsorted(p.rows[:, 0], at, side="right") - 1, 0, len(p.rows) - 1)
-    given = p.rows[number]
-    shift = (references - given[:, 2])[:, None]
-    made = np.zeros((len(at), DEGREE + 1))
-    for power in range(DEGREE, -1, -1):  # Horner's scheme in y = x + shift
-        made[:, 1:] = made[:, 1:] * shift + made[:, :-1]
-        made[:, :1] = made[:, :1] * shift + given[:, 3 + power : 4 + power]
-    return made
-
-
 def table_schema(declared: Table) -> dict[str, Any]:
     """JSON Schema of a table."""
     number = {"type": ["number", "string"]}
@@ -366,13 +229,3 @@ def table_schema(declared: Table) -> dict[str, Any]:
     named = {"x": column, "y": column, **words, "file": {"type": "string"}}
     in_columns = {"type": "object", "properties": named, "additionalProperties": False}
     return {"description": declared.doc, "anyOf": [pairs, in_columns]}
-
-
-def waveform_schema(declared: Waveform) -> dict[str, Any]:
-    """JSON Schema of a quantity in time."""
-    terms: dict[str, Any] = {name: {} for name in TERMS}
-    named = {"type": "object", "properties": terms, "additionalProperties": False, "minProperties": 1}
-    return {
-        "description": f"{declared.doc} {wanted(declared.unit)}".strip(),
-        "anyOf": [{"type": ["number", "string"]}, named],
-    }

@@ -10,7 +10,7 @@ from typing import Any
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Input, Output, State, Unknown
 from fairlead.component.given import REQUIRED, Block, Choice, Count, Name, Parameter, Part, Stations, Table, Waveform
-from fairlead.component.tables import TERMS
+from fairlead.component.waveforms import TERMS
 from fairlead.errors import listing
 from fairlead.system.columns import columns, heading, wrapped
 
