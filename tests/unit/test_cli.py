@@ -352,3 +352,14 @@ def test_ctrl_c_while_a_verb_loads_ends_like_one_later(monkeypatch):
 
 def interrupt(*_: object, **__: object) -> None:
     raise KeyboardInterrupt
+
+
+def test_ctrl_c_while_figures_are_drawn_keeps_the_summary(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: Any, **__: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(fairlead.cli.run, "_write_extras", interrupted)
+    answer = command("run", "belt")
+    assert answer.exit_code == 130
+    assert "steps" in answer.stdout
+    assert "the results in" in answer.stderr

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fairlead.cli import completion
 from fairlead.cli.exit_codes import MODEL_ERROR
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import console, echo
@@ -23,9 +24,15 @@ def compare(
     libraries: Libraries,
     vary: Annotated[
         list[str],
-        typer.Option(metavar="NAME=A,B,C", help="What to vary: pad.method=hold,binding,tanh. Repeatable: all pairs."),
+        typer.Option(
+            metavar="NAME=A,B,C", help="What to vary: pad.method=hold,binding,tanh. Repeatable: all pairs.",
+            autocompletion=completion.settings,
+        ),
     ],
-    signals: Annotated[str, typer.Option(help="Positions that the error is taken from, as a pattern.")] = "*",
+    signals: Annotated[
+        str,
+        typer.Option(help="Positions that the error is taken from, as a pattern.", autocompletion=completion.signals),
+    ] = "*",
     out: Annotated[
         pathlib.Path | None,
         typer.Option(metavar="DIR", help="Leave runs and figure here. Default: results/NAME-compare."),

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from fairlead.cli import completion
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo
 
@@ -23,7 +24,8 @@ def describe(
     subject: Annotated[
         str,
         typer.Argument(
-            help="A netlist, a bundled model, a component type such as Spring, or `types` for the list."
+            help="A netlist, a bundled model, a component type such as Spring, or `types` for the list.",
+            autocompletion=completion.subjects,
         ),
     ],
     settings: Settings,

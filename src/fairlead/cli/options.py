@@ -4,9 +4,12 @@ from typing import Annotated
 
 import typer
 
+from fairlead.cli import completion
 from fairlead.errors import shown
 
-Netlist = Annotated[str, typer.Argument(help="A netlist file, or the name of a bundled model.")]
+Netlist = Annotated[
+    str, typer.Argument(help="A netlist file, or the name of a bundled model.", autocompletion=completion.netlists)
+]
 Settings = Annotated[
     list[str],
     typer.Option(
@@ -15,6 +18,7 @@ Settings = Annotated[
         help="Override a value of the netlist: mu=0.6, pad.normal_force='12 N', run.stop=5. Repeatable.",
         default_factory=list,
         show_default=False,
+        autocompletion=completion.settings,
     ),
 ]
 Libraries = Annotated[

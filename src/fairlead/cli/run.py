@@ -54,8 +54,11 @@ def run(
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # told below the table
         result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile, check=False)
-    _compare_with_statics(model, result)
-    written = _write_extras(model, result, csv=csv, report=report)
+    try:
+        _compare_with_statics(model, result)
+        written, cut_short = _write_extras(model, result, csv=csv, report=report), False
+    except KeyboardInterrupt:  # the run itself is whole, and its summary is wanted all the more
+        written, cut_short = [], True
     if as_json:
         echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
     else:
@@ -63,6 +66,9 @@ def run(
             _print_summary(result, written, profile=profile)
         _say_what_went_wrong(result.run)
         _say_what_is_kept(result, quiet)
+    if cut_short:
+        echo(f"interrupted while figures were drawn; the results in {result.folder} are whole", err=True)
+        raise typer.Exit(INTERRUPTED)
     raise typer.Exit(exit_code(result.run))
 
 

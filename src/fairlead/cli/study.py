@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairlead.cli import completion
 from fairlead.cli.terminal import console
 
 if TYPE_CHECKING:
@@ -14,7 +15,11 @@ if TYPE_CHECKING:
 
 Budget = Annotated[str, typer.Option(metavar="TIME", help="Time the study may take, compiling apart.")]
 Outputs = Annotated[
-    list[str] | None, typer.Option("--output", metavar="PATTERN", help="Recorded outputs to compare. Repeatable.")
+    list[str] | None,
+    typer.Option(
+        "--output", metavar="PATTERN", help="Recorded outputs to compare. Repeatable.",
+        autocompletion=completion.signals,
+    ),
 ]
 Fresh = Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from an earlier study.")]
 
