@@ -1,0 +1,92 @@
+"""Friction of a shaft as its torque over its speed: what a bearing, a seal or a gear motor's data sheet gives."""
+
+from fairlead.components.friction.contact import Contact
+from fairlead.components.rotation.rack import Rack
+from fairlead.components.rotation.rubbing import METHODS, LeverArm
+
+from fairlead.component import (
+    Choice,
+    Component,
+    Composite,
+    Expansion,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Rotational,
+    Table,
+)  # fmt: skip
+
+ARM = 1.0  # m; a torque is the force there, and an angular speed the speed: numbers stay as they are
+PRESSED = 1.0  # N; a coefficient times it is the force
+
+
+class Turning(Component):
+    """Slip at a radius as an angular speed, signal in and out."""
+
+    radius = Parameter("m", "Lever arm.", above=0)
+    slip = Input("m/s", "Slip at the radius.", signed=True)
+    speed = Output("rad/s", "The same as an angular speed.")
+
+    def law(p, slip):
+        """Speed over lever arm."""
+        return Law(speed=slip / p.radius)
+
+
+class ShaftFriction(Composite):
+    """Dry friction between two shafts given as a torque over their speed, with no radius and no normal force.
+
+    torque while turning, `breakaway` from rest, and between the two a decay over `speed` (Stribeck); `viscous` grows in
+    proportion; or `points` of a measurement. Join `a` with a Housing for the friction of a bearing or a seal.
+    """
+
+    a, b = Rotational("one shaft, or a Housing"), Rotational("the other shaft")
+    sliding = Parameter("N*m", "Torque while it turns; or give points.", default=None, least=0)
+    breakaway = Parameter("N*m", "Torque to begin; that of sliding when not given.", default=None, least=0)
+    speed = Parameter("rad/s", "Speed over which breakaway falls to sliding.", default=None, above=0)
+    viscous = Parameter("N*m*s/rad", "Torque that grows with speed, beside the dry one.", default=None, least=0)
+    points = Table("rad/s", "N*m", "Speed and torque, first point at rest.", default=None)
+    method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
+    hands_on = ("method",)
+    torque = Output("N*m", "Friction torque, positive when it opposes positive slip.")
+    slip = Output("rad/s", "Speed of b over a.")
+
+    def check(p):
+        """One of the two ways, and a decay from something to something."""
+        if (p.sliding is None) == (p.points is None):
+            yield "", "give either sliding or points", "One torque, or torques over speed."
+        if p.sliding is not None and p.breakaway is not None and p.breakaway < p.sliding:
+            what = f"breakaway {p.breakaway:g} N*m is below sliding = {p.sliding:g} N*m"
+            yield "breakaway", what, "Beginning takes at least as much as turning on."
+        if p.speed is not None and p.breakaway is None:
+            yield "speed", "speed is given without breakaway", "Give the torque from which friction falls."
+        if p.points is not None and (p.breakaway is not None or p.speed is not None):
+            yield "points", "points are given beside breakaway or speed", "The first point is the torque to begin."
+
+    def expand(p, scene):
+        """A contact at a lever arm of one metre, pressed with one newton."""
+        word = {} if p.method is None else {"method": p.method}
+        drag = {} if p.viscous is None else {"viscous": p.viscous / ARM**2}
+        children = {
+            "contact": scene.make(Contact, curve=curve_of(p), normal_force=PRESSED, **word, **drag),
+            "lever": scene.make(LeverArm, radius=ARM),
+            "turning": scene.make(Turning, radius=ARM),
+            "rim_a": scene.make(Rack, radius=ARM),
+            "rim_b": scene.make(Rack, radius=ARM),
+        }
+        joins = [
+            ("rim_a.rack", "contact.a"), ("rim_b.rack", "contact.b"), ("contact.friction", "lever.friction"),
+            ("contact.slip", "turning.slip"),
+        ]  # fmt: skip
+        shown = {"torque": "lever.torque", "slip": "turning.speed"}
+        return Expansion(children, joins, {"a": "rim_a.pinion", "b": "rim_b.pinion"}, shown)
+
+
+def curve_of(p):
+    """The curve whose coefficient is the torque in N m at the slip in rad/s."""
+    if p.points is not None:
+        return {"curve": "table", "points": p.points}
+    if p.speed is not None:
+        return {"curve": "stribeck", "stiction": p.breakaway, "coulomb": p.sliding, "velocity": p.speed}
+    begin = {} if p.breakaway is None else {"stiction": p.breakaway}
+    return {"curve": "coulomb", "coulomb": p.sliding, **begin}
