@@ -54,7 +54,7 @@ def test_a_mistake_in_a_curve_is_told_at_the_line_of_the_curve(library, scene):
 
 
 def test_units_of_a_curve_are_looked_at_too(library, scene):
-    text = CURVES.replace("(v / p.middle) ** 2", "v**2")
+    text = CURVES.replace("(v / p.middle) ** 2", "(v + p.middle**2)")
     with pytest.raises(ModelError) as caught:
         scene(SCENE, libraries=(library(text),)).check()
     assert re.search(r"classes0\.py:13: .*terms of a sum have one unit|are added", str(caught.value))

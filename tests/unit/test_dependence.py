@@ -155,6 +155,7 @@ def tied(law):
     class Tied(Component):
         """Ties a node to a rim."""
 
+        exempt = {"units": "laws of any form are tried"}
         node = Translational("the node")
         rim = Translational("what carries it")
         lock = Parameter("N*s/m", "Bond.", default=1e9)

@@ -1,8 +1,9 @@
 """Units of a law: terms of a sum are of one kind, and what a law gives is of the kind that was declared.
 
 Every symbol of a traced law has the unit that its class declared for it. Numbers written into a law may carry a unit
-that nobody tells (`9.81 * p.mass`), so all but small ones fit anything, and so does what plain Python derives. An
-angle counts as a number, since a radius times an angle is a length. What is found is wrong; not all that is is found.
+that nobody tells (`9.81 * p.mass`), so all but small ones fit anything. So does what plain Python derives, and what is
+declared as a plain number, such as a gain or a signal "in SI of both". An angle counts as a number, since a radius times
+an angle is a length. What is found is wrong; not all that is wrong is found.
 
 The line is found by running the law once more: it is the first one after which something does not fit.
 """
@@ -27,8 +28,10 @@ from fairlead.quantities import KINDS, NONE, QuantityError, parse_unit, unit_tex
 Dimension = tuple[Any, ...]
 PLAIN: Dimension = (0, 0, 0, 0, 0)
 BASES = len(PLAIN)  # m, kg, s, A, K; angles are numbers here, and an energy is what it is made of
-SMALL = 8
+SMALL = 4
 """Whole numbers, and one over them, up to which a number of a law is a number."""
+FREE = ("1", "1/s")
+"""Units of plain numbers, and of their rates, which say nothing of what they stand for."""
 OF_PORTS = {"x": 0, "v": 1}
 RATES = {"a": 2, "A": 2, "U": 2}
 
@@ -53,7 +56,7 @@ def misfit_as(expression: sympy.Expr, unit: str, name: str, variant: Variant) ->
     except Misfit as error:
         return str(error)
     wanted = _dimension(unit)
-    if found is None or expression == 0 or found == wanted:
+    if found in (None, PLAIN, wanted) or unit in FREE:
         return ""
     return f"{name} is in {unit}, and is given {said(expression)}, which is in {_unit(found)}; its unit is not that"
 
@@ -190,16 +193,15 @@ def _symbol(one: Key, variant: Variant) -> Dimension | None:
         return _dimension(domain.across[at][1]) if at < len(domain.across) else None
     if one.kind == OWN or (one.kind == INPUT and not one.part):
         declared: Any = {**has.states, **has.unknowns, **has.inputs}.get(one.name)
-        return _dimension(declared.unit) if declared is not None else None
+        return _told(declared.unit) if declared is not None else None
     if one.kind == PARAMETER and one.name.startswith("#"):
         discrete = has.discrete.get(one.name[1:])
-        return _dimension(discrete.unit) if discrete is not None else None
+        return _told(discrete.unit) if discrete is not None else None
     if one.kind == PARAMETER:
         parameter = _declared(one.name, variant)
         if isinstance(parameter, Waveform):
-            units = {"amplitude": parameter.unit, "omega": "1/s", "phase": "1"}
-            return _dimension(units[one.part]) if one.part in units else None
-        return _dimension(parameter.unit) if isinstance(parameter, Parameter) else None
+            return _told(parameter.unit) if one.part == "amplitude" else None
+        return _told(parameter.unit) if isinstance(parameter, Parameter) else None
     return _of_table(one, _declared(one.name, variant)) if one.kind == TABLE else None
 
 
@@ -208,7 +210,7 @@ def _of_table(one: Key, table: Any) -> Dimension | None:
     if not isinstance(table, Table | Waveform) or not one.part.isdigit():
         return None
     x, y = (table.x, table.y) if isinstance(table, Table) else ("s", table.unit)
-    return _dimension(x) if one.part == "0" else _over(_dimension(y), x, int(one.part) - 1)
+    return _told(x) if one.part == "0" else _over(_told(y), x, int(one.part) - 1)
 
 
 def _declared(path: str, variant: Variant) -> Any:
@@ -228,6 +230,11 @@ def _over(dimension: Dimension | None, unit: str, times: int) -> Dimension | Non
     if dimension is None or below is None:
         return None
     return tuple(one - times * other for one, other in zip(dimension, below, strict=True))
+
+
+def _told(unit: str) -> Dimension | None:
+    """The dimension of what is declared in a unit; None for a plain number, which may stand for anything."""
+    return None if unit in FREE else _dimension(unit)
 
 
 def _dimension(unit: str) -> Dimension:
