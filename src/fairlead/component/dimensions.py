@@ -2,8 +2,8 @@
 
 Every symbol of a traced law has the unit that its class declared for it. Numbers written into a law may carry a unit
 that nobody tells (`9.81 * p.mass`), so all but small ones fit anything. So does what plain Python derives, and what is
-declared as a plain number, such as a gain or a signal "in SI of both". An angle counts as a number, since a radius times
-an angle is a length. What is found is wrong; not all that is wrong is found.
+declared as a plain number, such as a gain or a signal "in SI of both". An angle counts as a number, since a radius
+times an angle is a length. What is found is wrong; not all that is wrong is found.
 
 The line is found by running the law once more: it is the first one after which something does not fit.
 """
