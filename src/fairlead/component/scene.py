@@ -7,9 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeGuard
 
+from pydantic import ValidationError
+
 from fairlead.component.base import Declared, Family
 from fairlead.component.effects import switch
 from fairlead.component.given import SWITCH
+from fairlead.component.mistakes import explain
 from fairlead.component.parameters import make
 from fairlead.component.values import Values
 from fairlead.errors import Fault, Location, ModelError, listing, shown
@@ -122,10 +125,6 @@ class Scene:
 
 def _made(kind: type[Declared], given: dict[str, Any]) -> Values:
     """Values of a child. Raises ModelError for those that its class does not allow."""
-    from pydantic import ValidationError
-
-    from fairlead.component.mistakes import explain
-
     try:
         return make(kind, **given)
     except ValidationError as error:
