@@ -22,6 +22,11 @@ class Curve(Family, abstract=True):
     asked_with = {"velocity_shift": None}  # not every method knows it, so the contract suite does not give it at random
     key = "curve"
     needs = {"coefficient": "coefficient(p, v): friction over normal force at slip speed v >= 0 [m/s]"}
+    gives = {
+        "coefficient": "a number: friction over normal force",
+        "breakaway": "a number: friction over normal force at which slipping begins",
+        "scale": "a speed [m/s], or None",
+    }
     default_word = "coulomb"
     bare = ("coulomb", "coulomb")
     backward = Table("m/s", "1", "Slip speed and coefficient for backward slip; as forward when absent.", default=None)

@@ -169,3 +169,45 @@ def test_a_derived_number_that_is_none_is_told_at_its_line(scene, library):
     )
     said = told(scene, library(text))
     assert re.search(r"classes0\.py:1\d: Bob\.twice gives 'two'", said[0])
+
+
+CURVE = """
+from fairlead.components.friction.curve import Curve
+class Odd(Curve):
+    m = Parameter("1", default=0.3)
+    def coefficient(p, v):
+        {coefficient}
+    def {more}
+"""
+PAD = """
+components:
+  wall: {type: Ground}
+  bob: {type: Mass, mass: 1 kg}
+  pad: {type: Contact, normal_force: 10 N, curve: {curve: odd}}
+connections: [[wall.flange, pad.a], [pad.b, bob.flange]]
+run: {stop: 0.1 s}
+"""
+OTHER = "other(p):\n        return 1"
+CURVES = {
+    "a text": ("return 'x'", OTHER, "Odd.coefficient gives 'x'. It gives a number: friction over normal force."),
+    "nothing": ("pass", OTHER, "Odd.coefficient gives None. It gives a number"),
+    "a breakaway of text": ("return p.m", "breakaway(p):\n        return 'x'", "Odd.breakaway gives 'x'. It gives a number"),
+    "a scale of text": ("return p.m", "scale(p):\n        return 'x'", "Odd.scale gives 'x'."),
+    "a branch": ("return p.m if v > 1 else 0", OTHER, "a law must not branch on values"),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_a_part_that_gives_what_no_part_gives_is_told_at_its_line(scene, library, tmp_path, name):
+    from typer.testing import CliRunner
+
+    from fairlead.cli import app
+
+    coefficient, more, says = CURVES[name]
+    path = library(CURVE.format(coefficient=coefficient, more=more))
+    said = " ".join(told(scene, path, PAD)[0].split())
+    assert says in said
+    assert re.search(r"classes0\.py:[5-8]: ", said)
+    (tmp_path / "pad.yaml").write_text(f"schema: 1\nname: pad{PAD}")
+    drawn = CliRunner().invoke(app, ["friction", str(tmp_path / "pad.yaml"), "--library", path, "--out", str(tmp_path)])
+    assert drawn.exit_code in (0, 1)  # a branch may be drawn

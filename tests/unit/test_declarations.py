@@ -106,6 +106,21 @@ REFUSED = {
     "a bound with a unit": (f"{LAW}\nk = Parameter('N/m', above='0 N/m')", "'k': above is '0 N/m'; a bound is a"),
     "a default that is no option": (f"{LAW}\nc = Choice(('on', 'off'), default='onn')", "the options are on, off"),
     "a default that is no count": (f"{LAW}\nn = Count(default=2.5)", "a count is a whole number from 1 to 1000000"),
+    "a guard of a unit that means nothing": (
+        "zones = Zones('on', 'off')\n@zone('on', 'off')\ndef on(p, a):\n    return (0,)\n"
+        "@guard('on', to='off', unit='mtr')\ndef leaves(p, a):\n    return a.x",
+        "guard 'leaves': mtr is not a known unit",
+    ),
+    "a unit that is a number": (f"{LAW}\nk = Parameter(3)", "'k' has the unit 3; a unit is a text such as"),
+    "options that are no texts": (f"{LAW}\nc = Choice((1, 2), default=1)", "'c' has the options (1, 2); they are a"),
+    "options that are one text": (f"{LAW}\nc = Choice('on', default='on')", "'c' has the options 'on'; they are a"),
+    "a part of no family": (f"{LAW}\nk = Part(3, 'x')", "'k' is a part of 3, which is no family such as Curve"),
+    "a block that is a list": (f"{LAW}\nk = Block([1], 'x')", "'k' is a block of [1]; it is a map of names to"),
+    "an effect off that is a text": (f"{LAW}\ne = Effect('x', off='Bob')", "'e' off is 'Bob'; it is a class with"),
+    "a waveform that is a word": (f"{LAW}\nw = Waveform('N', default='fast')", "the default of 'w' is 'fast'; "),
+    "a table that is a number": (f"{LAW}\nw = Table('m', 'N', default=3)", "the default of 'w' is 3; a table is"),
+    "a size below zero": (f"{LAW}\nz = State('m', nominal=-1.0)", "'z' has the size -1; a size is above zero"),
+    "what moves by a number": (f"{LAW}\nm = Parameter('m')\nmoves_as = 'm'", "moves_as is 'm'; the quantities in time"),
     "a start that is a list": (f"{LAW}\nheld = State('N', start=[0])", "'held' starts at [0]; write a number"),
     "a unit inside a block": (LAW + "\nhose = Block({'mass': Parameter('kg per m')})", "kg per m"),
 }  # fmt: skip

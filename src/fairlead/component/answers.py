@@ -21,13 +21,13 @@ from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
 from fairlead.component.declaration import Declaration
-from fairlead.component.given import Choice
+from fairlead.component.given import Choice, Waveform
 
 NEAR = 0.82
 """Likeness (Ratcliff and Obershelp, as difflib has it) from which on a name counts as misspelt: one letter of four."""
 BY_NAME = ("law", "sample", "dissipated", "supplied", "stored")
 """Methods whose arguments are given by their names, so that a class asks for those it wants."""
-SET_HERE = ("declaration", "answers", "members", "joined", "needs")
+SET_HERE = ("declaration", "answers", "members", "joined", "needs", "gives")
 """What the framework itself leaves in a class."""
 DECLARED_IN = ("fairlead.component.declare", "fairlead.component.given")
 BUDGETS = ("max_steps", "max_events")
@@ -87,6 +87,12 @@ def _parameter(value: Any, has: Declaration) -> str:
     return "" if value in known or value == "" else f"is {_shown(value)}; the parameters are {sorted(known)}"
 
 
+def _wave(value: Any, has: Declaration) -> str:
+    waves = {name for name, one in has.parameters.items() if isinstance(one, Waveform)}
+    waves |= {name for name, one in has.derived.items() if one.wave}
+    return "" if value in waves or value == "" else f"is {_shown(value)}; the quantities in time are {sorted(waves)}"
+
+
 def _two_inputs(value: Any, has: Declaration) -> str:
     if not isinstance(value, tuple) or len(value) != 2:
         return f"is {_shown(value)}; it names two inputs"
@@ -137,6 +143,7 @@ SAMPLE = Kind("with self, t and what it reads", _sample, method=True)
 YES_OR_NO, SENTENCE, MAP = Kind("True or False", _yes_or_no), Kind("a sentence", _sentence), Kind("a map", _map)
 GIVEN = Kind("a map", _given)
 INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
+WAVE = Kind("a parameter", _wave)
 TWO_PORTS = Kind("two ports", _two_ports)
 PARAMETERS = Kind("parameters", _parameters)
 PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
@@ -170,7 +177,7 @@ class Answers:
     starts_at: Callable[[Any, float], None] | None = _asked(
         method("p", "x"), "told where the body is that it moves, when that follows from others"
     )
-    moves_as: str = _asked(PARAMETER, "with `prescribes`: the quantity in time that is the position", default="")
+    moves_as: str = _asked(WAVE, "with `prescribes`: the quantity in time that is the position", default="")
     ties: Callable[[Any], Iterable[tuple[str, str, Any, Any]]] | None = _asked(
         method("p"), "rigid ties of its ports: (a, b, ratio, offset) for b = ratio * a + offset"
     )

@@ -28,6 +28,7 @@ from fairlead.component.answers import (
     EVERYWHERE,
     Answers,
     answers_of,
+    method,
     misspelt,
     unfit,
 )
@@ -49,7 +50,7 @@ from fairlead.component.declare import (
     ZoneLaw,
     Zones,
 )  # fmt: skip
-from fairlead.component.defaults import misfits
+from fairlead.component.defaults import misfits, odd_kinds
 from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.holding import HoldPosition
 from fairlead.component.replies import AnswerError, held_to, is_bundled
@@ -104,6 +105,7 @@ class Family(Declared, abstract=True):
     members: ClassVar[dict[str, type[Family]]]
     joined: ClassVar[int] = 0  # members of all families so far
     needs: ClassVar[dict[str, str]] = {}  # methods that every member has: how it is called, with what it gives
+    gives: ClassVar[dict[str, str]] = {}  # methods that give a number: which, in words; it may end with None
 
     def __init_subclass__(cls, *, abstract: bool = False, **keywords: Any) -> None:
         """Collect declarations, and join the family."""
@@ -112,7 +114,11 @@ class Family(Declared, abstract=True):
             cls.members = {}
         elif not abstract:
             for name, said in cls.needs.items():
-                _demand(cls, callable(getattr(cls, name, None)), f"a {cls.key or 'member'} needs a method {said}")
+                function = getattr(cls, name, None)
+                _demand(cls, callable(function), f"a {cls.key or 'member'} needs a method {said}")
+                asks = said.partition("(")[2].partition(")")[0].split(", ")
+                wrong = method(*asks).wrong(function, cls.declaration)
+                _demand(cls, not wrong, f"{name} {wrong}")
             cls.word = cls.__dict__.get("word") or _snake(cls.__name__)
             cls.members[cls.word] = cls
             Family.joined += 1
@@ -256,16 +262,24 @@ def _check_directions(cls: type[Declared]) -> None:
 def _check_units(cls: type[Declared]) -> None:
     """Every unit means something."""
     has = cls.declaration
+    for what in odd_kinds(has):
+        _demand(cls, False, what)
+    for name, mark in has.guards.items():
+        _check_unit(cls, f"guard {name!r}", mark.unit)
     declared = {**has.parameters, **has.inputs, **has.outputs, **has.states, **has.unknowns, **has.discrete}
     for block in [d for d in declared.values() if isinstance(d, Block)]:
         declared |= block.parameters
     for name, one in declared.items():
         units = (one.x, one.y) if isinstance(one, Table) else (getattr(one, "unit", "1"),)
         for unit in units:
-            try:
-                parse_unit(unit)
-            except QuantityError as error:
-                _demand(cls, False, f"{name!r}: {error.what}. {error.allowed} Units are written as N/m, kg*m^2 or 1/s")
+            _check_unit(cls, repr(name), unit)
+
+
+def _check_unit(cls: type[Declared], name: str, unit: str) -> None:
+    try:
+        parse_unit(unit)
+    except QuantityError as error:
+        _demand(cls, False, f"{name}: {error.what}. {error.allowed} Units are written as N/m, kg*m^2 or 1/s")
 
 
 def _check_named_numbers(cls: type[Declared]) -> None:

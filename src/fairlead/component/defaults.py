@@ -11,12 +11,46 @@ from typing import Any
 
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Discrete, State
-from fairlead.component.given import REQUIRED, Block, Choice, Count, Effect, Name, Parameter
+from fairlead.component.given import (
+    REQUIRED,
+    Block,
+    Choice,
+    Count,
+    Effect,
+    Name,
+    Parameter,
+    Part,
+    Stations,
+    Table,
+    Waveform,
+)  # fmt: skip
 from fairlead.errors import did_you_mean
 from fairlead.quantities import QuantityError, article, si
 
 NEVER_PASSED = ("p", "t", "zone", "direction")
 """What a law may ask for by these names is something else."""
+
+
+def odd_kinds(has: Declaration) -> Iterator[str]:
+    """Declarations made of something else than what they take, before anybody looks into them."""
+    named = {**has.parameters, **has.inputs, **has.outputs, **has.states, **has.unknowns, **has.discrete}
+    for name, one in named.items():
+        units = (one.x, one.y) if isinstance(one, Table) else (getattr(one, "unit", "1"),)
+        if not all(isinstance(unit, str) for unit in units):
+            yield f"{name!r} has the unit {units[0]!r}; a unit is a text such as 'N/m'"
+        if isinstance(one, Choice) and not _words(one.options):
+            yield f"{name!r} has the options {one.options!r}; they are a tuple of texts such as ('on', 'off')"
+        if isinstance(one, Part | Stations) and not hasattr(one.family, "members"):
+            yield f"{name!r} is a part of {one.family!r}, which is no family such as Curve"
+        if isinstance(one, Block) and not isinstance(one.parameters, Mapping):
+            yield f"{name!r} is a block of {one.parameters!r}; it is a map of names to Parameter(...)"
+    for name, effect in has.effects.items():
+        if effect.off is not None and not hasattr(effect.off, "declaration"):
+            yield f"{name!r} off is {effect.off!r}; it is a class with the same ports"
+
+
+def _words(options: Any) -> bool:
+    return isinstance(options, tuple) and bool(options) and all(isinstance(one, str) for one in options)
 
 
 def misfits(has: Declaration) -> Iterator[str]:
@@ -33,6 +67,9 @@ def misfits(has: Declaration) -> Iterator[str]:
         if not isinstance(one.default, str | None) and not _number(one.default):
             yield f"{name!r} is {one.default!r} when nothing is connected; write a number, or the name of a parameter"
     starting: dict[str, State | Discrete] = {**has.states, **has.discrete}
+    for name, kept in has.states.items():
+        if isinstance(kept.nominal, int | float) and not kept.nominal > 0:
+            yield f"{name!r} has the size {kept.nominal:g}; a size is above zero"
     for name, state in starting.items():
         if not isinstance(state.start, str) and not _number(state.start):
             yield f"{name!r} starts at {state.start!r}; write a number, or the name of a parameter"
@@ -73,6 +110,10 @@ def _wrong(one: Any, default: Any) -> str:
         return "" if fits else f"a count is a whole number from {one.least} to {one.most}"
     if isinstance(one, Name):
         return "" if isinstance(default, str) else "a name is a text"
+    if isinstance(one, Waveform) and not isinstance(default, Mapping):
+        return _wrong_number(Parameter(one.unit), default)
+    if isinstance(one, Table):
+        return "" if isinstance(default, Mapping | list | tuple) else "a table is a list of [x, y] pairs, or a map"
     return ""
 
 

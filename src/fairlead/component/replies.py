@@ -15,7 +15,7 @@ import math
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from numbers import Real
+from numbers import Number, Real
 from typing import Any
 
 from fairlead.component.answers import Answers
@@ -64,6 +64,10 @@ def asked(kind: Any, name: str, function: Callable[..., Any], *given: Any) -> An
         return function(*given)
     except AnswerError:
         raise
+    except TypeError as error:
+        if type(error).__name__ == "TraceError":  # it has its place already
+            raise
+        raise _failing(error, kind, name, function) from error
     except ModelError as error:  # of `scene.make`, which knows what is wrong but not who wanted it
         place = f"{_line(error, function)}: {kind.__name__}.{name}: "
         raise AnswerError(
@@ -71,9 +75,36 @@ def asked(kind: Any, name: str, function: Callable[..., Any], *given: Any) -> An
             for fault in error.faults
         ) from error
     except Exception as error:
-        said = f"{_line(error, function)}: {kind.__name__}.{name} fails: {type(error).__name__}: {error}".rstrip(": .")
-        way_out = "" if type(error).__name__ == "AttributeError" else REPLIES.get(name, ("", None))[0]
-        raise AnswerError([Fault(None, f"{said}.", way_out)]) from error
+        raise _failing(error, kind, name, function) from error
+
+
+def _failing(error: Exception, kind: Any, name: str, function: Callable[..., Any]) -> AnswerError:
+    said = f"{_line(error, function)}: {kind.__name__}.{name} fails: {type(error).__name__}: {error}".rstrip(": .")
+    way_out = "" if isinstance(error, AttributeError) else REPLIES.get(name, ("", None))[0]
+    return AnswerError([Fault(None, f"{said}.", way_out)])
+
+
+def helper(
+    kind: Any, name: str, function: Callable[..., Any], p: Any, *, traced: bool = False
+) -> Callable[..., Any]:
+    """A method of a part, such as the `coefficient` of a curve, that looks at what it gives if its family says what.
+
+    `p` is the symbolic or the plain one; of one that is `traced` the tracer tells what fails. Numbers, complex ones and
+    expressions are numbers here.
+    """
+    wanted = getattr(kind, "gives", {}).get(name)
+    if wanted is None or is_bundled(kind):
+        return functools.partial(function, p)
+
+    def call(*given: Any) -> Any:
+        said = function(p, *given) if traced else asked(kind, name, function, p, *given)
+        number = isinstance(said, Number) and not isinstance(said, bool)
+        if not (number or hasattr(said, "free_symbols") or (said is None and wanted.endswith("None"))):
+            what = f"{place_of(function)}: {kind.__name__}.{name} gives {_said(said)}."
+            raise AnswerError([Fault(None, what, f"It gives {wanted}.")])
+        return said
+
+    return call
 
 
 def _asking(kind: Any, name: str, method: Callable[..., Any]) -> Callable[..., Any]:

@@ -9,7 +9,6 @@ be frozen inside a step; it is refused with the author's file and line.
 
 from __future__ import annotations
 
-import functools
 import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -35,7 +34,7 @@ from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.quantity import tracing
-from fairlead.component.replies import is_bundled
+from fairlead.component.replies import AnswerError, helper, is_bundled
 from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
 from fairlead.component.values import Variant
 from fairlead.errors import did_you_mean
@@ -115,7 +114,7 @@ class _Recorder:
             return symbol(f"p:{path}")
         function = getattr(variant.type, name, None)
         if callable(function):
-            return functools.partial(function, self)
+            return helper(variant.type, name, function, self, traced=True)
         known = [*has.parameters, *has.derived]
         raise TraceError(f"{variant.type.__name__} has no parameter {name!r}; it has {known}")
 
@@ -303,6 +302,8 @@ def _run(function: Callable[..., Any], arguments: dict[str, Any]) -> Any:
     except Exception as error:
         if asked:
             raise _branches(asked[0], function) from error
+        if isinstance(error, AnswerError):  # of a part, with its own place
+            raise TraceError(" ".join(str(error).split())) from error
         place, name = _deepest(error, function)
         raise TraceError(f"{place}: {name}: {_explained(error)}") from error
     if asked:

@@ -14,7 +14,7 @@ from typing import Any
 
 from fairlead.component.base import Declared
 from fairlead.component.piecewise import PiecewisePolynomial, Sine, constant
-from fairlead.component.replies import AnswerError, asked, is_bundled, place_of
+from fairlead.component.replies import AnswerError, asked, helper, is_bundled, place_of
 from fairlead.errors import Fault
 
 
@@ -63,7 +63,7 @@ class Values:
             return given[name]
         function = getattr(declared, name, None)
         if callable(function):
-            return functools.partial(function, self)
+            return helper(declared, name, function, self)
         raise AttributeError(f"{declared.__name__} has no parameter {name!r}")
 
     def path(self, dotted: str) -> Any:

@@ -48,9 +48,9 @@ def writing_of(traced: Traced) -> Writing:
         names_of(has),
         frozenset(has.states),
         frozenset(positive),
-        _asked(traced, "inertia") or {},
+        _map_of(_asked(traced, "inertia")),
         prescribes() if prescribes else {},
-        tuple((a, b, _exact(ratio), _exact(offset)) for a, b, ratio, offset in _asked(traced, "ties") or ()),
+        tuple((a, b, _exact(ratio), _exact(offset)) for a, b, ratio, offset in _rows_of(_asked(traced, "ties"))),
     )
 
 
@@ -61,6 +61,17 @@ def _asked(traced: Traced, name: str) -> Any:
         return trace_function(traced.variant, method)[0] if method else None
     except TraceError:
         return None
+
+
+def _map_of(said: Any) -> Mapping[str, Any]:
+    """What is no map is told where a netlist asks; a page leaves it out."""
+    return said if isinstance(said, Mapping) else {}
+
+
+def _rows_of(said: Any) -> list[Any]:
+    """The same of ties, which are rows of four."""
+    rows = said if isinstance(said, tuple | list) else ()
+    return [row for row in rows if isinstance(row, tuple | list) and len(row) == 4]
 
 
 def _exact(number: Any) -> sympy.Expr:
