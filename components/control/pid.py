@@ -42,6 +42,7 @@ class PidLaw(Component, abstract=True):
     initial = Parameter("1", "Value measured before the start, for the derivative.", default=0.0, physics=False)
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
+    integral = Output("1", "I, what the integral has gathered.")
 
     def check(p):
         """There is something between the limits, and a filter has something to filter."""
@@ -89,43 +90,44 @@ class IdealPid(PidLaw):
     D = -K_p T_d (y - s)/T_f,  ds/dt = (y - s)/T_f, with y the value measured.
     """
 
-    integral = State("1", "I.", nominal=0.1)
+    summed = State("1", "I.", nominal=0.1)
     slow = State("1", "Value measured, filtered.", start="initial", nominal=0.1)
     zones = Zones("within", "above", "below")
 
     @zone("within", "above", "below")
-    def controlling(p, reference, measured, ahead, integral, slow, zone):
+    def controlling(p, reference, measured, ahead, summed, slow, zone):
         """What is wanted is limited; what that leaves out is taken from the integral."""
-        error, wanted = reference - measured, ideal(p, reference, measured, ahead, integral, slow)
+        error, wanted = reference - measured, ideal(p, reference, measured, ahead, summed, slow)
         command = {"above": p.most, "below": p.least}.get(zone, wanted)
         gathered = p.integral_rate * error + p.tracking_rate * (command - wanted)
-        return Law(integral=gathered, slow=(measured - slow) / p.filtering, command=command, error=error)
+        change = (measured - slow) / p.filtering
+        return Law(summed=gathered, slow=change, command=command, error=error, integral=summed)
 
     @guard("*", to="above", unit="1")
-    def rises_above(p, reference, measured, ahead, integral, slow):
+    def rises_above(p, reference, measured, ahead, summed, slow):
         """More than the largest command is wanted."""
-        return None if p.high is None else ideal(p, reference, measured, ahead, integral, slow) - p.high
+        return None if p.high is None else ideal(p, reference, measured, ahead, summed, slow) - p.high
 
     @guard("*", to="below", unit="1")
-    def falls_below(p, reference, measured, ahead, integral, slow):
+    def falls_below(p, reference, measured, ahead, summed, slow):
         """Less than the smallest is wanted."""
-        return None if p.low is None else p.low - ideal(p, reference, measured, ahead, integral, slow)
+        return None if p.low is None else p.low - ideal(p, reference, measured, ahead, summed, slow)
 
     @guard("above", to="within", unit="1")
-    def comes_down(p, reference, measured, ahead, integral, slow):
+    def comes_down(p, reference, measured, ahead, summed, slow):
         """Within the limits again."""
-        return p.most - ideal(p, reference, measured, ahead, integral, slow)
+        return p.most - ideal(p, reference, measured, ahead, summed, slow)
 
     @guard("below", to="within", unit="1")
-    def comes_up(p, reference, measured, ahead, integral, slow):
+    def comes_up(p, reference, measured, ahead, summed, slow):
         """Within the limits again."""
-        return ideal(p, reference, measured, ahead, integral, slow) - p.least
+        return ideal(p, reference, measured, ahead, summed, slow) - p.least
 
 
-def ideal(p, reference, measured, ahead, integral, slow):
+def ideal(p, reference, measured, ahead, summed, slow):
     """The command before it is limited."""
     rate = (measured - slow) / p.filtering
-    return p.gain * (reference - measured) + integral - p.derivative_gain * rate + p.ahead_gain * ahead
+    return p.gain * (reference - measured) + summed - p.derivative_gain * rate + p.ahead_gain * ahead
 
 
 class Pid(PidLaw):
@@ -139,21 +141,21 @@ class Pid(PidLaw):
 
     sampling = Effect("The controller works in samples; off: continuously and at once.", off=IdealPid)
     period = Parameter("s", "T_s.", default=0.01, above=0)
-    integral = Discrete("1", "I.")
+    summed = Discrete("1", "I.")
     slow = Discrete("1", "Value measured, filtered.", start="initial")
     applied = Discrete("1", "Command.")
     used = Discrete("1", "Error that the command was computed from.")
 
-    def law(p, applied, used):
+    def law(p, applied, used, summed):
         """Held between samples."""
-        return Law(command=applied, error=used)
+        return Law(command=applied, error=used, integral=summed)
 
     @sampled(every="period")
-    def sample(p, reference, measured, ahead, integral, slow):
+    def sample(p, reference, measured, ahead, summed, slow):
         """One sample."""
         error, later = reference - measured, p.filtering + p.period
         change = (measured - slow) / later
-        wanted = p.gain * error + integral - p.derivative_gain * change + p.ahead_gain * ahead
+        wanted = p.gain * error + summed - p.derivative_gain * change + p.ahead_gain * ahead
         command = clip(wanted, p.least, p.most)
         gathered = p.integral_rate * error + p.tracking_rate * (command - wanted)
-        return Law(integral=integral + p.period * gathered, slow=slow + p.period * change, applied=command, used=error)
+        return Law(summed=summed + p.period * gathered, slow=slow + p.period * change, applied=command, used=error)
