@@ -43,6 +43,7 @@ class PidLaw(Component, abstract=True):
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
     integral = Output("1", "I, what the integral has gathered.")
+    filtered = Output("1", "Value measured, filtered; the derivative is taken from what it lacks.")
 
     def check(p):
         """There is something between the limits, and a filter has something to filter."""
@@ -101,7 +102,7 @@ class IdealPid(PidLaw):
         command = {"above": p.most, "below": p.least}.get(zone, wanted)
         gathered = p.integral_rate * error + p.tracking_rate * (command - wanted)
         change = (measured - slow) / p.filtering
-        return Law(summed=gathered, slow=change, command=command, error=error, integral=summed)
+        return Law(summed=gathered, slow=change, command=command, error=error, integral=summed, filtered=slow)
 
     @guard("*", to="above", unit="1")
     def rises_above(p, reference, measured, ahead, summed, slow):
@@ -146,9 +147,9 @@ class Pid(PidLaw):
     applied = Discrete("1", "Command.")
     used = Discrete("1", "Error that the command was computed from.")
 
-    def law(p, applied, used, summed):
+    def law(p, applied, used, summed, slow):
         """Held between samples."""
-        return Law(command=applied, error=used, integral=summed)
+        return Law(command=applied, error=used, integral=summed, filtered=slow)
 
     @sampled(every="period")
     def sample(p, reference, measured, ahead, summed, slow):

@@ -14,6 +14,8 @@ TOLD_BY = {
     "Chamber": {"oil": "level", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},
     "Dahl": {"z": "deflection"}, "DcDrive": {"flowing": "current"}, "DcMotor": {"flowing": "current"},
     "Elastoplastic": {"z": "deflection"}, "FrictionHeat": {"theta": "temperature"}, "FullChamber": {"oil": "level"},
+    "IdealPid": {"summed": "integral", "slow": "filtered"},
+    "Pid": {"summed": "integral", "slow": "filtered", "applied": "command", "used": "error"},
     "LaggingPm": {"flowing": "current"}, "LuGre": {"z": "deflection"},
     "Meter": {"slipped": "scuffed", "worked": "work"}, "OilColumn": {"moving": "flow"},
     "PiController": {"summed": "integral", "applied": "command", "used": "error"},
