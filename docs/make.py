@@ -17,7 +17,7 @@ from typing import Any
 
 import fairlead
 from fairlead.component.registry import known_types
-from fairlead.system.interface import beyond, first_line, parameter_rows, shared
+from fairlead.describe.interface import beyond, first_line, parameter_rows, shared
 
 HERE = pathlib.Path(__file__).parent
 PAGES, FIGURES = HERE / "treatments", HERE / "figures"

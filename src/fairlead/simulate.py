@@ -296,7 +296,7 @@ def _in_order(faults: Iterable[Fault]) -> list[Fault]:
 def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
     """Ports, parameters, zones with their guards, and equations of a component type."""
     from fairlead.component.registry import known_types
-    from fairlead.system.describe import describe
+    from fairlead.describe.page import describe
 
     return describe(name, known_types(libraries))
 

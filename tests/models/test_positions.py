@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from fairlead.component.registry import known_types
+from fairlead.describe.page import describe
 from fairlead.errors import ModelError, UsageError
-from fairlead.system.describe import describe
 from tests.reference.crank import Follower, crank
 
 WEIGHT = 1e-2  # of a position, in accuracies (system/tolerances.py)

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from fairlead.cli import app
 from fairlead.component.registry import bundled
-from fairlead.system.catalogue import INNARDS, catalogue, innards, record, sentence, short
+from fairlead.describe.catalogue import INNARDS, catalogue, innards, record, sentence, short
 
 
 def command(*words):

@@ -15,9 +15,9 @@ from fairlead.components.route.tow import SeaDrag
 
 from fairlead.component import Carries, Component, Law, Parameter, Table, Translational, Zones, zone
 from fairlead.component.trace import TraceError, trace
+from fairlead.describe.specimen import specimen
 from fairlead.system.dependence import sums
 from fairlead.system.kernel_text import KernelText
-from fairlead.system.specimen import specimen
 
 
 @functools.cache

@@ -22,9 +22,9 @@ from fairlead.component import (
 )
 from fairlead.component.registry import known_types
 from fairlead.component.trace import symbol
+from fairlead.describe.formula import formula
+from fairlead.describe.page import describe
 from fairlead.errors import UsageError
-from fairlead.system.describe import describe
-from fairlead.system.formula import formula
 
 TYPES = known_types()
 

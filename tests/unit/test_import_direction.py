@@ -27,6 +27,7 @@ ALLOWED = {
     "components": {"errors", "quantities", "component"},
     "flatten": {"brief", "errors", "quantities", "netlist", "component", "components"},
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native", "patterns"},
+    "describe": {"errors", "quantities", "component", "flatten", "system"},
     "integrate": {"errors", "native", "processor"},
     "results": {"brief", "errors", "quantities", "patterns"},
     "analysis": {"arguments", "brief", "errors", "quantities", "netlist", "component", "flatten", "system", "results",

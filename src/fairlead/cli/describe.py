@@ -53,8 +53,8 @@ def _at_a_glance(subject: str, libraries: list[str], as_json: bool) -> str:
     import json
 
     from fairlead.component.registry import known_types
-    from fairlead.system.catalogue import catalogue, innards, record, sentence, short
-    from fairlead.system.describe import named
+    from fairlead.describe.catalogue import catalogue, innards, record, sentence, short
+    from fairlead.describe.page import named
 
     types = known_types(libraries)
     if subject == "types":

@@ -11,11 +11,11 @@ from fairlead.component.answers import METHODS
 from fairlead.component.base import Declared
 from fairlead.component.given import Choice
 from fairlead.component.trace import Traced, TraceError, inverse_mass, symbol, trace_function
-from fairlead.system.columns import columns, heading, wrapped
-from fairlead.system.equations import NEVER, Writing, condition, equations, tables_as_functions, writing_of
-from fairlead.system.formula import formula
-from fairlead.system.interface import first_line
-from fairlead.system.specimen import specimen, traced_specimen
+from fairlead.describe.columns import columns, heading, wrapped
+from fairlead.describe.equations import NEVER, Writing, condition, equations, tables_as_functions, writing_of
+from fairlead.describe.formula import formula
+from fairlead.describe.interface import first_line
+from fairlead.describe.specimen import specimen, traced_specimen
 
 
 def behaviour(kind: type[Declared]) -> Iterator[str]:

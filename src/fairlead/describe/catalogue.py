@@ -15,9 +15,9 @@ from typing import Any
 from fairlead.component.base import Composite, Declared
 from fairlead.component.given import REQUIRED, Block
 from fairlead.component.scene import is_head
-from fairlead.system.columns import columns, heading, paragraph
-from fairlead.system.interface import connections, first_line, parameter_rows, shared
-from fairlead.system.specimen import families_of
+from fairlead.describe.columns import columns, heading, paragraph
+from fairlead.describe.interface import connections, first_line, parameter_rows, shared
+from fairlead.describe.specimen import families_of
 
 BUNDLED = "fairlead.components."
 INNARDS = frozenset((

@@ -11,8 +11,8 @@ from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Input, Output, State, Unknown
 from fairlead.component.given import REQUIRED, Block, Choice, Count, Name, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.waveforms import TERMS
+from fairlead.describe.columns import columns, heading, wrapped
 from fairlead.errors import listing
-from fairlead.system.columns import columns, heading, wrapped
 
 NAMED = ("ports", "parameters", "inputs", "outputs", "states", "unknowns", "derived")
 

@@ -17,7 +17,7 @@ import sympy
 from fairlead.component.declare import Port
 from fairlead.component.given import Parameter
 from fairlead.component.trace import Traced, TracedGuard, TracedZone, TraceError, symbol, trace_function
-from fairlead.system.formula import Names, formula, is_parameter, names_of, negative
+from fairlead.describe.formula import Names, formula, is_parameter, names_of, negative
 
 LEDGER_WORDS = {"stored": "stored energy", "dissipated": "dissipated power", "supplied": "supplied power"}
 NEVER = "never"

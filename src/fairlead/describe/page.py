@@ -14,12 +14,12 @@ from typing import cast
 
 from fairlead.component.base import Declared, Family
 from fairlead.component.scene import is_head
+from fairlead.describe.behaviour import behaviour, functions
+from fairlead.describe.catalogue import catalogue
+from fairlead.describe.columns import heading, paragraph
+from fairlead.describe.interface import beyond, derived_rows, interface, parameter_rows, shared
+from fairlead.describe.specimen import families_of
 from fairlead.errors import UsageError, did_you_mean
-from fairlead.system.behaviour import behaviour, functions
-from fairlead.system.catalogue import catalogue
-from fairlead.system.columns import heading, paragraph
-from fairlead.system.interface import beyond, derived_rows, interface, parameter_rows, shared
-from fairlead.system.specimen import families_of
 
 ALL_TYPES = "types"
 
