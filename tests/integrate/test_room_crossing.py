@@ -1,0 +1,189 @@
+"""The room `events`: where in a step a guard fires, how long the next step is, and what grows from rest."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+import pytest
+
+from fairlead.integrate.linear import ordering
+from tests.integrate.rooms import entry, fields, memory
+from tests.integrate.test_linear import memory_for
+from tests.integrate.test_room_linear import algebraic
+
+NONE, CROSSING, COMPANION = 0, 1, 2
+NEVER = 1e308
+
+
+@functools.cache
+def crossed():
+    """call(memory, h) -> what `first_crossing` says."""
+    from fairlead.integrate.events.crossing import first_crossing
+
+    return entry(first_crossing, ("",), "d", "i")
+
+
+@functools.cache
+def proposed():
+    from fairlead.integrate.events.pace import propose
+
+    return entry(propose, ("run", "point"), "", "d")
+
+
+@functools.cache
+def short():
+    from fairlead.integrate.events.growth import short_of_growth
+
+    return entry(short_of_growth, ("run", "point"), "d", "d")
+
+
+@functools.cache
+def grown():
+    """call(memory): `watch_growth` with the factors of the consistent point."""
+    from fairlead.integrate.events.growth import watch_growth
+    from fairlead.integrate.linear.systems import assemble_consistent, factorise_dense
+    from fairlead.integrate.memory.foreign import compiled
+
+    @compiled
+    def watch(m):
+        assemble_consistent(m.linear)
+        if factorise_dense(m.linear.factors) == 0:
+            watch_growth(m)
+
+    return entry(watch, ("",))
+
+
+def step_of(*guards, tolerance=1e-9):
+    """A trial step from t = 0 to 1 in which y = theta, with these guards of y; and what must be kept."""
+    count = len(guards)
+    given = {"g_left": [f(0.0) for f in guards], "g_right": [f(1.0) for f in guards], "g": [f(0.0) for f in guards]}
+    others = {name: np.zeros(count) for name in ("g_probe", "g_early", "g_late", "g_end", "g_ahead")}
+    at = memory(
+        {"n": 1, "n_guards": count, "h": 1.0, "t_release": np.inf}, y=[0.0], y_end=[1.0], D=np.zeros(3),
+        y_probe=[0.0], guard_tolerance=[tolerance] * count, guard_machine=[-1] * count, fired=[0] * count,
+        **given, **others,
+    )  # fmt: skip
+
+    def evaluate(_t, y, out):
+        out[:] = [f(y[0]) for f in guards]
+
+    return at, fields(at, 1, guards=(evaluate, count))
+
+
+def cubic(root, rng):
+    """A cubic that rises through this root alone, steep or flat."""
+    a, b, size = rng.uniform(0, 1), 10.0 ** rng.uniform(-3, 1), 10.0 ** rng.uniform(-6, 6)
+    return lambda y: size * (y - root) * ((y - a) ** 2 + b)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_root_of_a_cubic_guard_is_found_to_rounding_in_fewer_evaluations_than_halving_takes(seed):
+    rng = np.random.default_rng(seed)
+    root = rng.uniform(0.01, 0.99)
+    guard = cubic(root, rng)
+    at, kept = step_of(guard)
+    assert crossed()(at, 1.0) == CROSSING
+    theta = float(at.number["theta"])
+    assert theta == pytest.approx(root, abs=1e-15)
+    assert guard(theta) >= 0.0  # the end of the bracket on which it has fired
+    assert at.number["guards"] < -math.log2(4e-16)
+    assert kept
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_of_several_guards_the_first_is_found_and_it_alone_fires(seed):
+    rng = np.random.default_rng(seed)
+    roots = rng.uniform(0.05, 0.95, 4)
+    at, _kept = step_of(*(cubic(root, rng) for root in roots), lambda _y: -1.0)
+    assert crossed()(at, 1.0) == CROSSING
+    assert at.number["theta"] == pytest.approx(roots.min(), abs=1e-15)
+    assert at.array["fired"][: int(at.number["n_fired"])].tolist() == [roots.argmin()]
+
+
+@pytest.mark.parametrize("width", [0.3, 0.03])
+@pytest.mark.parametrize("middle", [0.4, 0.5, 0.7])
+def test_a_guard_that_rises_above_zero_and_falls_again_inside_fires_where_it_rose(width, middle):
+    at, _kept = step_of(lambda y: width**2 - (y - middle) ** 2)
+    assert crossed()(at, 1.0) == CROSSING
+    assert at.number["theta"] == pytest.approx(middle - width, abs=1e-14)
+
+
+@pytest.mark.parametrize("below", [1e-3, 0.1])
+def test_a_guard_that_comes_near_and_turns_does_not_fire(below):
+    at, _kept = step_of(lambda y: -below - (y - 0.5) ** 2)
+    assert crossed()(at, 1.0) == NONE
+
+
+def test_a_guard_that_leaves_zero_downwards_and_comes_back_fires_where_it_comes_back():
+    at, _kept = step_of(lambda y: y * (y - 0.25))
+    assert crossed()(at, 1.0) == CROSSING
+    assert at.number["theta"] == pytest.approx(0.25, abs=1e-15)
+
+
+def test_a_guard_that_leaves_zero_upwards_says_that_the_zones_were_wrong():
+    at, _kept = step_of(lambda y: y, lambda y: y - 0.5)
+    assert crossed()(at, 1.0) == COMPANION
+    assert at.array["fired"][: int(at.number["n_fired"])].tolist() == [0]
+
+
+@pytest.mark.parametrize("adaptive", [0, 1])
+@pytest.mark.parametrize("seed", range(5))
+def test_steps_land_on_every_time_event_and_on_the_stop_and_leave_no_sliver_before_one(seed, adaptive):
+    rng = np.random.default_rng(seed)
+    stop, wanted, longest = 10.0, rng.uniform(0.05, 0.5), 0.3
+    events = [*np.sort(rng.uniform(0, stop, 6)), NEVER]
+    release = rng.uniform(0, stop)
+    at = memory({"stop": stop, "adaptive": adaptive, "h_next": wanted, "max_step": longest, "t_release": release})
+    t, met, usual = 0.0, [], min(wanted, longest)
+    while t < stop:
+        at.number["t"], at.number["t_next"] = t, min(event for event in events if event > t)
+        at.number["t_release"] = release if t < release else NEVER
+        land = min(stop, at.number["t_next"], at.number["t_release"])
+        h = proposed()(at)
+        assert 0.0 < h <= max(usual, 0.0) / 0.98
+        if at.number["landing"]:
+            assert t + h == pytest.approx(land, rel=1e-15)
+            t = land
+            met.append(t)
+        else:
+            t += h
+            assert t < land
+            assert not adaptive or land - t >= 0.5 * h - 1e-12  # what is left is no sliver
+    assert met == sorted({*events[:-1], release, stop})
+
+
+def test_what_grows_from_rest_shortens_steps_for_its_time_and_until_the_error_sees_it():
+    given = {"growth": 50.0, "t_growth": 1.0, "last_error": 1e-4}
+    assert short()(memory({**given, "t": 0.5}), 1.0) == pytest.approx(1.0 / 50.0, rel=1e-3)
+    assert short()(memory({**given, "t": 0.5}), 1e-3) == 1e-3
+    assert short()(memory({**given, "t": 1.5}), 1.0) == 1.0
+    assert short()(memory({**given, "t": 0.5, "last_error": 0.5}), 1.0) == 1.0
+    assert short()(memory({"t": 0.5}), 1.0) == 1.0
+
+
+@pytest.mark.parametrize("falls", [True, False])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_slip_grows_from_rest_by_the_slope_of_its_friction_over_its_inertia(seed, falls):
+    """m v' = s v + r t: from rest v'' = r/m and v''' = (s/m) r/m. With a slope that brakes nothing grows."""
+    rng = np.random.default_rng(seed)
+    mass, rate = 10.0 ** rng.uniform(-2, 2), 10.0 ** rng.uniform(-1, 1)
+    slope = (1.0 if falls else -1.0) * 10.0 ** rng.uniform(0, 3)
+    problem, _ = algebraic(1, np.ones((1, 1), bool), True)
+    problem.mass_pattern, problem.differential = problem.pattern, np.ones(1, bool)
+    at = memory_for(problem, ordering.dense_plan(problem))
+    at.array["jacobian"][:], at.array["mass"][:] = slope, mass
+    at.array["curvature"][:], at.array["weight"][:] = rate / mass, 1e-6
+    at.number["n_guards"], at.number["t_release"], at.number["t"] = 1, np.inf, 2.0
+    for name, value in (("guard_tolerance", 1e-6), ("guard_inertia", mass)):
+        at.point(name, np.array([value]), np.float64)
+    at.spread()
+    kept = fields(at, 1, guards=(lambda _t, y, out: np.negative(y, out=out), 1))
+    grown()(at)
+    if falls:
+        assert at.number["growth"] == pytest.approx(slope / mass, rel=1e-9)
+        assert at.number["t_growth"] > 2.0 + 10.0 * mass / slope
+    else:
+        assert at.number["growth"] == 0.0
+    assert kept
