@@ -1,0 +1,117 @@
+"""What the rules of the rooms `stepping` and `point` get exactly: by the function they say they multiply a step with,
+and by the polynomials they are exact for."""
+
+from __future__ import annotations
+
+import functools
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fairlead.integrate.linear import ordering
+from tests.integrate.rooms import entry, fields
+from tests.integrate.test_linear import NOTHING_KEPT, memory_for, pattern_of
+
+H = 0.25
+
+
+@functools.cache
+def refined():
+    """call(memory, h): `refine_end` with the factors of 2M/h - J."""
+    from fairlead.integrate.linear.systems import assemble_step, factorise_dense
+    from fairlead.integrate.memory.foreign import compiled
+    from fairlead.integrate.stepping.third_order import refine_end
+
+    @compiled
+    def refine(m, h):
+        assemble_step(m.linear, 2.0 / h)
+        if factorise_dense(m.linear.factors) == 0:
+            refine_end(m.problem, m.point, m.linear, m.stepping.exchange, h)
+
+    return entry(refine, ("",), "d")
+
+
+@functools.cache
+def metered():
+    """call(memory, h): `meter_piece` with the factors of 2M/h - J."""
+    from fairlead.integrate.linear.systems import assemble_step, factorise_dense
+    from fairlead.integrate.memory.foreign import compiled
+    from fairlead.integrate.point.meters import meter_piece
+
+    @compiled
+    def meter(m, h):
+        assemble_step(m.linear, 2.0 / h)
+        if factorise_dense(m.linear.factors) == 0:
+            meter_piece(m, h)
+
+    return entry(meter, ("",), "d")
+
+
+def equations(J, field, meters=()):
+    """A memory with y' = f(t, y), J, and which unknowns are quadratures; and what must be kept."""
+    n = len(J)
+    every = pattern_of(np.ones((n, n), bool))
+    problem = SimpleNamespace(
+        initial=np.zeros(n), pattern=every, mass_pattern=pattern_of(np.eye(n, dtype=bool)),
+        differential=np.ones(n, bool), quadrature=np.isin(np.arange(n), meters), moves=NOTHING_KEPT,
+    )  # fmt: skip
+    at = memory_for(problem, ordering.dense_plan(problem))
+    at.array["jacobian"][:], at.array["mass"][:] = J.T.ravel(), 1.0
+    at.array["mass_columns"][:] = np.arange(n)
+
+    def called(t, y, out):
+        out[:] = field(t, y)
+
+    return at, fields(at, n, rhs=(called, n), forces=(called, n))
+
+
+@pytest.mark.parametrize("z", [-1e6, -10.0, -2.0, -0.3, 0.3, 0.9])
+def test_a_step_multiplies_by_what_the_page_says_and_what_is_stiff_by_minus_a_third(z):
+    """(1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12."""
+    rate = z / H
+    at, _kept = equations(np.array([[rate]]), lambda _t, y: rate * y)
+    at.array["y"][:] = 3.0
+    at.array["y_end"][:] = 3.0 * (1 + z / 2) / (1 - z / 2)  # the midpoint rule
+    refined()(at, H)
+    found = at.array["y_end"][0] / 3.0
+    assert found == pytest.approx((1 + z / 2) / (1 - z / 2) - (z / (1 - z / 2)) ** 3 / 12, rel=1e-9)
+    if z < -1e5:
+        assert found == pytest.approx(-1 / 3, abs=1e-4)
+
+
+def test_a_wave_is_multiplied_by_the_same_function_of_its_frequency():
+    z = 0.3j
+    omega = 0.3 / H
+    J = np.array([[0.0, 1.0], [-(omega**2), 0.0]])
+    at, _kept = equations(J, lambda _t, y: J @ y)
+    start = np.array([1.0, 0.4])
+    middle = np.linalg.solve(np.eye(2) - H / 2 * J, np.eye(2))
+    at.array["y"][:], at.array["y_end"][:] = start, middle @ (np.eye(2) + H / 2 * J) @ start
+    refined()(at, H)
+    by = (1 + z / 2) / (1 - z / 2) - (z / (1 - z / 2)) ** 3 / 12
+    amplitude = (start[0] - 1j * start[1] / omega) * by  # of x = Re(amplitude e^(i omega t))
+    np.testing.assert_allclose(at.array["y_end"], [amplitude.real, -omega * amplitude.imag], rtol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_force_given_as_a_cubic_of_time_is_integrated_exactly(seed):
+    """The midpoint rule is of order two, the formula of Lobatto of order four."""
+    force = np.polynomial.Polynomial(np.random.default_rng(seed).normal(size=4))
+    at, _kept = equations(np.zeros((1, 1)), lambda t, _y: force(t))
+    at.number["t"] = 0.7
+    at.array["y_end"][:] = H * force(0.7 + H / 2)
+    refined()(at, H)
+    assert at.array["y_end"][0] == pytest.approx(force.integ()(0.7 + H) - force.integ()(0.7), rel=1e-12)
+
+
+@pytest.mark.parametrize("theta", [0.4, 1.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rate_of_degree_five_is_metered_exactly_to_the_end_of_the_piece(seed, theta):
+    """Three nodes of Gauss. The rate follows a place that moves steadily."""
+    rate = np.polynomial.Polynomial(np.random.default_rng(seed).normal(size=6))
+    at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [1.0, rate(y[0])], meters=[1])
+    at.array["y"][:], at.array["y_end"][:] = [0.0, 5.0], [H, 77.0]
+    at.number["theta"] = theta
+    metered()(at, H)
+    assert at.array["y_piece"][1] == pytest.approx(5.0 + rate.integ()(theta * H), rel=1e-12)
