@@ -85,7 +85,7 @@ def test_the_root_of_a_cubic_guard_is_found_to_rounding_in_fewer_evaluations_tha
     guard = cubic(root, rng)
     at, kept = step_of(guard)
     assert crossed()(at, 1.0) == CROSSING
-    theta = float(at.number["theta"])
+    theta = float(at.number["cut_at"])
     assert theta == pytest.approx(root, abs=1e-15)
     assert guard(theta) >= 0.0  # the end of the bracket on which it has fired
     assert at.number["guards"] < -math.log2(4e-16)
@@ -98,7 +98,7 @@ def test_of_several_guards_the_first_is_found_and_it_alone_fires(seed):
     roots = rng.uniform(0.05, 0.95, 4)
     at, _kept = step_of(*(cubic(root, rng) for root in roots), lambda _y: -1.0)
     assert crossed()(at, 1.0) == CROSSING
-    assert at.number["theta"] == pytest.approx(roots.min(), abs=1e-15)
+    assert at.number["cut_at"] == pytest.approx(roots.min(), abs=1e-15)
     assert at.array["fired"][: int(at.number["n_fired"])].tolist() == [roots.argmin()]
 
 
@@ -107,7 +107,7 @@ def test_of_several_guards_the_first_is_found_and_it_alone_fires(seed):
 def test_a_guard_that_rises_above_zero_and_falls_again_inside_fires_where_it_rose(width, middle):
     at, _kept = step_of(lambda y: width**2 - (y - middle) ** 2)
     assert crossed()(at, 1.0) == CROSSING
-    assert at.number["theta"] == pytest.approx(middle - width, abs=1e-14)
+    assert at.number["cut_at"] == pytest.approx(middle - width, abs=1e-14)
 
 
 @pytest.mark.parametrize("below", [1e-3, 0.1])
@@ -119,7 +119,7 @@ def test_a_guard_that_comes_near_and_turns_does_not_fire(below):
 def test_a_guard_that_leaves_zero_downwards_and_comes_back_fires_where_it_comes_back():
     at, _kept = step_of(lambda y: y * (y - 0.25))
     assert crossed()(at, 1.0) == CROSSING
-    assert at.number["theta"] == pytest.approx(0.25, abs=1e-15)
+    assert at.number["cut_at"] == pytest.approx(0.25, abs=1e-15)
 
 
 def test_a_guard_that_leaves_zero_upwards_says_that_the_zones_were_wrong():

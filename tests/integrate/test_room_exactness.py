@@ -112,6 +112,6 @@ def test_a_rate_of_degree_five_is_metered_exactly_to_the_end_of_the_piece(seed, 
     rate = np.polynomial.Polynomial(np.random.default_rng(seed).normal(size=6))
     at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [1.0, rate(y[0])], meters=[1])
     at.array["y"][:], at.array["y_end"][:] = [0.0, 5.0], [H, 77.0]
-    at.number["theta"] = theta
+    at.number["cut_at"] = theta
     metered()(at, H)
     assert at.array["y_piece"][1] == pytest.approx(5.0 + rate.integ()(theta * H), rel=1e-12)
