@@ -8,8 +8,6 @@ _COMPONENT: dict[str, str] = {}
 
 _PYTHON = {
     "a new value with a decimal comma": "the line of the netlist that uses mu is blamed, not mu",
-    "new values in a dict": "taken: it is no mistake any more",
-    "a table of one name, not of a list": "taken: it is no mistake any more",
 }
 
 KNOWN = {

@@ -136,8 +136,8 @@ NEW_VALUES = (
     call("a new value with a decimal comma", values(mu="0,4"), "mu", "0,4", ("0.4", "decimal point", "decimal comma")),
     call("a list of new values, to sweep them", values(mu=[0.3, 0.4]), "mu", "[0.3, 0.4]", ("one", "each", "loop",
          "a number")),
-    call("new values in a dict", lambda desk: desk.puller.with_values({"mu": 0.4}), "with_values", "with_values",
-         ("**", "mu=", "keyword", "keywords")),
+    call("a new value by a name that there is not, in a dict", lambda desk: desk.puller.with_values({"mue": 0.4}),
+         "mue", "mue", "mu"),
     call("a new value of nothing", values(mu=None), "mu", "None", ("number", "a number", "text")),
 )  # fmt: skip
 
@@ -152,8 +152,8 @@ READING = (
          "middle", ("left", "right", "both")),
     call("name and time in the wrong order", lambda desk: desk.result.at(0.1, "block.x"), ("name", "at"), "0.1",
          ("name", "signal", "block.x")),
-    call("a table of one name, not of a list", lambda desk: desk.result.to_pandas("block.x"), ("names", "block.x"),
-         "block.x", ("list", '["block.x"]', "['block.x']")),
+    call("a table of a name that is misspelt", lambda desk: desk.result.to_pandas("blok.x"), ("names", "blok.x"),
+         "blok.x", "block.x"),
     call("a folder without results", lambda desk: fairlead.Result.open("nothing"), "nothing", "nothing",
          ("run", "folder", "directory", "no such")),
 )  # fmt: skip
