@@ -16,7 +16,8 @@ import os
 import pathlib
 import time
 import warnings
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
 from fairlead.arguments import Arguments
@@ -160,7 +161,7 @@ class Model:
             except ModelError as error:
                 faults += error.faults
         if faults:
-            raise ModelError(_in_order(faults))
+            raise ModelError(_with_origin(_in_order(faults), self._overrides))
         return [*remarks(self.flat), *engine_remarks(self.netlist.run, self.system)]
 
     def describe(self, stage: str = "flatten") -> str:
@@ -273,6 +274,14 @@ def _shown_in_a_line(stage: S) -> S:
     """The same stage; its class shows itself in a line from now on, since its fields fill many screens."""
     type(stage).__repr__ = in_a_line  # type: ignore[method-assign]
     return stage
+
+
+def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Iterator[Fault]:
+    """Mistakes; those in a value that was given from outside say which, for they stand where the netlist uses it."""
+    for fault in faults:
+        given = [f"It was given as {name} = {text}." for name, text in overrides.items()
+                 if f"= {text} " in f"{fault.what} " and name not in f"{fault.where} {fault.what}"]  # fmt: skip
+        yield replace(fault, way_out="\n".join([fault.way_out, *given])) if given else fault
 
 
 def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:

@@ -6,9 +6,7 @@ _COMMAND: dict[str, str] = {}
 
 _COMPONENT: dict[str, str] = {}
 
-_PYTHON = {
-    "a new value with a decimal comma": "the line of the netlist that uses mu is blamed, not mu",
-}
+_PYTHON: dict[str, str] = {}
 
 KNOWN = {
     f"{kind}: {name}": reason
