@@ -20,7 +20,7 @@ help:  ## list these commands
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
 demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
-	@echo "The first run on a machine compiles the engine once, which takes about half a minute."
+	@echo "The first run on a machine compiles the engine once, which takes up to a minute."
 	$(RUN) -m fairlead run $(MODEL) --report --force --out results/$(MODEL)
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
