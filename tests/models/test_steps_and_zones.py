@@ -26,7 +26,7 @@ KINDS = {
     "at_time": ctypes.CFUNCTYPE(WHOLE, POINTER, NUMBER, POINTER),
 }
 MAY_SWITCH = ("switch", "at_time")
-BEFORE = 1  # side of a recorded row, see integrate.protocol.Block
+BEFORE = 1  # side of a recorded row, see integrate.problem.Block
 
 
 @dataclass

@@ -85,12 +85,12 @@ def _build_sundials() -> native.Build:
     import numba
 
     tell_numba()
-    sundials_kernels = importlib.import_module("fairlead.integrate.ida.kernels")
+    kernels = importlib.import_module("fairlead.integrate.ida.kernels")
 
     kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
     functions = {}
     for name, types in SUNDIALS_KERNELS.items():
         signature = kinds[types[0]](*(kinds[letter] for letter in types[1:]))
         make = numba.cfunc(signature, error_model="numpy", _nrt=False)
-        functions[name] = make(getattr(sundials_kernels, name))
+        functions[name] = make(getattr(kernels, name))
     return native.Build(meta={}, functions=functions)

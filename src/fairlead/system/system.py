@@ -1,4 +1,4 @@
-"""The compiled model: everything an engine asks for, by the shape of `integrate.protocol.Problem`.
+"""The compiled model: everything an engine asks for, by the shape of `integrate.problem.Problem`.
 
     System      compiled once: structure, plans, code; frozen, and shared by all runs and threads
     Instance    a System in one run: working memory of its own, weights, what is recorded
@@ -41,7 +41,7 @@ class Pattern(NamedTuple):
 
 
 class Asked(Protocol):
-    """What a run says of itself, see `integrate.protocol.Run`; None: as the netlist says."""
+    """What a run says of itself, see `integrate.problem.Run`; None: as the netlist says."""
 
     @property
     def accuracy(self) -> float | None:
