@@ -68,6 +68,8 @@ class Watch:
     interruption: Interruption
     event_rows: EventRows | None  # what of events is kept; None: everything
     accuracy: float
+    peaks: bool = True
+    """Whether extremes are looked for."""
     steps: WholeSteps = field(init=False)
     batches: Batches = field(init=False)
     begun: bool = field(init=False)
@@ -104,8 +106,9 @@ class Watch:
 
     def _take(self, block: Block) -> None:
         rows = Rows(block.t, block.values, block.side)
-        for batch in self.batches.take(rows):
-            self.extremes.watch(batch)
+        if self.peaks:
+            for batch in self.batches.take(rows):
+                self.extremes.watch(batch)
         whole = self.steps.take(rows._replace(values=rows.values[:, : self.chosen]))
         if whole is not None:
             self._take_steps(whole)
@@ -170,10 +173,12 @@ def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float)
 
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path | None, *, force: bool,
-        progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float) -> Result:  # fmt: skip
+        progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float,
+        peaks: bool = True, told: bool = True) -> Result:  # fmt: skip
     """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError.
 
-    They go to the directory `path`, or stay in memory when that is None.
+    They go to the directory `path`, or stay in memory when that is None. Without `peaks` extremes and limits are not
+    looked for between rows, without `told` there are no remarks: both cost as much as the loop of a small model.
     """
     if faults := unreasonable(netlist, settings, system.flat):
         raise ModelError(faults)
@@ -186,7 +191,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     limits = read_limits(netlist.limits, recording.recorded)
     creeping = [signal.name for signal in recording.recorded if signal.role == CREEP]
     compiled = time.perf_counter() - begun
-    header = {**_header(netlist, settings, system), "limits": limits.plain()}
+    header = {**_header(netlist, settings, system, told=told), "limits": limits.plain()}
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
         least = least_jumps(system, recording.chosen, settings.accuracy)
         event_rows = EventRows(least) if netlist.record.every is not None else None
@@ -194,8 +199,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       Strains.of(system, recording.recorded),
-                      BelowWeight.of(system, recording.chosen, settings.accuracy), together, progress,
-                      interruption, event_rows, settings.accuracy)  # fmt: skip
+                      BelowWeight.of(system, recording.chosen if told else [], settings.accuracy), together, progress,
+                      interruption, event_rows, settings.accuracy, peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
         watch.finish()
         interruption.between_blocks = False
@@ -205,7 +210,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.dwell
-        summary["remarks"] = [*header["remarks"], *watch.below.remarks()]
+        summary["remarks"] = [*header["remarks"], *watch.below.remarks()] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         sink.finish(_status(outcome), summary)
@@ -286,7 +291,7 @@ def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, pa
     )  # fmt: skip
 
 
-def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str, Any]:
+def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bool) -> dict[str, Any]:
     engine, reason = engine_of(settings, system)
     return {
         "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
@@ -297,7 +302,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System) -> dict[str
         "build": str(processor()),
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every, "friction": friction_record(system.flat),
-        "remarks": [str(remark) for remark in (*remarks(system.flat), *engine_remarks(settings, system))],
+        "remarks": [str(one) for one in (*remarks(system.flat), *engine_remarks(settings, system))] if told else [],
         "routes": route_records(system.flat),
     }  # fmt: skip
 

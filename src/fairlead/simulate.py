@@ -243,17 +243,35 @@ class Model:
         values, all is made anew, and `rebuilt` says why. This model is compiled if it is not yet. Raises ModelError
         for names and values as `load` and `check` do.
         """
-        from fairlead.renewal import renew
-
         asked = Arguments("Model.with_values")
         asked.values_by_name("values", values)
         asked.values_by_name("values", more)
         asked.refuse()
-        new = Model(self._sources, {**self._overrides, **_as_text(values or {}), **_as_text(more)}, self.libraries)
+        return self.beside({**(values or {}), **more}, self)
+
+    def beside(self, values: Mapping[str, float | str], near: Model | None = None) -> Model:
+        """This model with other values, on what `near` has compiled; with None nothing is compiled.
+
+        `near` is this model, or one made from it, whatever its values are. Raises ModelError as `with_values` does.
+        """
+        from fairlead.renewal import renew
+
+        new = Model(self._sources, {**self._overrides, **_as_text(values)}, self.libraries)
         if new._faults:
             new.check()
-        renew(self, new)  # type: ignore[arg-type]  # mypy takes cached properties for read-only
+        if near is not None:
+            renew(near, new)  # type: ignore[arg-type]  # mypy takes cached properties for read-only
         return new
+
+    @property
+    def sources(self) -> Sources:
+        """The files that the netlist was read from, as they were."""
+        return self._sources
+
+    @property
+    def overrides(self) -> Mapping[str, str]:
+        """Values that were given from outside, by name, as texts."""
+        return self._overrides
 
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle holds: no stage, and of the libraries where they lie."""

@@ -39,7 +39,8 @@ ALLOWED = {
     "report": {"arguments", "errors", "quantities", "results", "analysis"},
 }
 # May import all that lies before:
-LAST = {"", "model_page", "result", "run", "renewal", "simulate", "statics", "testing", "cli", "__main__", "models"}
+LAST = {"", "model_page", "result", "run", "renewal", "simulate", "statics", "studies", "cases", "testing", "cli",
+        "__main__", "models"}  # fmt: skip
 
 
 def source_files() -> dict[str, pathlib.Path]:
@@ -120,6 +121,32 @@ def test_rooms_of_the_integrator_import_only_those_before_them() -> None:
             allowed = one not in ROOMS or other in SHAPES or (one in OF_METHODS and other in LOOP | {"machine_code"})
         if not allowed:
             wrong.append(f"{where}: {one} imports {other}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_no_stage_of_the_pipeline_knows_a_study() -> None:
+    """Models and runs are there without studies; those who call studies are the command line and the public name."""
+    wrong = [
+        where
+        for importer, imported, where in import_edges()
+        if stage(imported) == "studies" and stage(importer) not in {"studies", "cases", "cli"}
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+ROOMS_OF_STUDIES = ("cases", "sweeps")
+"""Each imports only those before it."""
+
+
+def test_rooms_of_studies_import_only_those_before_them() -> None:
+    wrong = [
+        where
+        for importer, imported, where in import_edges()
+        if stage(importer) == stage(imported) == "studies"
+        and room(importer) in ROOMS_OF_STUDIES
+        and room(imported) in ROOMS_OF_STUDIES
+        and ROOMS_OF_STUDIES.index(room(imported)) > ROOMS_OF_STUDIES.index(room(importer))
+    ]
     assert not wrong, "\n".join(wrong)
 
 

@@ -52,7 +52,7 @@ class BelowWeight:
     @classmethod
     def of(cls, system: System, chosen: Sequence[OutputSignal], accuracy: float) -> BelowWeight:
         """Those among the signals asked for, which are the first columns."""
-        found = dict(_weights(system, accuracy))
+        found = dict(_weights(system, accuracy)) if chosen else {}
         mine = [(k, one, *found[one.at]) for k, one in enumerate(chosen) if one.at in found and not one.role]
         return cls(
             [one.name for _, one, *_ in mine], [one.unit for _, one, *_ in mine],

@@ -47,8 +47,13 @@ class Extremes:
             return
         values = rows.values[:, : self.signals]
         steps = [which for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
-        top, t_top = _highest(rows, values, steps, self.highest, self.lowest)
-        bottom, t_bottom = _highest(rows, -values, steps, -self.lowest, -self.highest)
+        # the lowest of a signal is the highest of its negative: both in one go, since a call costs more than a column
+        both = np.concatenate([values, -values], axis=1)
+        before = np.concatenate([self.highest, -self.lowest])
+        least = np.concatenate([self.lowest, -self.highest])
+        best, when = _highest(rows, both, steps, before, least)
+        top, bottom = best[: self.signals], best[self.signals :]
+        t_top, t_bottom = when[: self.signals], when[self.signals :]
         higher, lower = top > self.highest, -bottom < self.lowest
         self.highest[higher], self.t_highest[higher] = top[higher], t_top[higher]
         self.lowest[lower], self.t_lowest[lower] = -bottom[lower], t_bottom[lower]
@@ -100,13 +105,17 @@ def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, near: Integers
     """
     inner = near[(row[near] >= 2) & (row[near] + 2 < len(rows.t))]
     at = row[inner][:, None] + np.arange(-2, 3)
-    t, v = rows.t[at], values[at, inner[:, None]]
-    gaps = np.diff(t, axis=1)
-    plain = (gaps > 0.0).all(axis=1) & ~np.isin(rows.side[at], (BEFORE, AFTER)).any(axis=1)
-    inner, t, v, gaps = inner[plain], t[plain], v[plain], gaps[plain]
-    slopes = np.diff(v, axis=1) / gaps
-    bends = np.diff(slopes, axis=1) / (gaps[:, :-1] + gaps[:, 1:])
-    agree = (np.ptp(bends, axis=1) <= AGREE * np.abs(bends).max(axis=1)) & (bends[:, 1] < 0.0)
+    t, sides = rows.t[at], rows.side[at]
+    gaps = t[:, 1:] - t[:, :-1]
+    plain = (gaps > 0.0).all(axis=1) & ~((sides == BEFORE) | (sides == AFTER)).any(axis=1)
+    inner, at, t, gaps = inner[plain], at[plain], t[plain], gaps[plain]
+    if not len(inner):
+        return inner, np.empty(0), np.empty(0)
+    v = values[at, inner[:, None]]
+    slopes = (v[:, 1:] - v[:, :-1]) / gaps
+    bends = (slopes[:, 1:] - slopes[:, :-1]) / (gaps[:, :-1] + gaps[:, 1:])
+    spread = bends.max(axis=1) - bends.min(axis=1)
+    agree = (spread <= AGREE * np.abs(bends).max(axis=1)) & (bends[:, 1] < 0.0)
     inner, t, v, gaps, slopes, bend = (x[agree] for x in (inner, t, v, gaps, slopes, bends[:, 1]))
     slope = (slopes[:, 1] * gaps[:, 2] + slopes[:, 2] * gaps[:, 1]) / (gaps[:, 1] + gaps[:, 2])
     shift = np.clip(-slope / (2.0 * bend), -gaps[:, 1], gaps[:, 2])

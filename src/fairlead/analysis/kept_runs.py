@@ -83,25 +83,26 @@ def default_folder() -> pathlib.Path:
 
 def key_of(digest: str, parts: Iterable[object], libraries: Iterable[str] = ()) -> str:
     """The name of a run: `digest` is that of its netlist, `parts` whatever else decides its result."""
-    hash = hashlib.sha256(f"{FORMAT}\0{digest}\0{_code()}\0{platform.node()}\0".encode())
+    hash = hashlib.sha256(f"{FORMAT}\0{digest}\0{code_digest()}\0{platform.node()}\0".encode())
     for part in parts:
         hash.update(f"{part!r}\0".encode())
     for library in libraries:
-        hash.update(_bytes_of(pathlib.Path(library)))
+        hash.update(bytes_of(pathlib.Path(library)))
     return hash.hexdigest()
 
 
-def _bytes_of(path: pathlib.Path) -> bytes:
+def bytes_of(path: pathlib.Path) -> bytes:
+    """The bytes of a Python file, or of all of a folder in the order of their paths."""
     files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
     return b"\0".join(file.read_bytes() for file in files if file.is_file())
 
 
 @functools.cache
-def _code() -> str:
+def code_digest() -> str:
     """A digest of fairlead and its bundled components."""
     hash = hashlib.sha256()
     for package in ("fairlead", "fairlead.components"):
         found = importlib.util.find_spec(package)
         for folder in (found and found.submodule_search_locations) or ():
-            hash.update(_bytes_of(pathlib.Path(folder)))
+            hash.update(bytes_of(pathlib.Path(folder)))
     return hash.hexdigest()

@@ -1,0 +1,12 @@
+"""Cases in memory: (model, values, wanted figures) -> a row. See docs/studies.md.
+
+from fairlead.cases import Cases
+
+cases = Cases(fairlead.load("belt"), {"peak": "peak(block.x)"})
+for force in ("8 N", "10 N", "12 N"):
+    print(cases.row({"pad.normal_force": force}).figures["peak"])
+"""
+
+from fairlead.studies.cases import Cases, Row
+
+__all__ = ["Cases", "Row"]

@@ -1,0 +1,7 @@
+"""Studies: many runs of one model, and what they say together.
+
+    cases      one run in memory: values in, a row of figures out
+    sweeps     many cases: designs, processes, clusters, the table
+
+Contract: a study knows models only through `simulate.Model` and `run.run`; no stage of the pipeline knows a study.
+"""

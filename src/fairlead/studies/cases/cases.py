@@ -1,0 +1,146 @@
+"""Cases of one model in memory: compiled once, run many times, and only what is wanted is recorded.
+
+cases = Cases(fairlead.load("belt"), {"peak": "peak(block.x)", "slips": "switches(pad)"}, max_steps=10_000)
+cases.row({"pad.normal_force": "12 N"}).figures["peak"]
+"""
+
+from __future__ import annotations
+
+import math
+import platform
+import time
+import traceback
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from fairlead.errors import FairleadError, ModelError
+from fairlead.netlist.settings import RecordSettings
+from fairlead.run import run
+from fairlead.studies.cases.figures import Figure, Function, default_figures, read_figures
+from fairlead.studies.cases.identity import key_of, scene_digest
+from fairlead.studies.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
+from fairlead.studies.cases.values_of import value_of
+
+if TYPE_CHECKING:
+    from fairlead.result import Result
+    from fairlead.simulate import Model
+
+MOST_STRUCTURES = 4
+"""Compiled structures that are kept; a sweep over words has a few, and one over sizes comes back to none."""
+
+
+class Cases:
+    """Cases of a model: figures asked of it, and the structures compiled so far. It pickles as its model does."""
+
+    def __init__(self, model: Model, figures: Mapping[str, str | Function] | None = None, *,
+                 max_steps: int | None = None) -> None:  # fmt: skip
+        """`figures` by name (see `figures.py`), None for those of the netlist; `max_steps` ends a case that takes more.
+
+        Raises ModelError for a model or figures that are wrong.
+        """
+        self.model, self.max_steps = model, max_steps
+        self.wanted = dict(default_figures(model) if figures is None else figures)
+        self.figures: tuple[Figure, ...] = read_figures(self.wanted, model)
+        self.scene = scene_digest(model, (sorted((f.name, f.text) for f in self.figures), max_steps))
+        self._structures: dict[tuple[str, ...], Model] = {}
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each figure by its name."""
+        return {figure.name: figure.unit for figure in self.figures}
+
+    def key(self, values: Mapping[str, Value]) -> str:
+        """What the case of these values is known by."""
+        return key_of(self.scene, values)
+
+    def check(self, values: Mapping[str, Value]) -> None:
+        """Raise ModelError if the model has no such values; nothing is run or compiled."""
+        assert self.model.beside(values).assembly is not None
+
+    def row(self, values: Mapping[str, Value]) -> Row:
+        """Run the case of these values. What goes wrong in it is told by its status and sentence."""
+        begun = time.perf_counter()
+        start = Row(self.key(values), dict(values), ERROR, host=platform.node())
+        try:
+            made = self._run(start, values)
+        except ModelError as error:
+            made = replace(start, status=REFUSED, sentence=_in_a_line(error))
+        except FairleadError as error:
+            made = replace(start, sentence=_in_a_line(error))
+        except Exception as error:  # noqa: BLE001 - a function of the user, or fairlead itself: it costs one row
+            made = replace(start, sentence=_told(error))
+        return replace(made, seconds=time.perf_counter() - begun)
+
+    def result(self, values: Mapping[str, Value], out: object = None) -> Result:
+        """The case with everything that the netlist records, in memory or in the folder `out`. Raises ModelError."""
+        return self.model.with_values(values).run(out=out, force=True, check=False)  # type: ignore[arg-type]
+
+    def _run(self, start: Row, values: Mapping[str, Value]) -> Row:
+        model = self._model(values)
+        result = self._result(model)
+        run = result.run
+        counters = {name: int(run[name]) for name in COUNTED}
+        status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
+        if result.status == "interrupted":
+            raise KeyboardInterrupt
+        row = replace(start, status=status, sentence=str(run["sentence"]), counters=counters,
+                      broken=tuple(run["limits_broken"]), loop=float(run["solve_time"]))  # fmt: skip
+        if not result.ok:
+            return row
+        return replace(row, figures={one.name: value_of(one, result) for one in self.figures})
+
+    def _model(self, values: Mapping[str, Value]) -> Model:
+        """The model of these values, on a structure that is compiled already where there is one that fits."""
+        words = tuple(f"{name}={values[name]}" for name in sorted(values) if not _is_number(values[name]))
+        near = self._structures.pop(words, self.model)
+        model = self.model.beside(values, near)
+        near = model if model.rebuilt or near is self.model else near
+        self._structures[words] = near
+        if len(self._structures) > MOST_STRUCTURES:
+            del self._structures[next(iter(self._structures))]
+        return model
+
+    def _result(self, model: Model) -> Result:
+        netlist = replace(model.netlist, record=self._record(model))
+        settings = netlist.run
+        if self.max_steps is not None:
+            settings = settings.model_copy(update={"max_steps": self.max_steps})
+        peaks = bool(netlist.limits) or any(one.wants_extremes for one in self.figures)
+        return run(netlist, settings, model.system, None, force=False, progress=None, profile=False,
+                   begun=time.perf_counter(), peaks=peaks, told=False)  # fmt: skip
+
+    def _record(self, model: Model) -> RecordSettings:
+        """What the figures need, as often as they need it."""
+        own, settings = model.netlist.record, model.netlist.run
+        signals = dict.fromkeys(pattern for figure in self.figures for pattern in figure.signals)
+        if any(figure.kind == "function" for figure in self.figures):
+            signals |= dict.fromkeys(own.signals)
+        if any(figure.wants_record for figure in self.figures):
+            every = own.every
+        elif any(figure.wants_steps for figure in self.figures) or model.netlist.limits:
+            every = None  # an extreme between two rows is known where the step has rows of its own
+        else:
+            every = settings.stop - settings.start
+        return RecordSettings.model_construct(signals=list(signals), every=every, plots=[])
+
+
+def _is_number(value: Value) -> bool:
+    from fairlead.quantities import QuantityError, quantity
+
+    if not isinstance(value, str):
+        return not isinstance(value, bool) and math.isfinite(value)
+    try:
+        quantity(value)
+    except QuantityError:
+        return False
+    return True
+
+
+def _in_a_line(error: FairleadError) -> str:
+    return " ".join(str(error).split())
+
+
+def _told(error: Exception) -> str:
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {error} ({last.filename.rpartition('/')[2]}:{last.lineno})"

@@ -1,0 +1,133 @@
+"""Cases in memory: figures against closed forms of the block on the belt, and what goes wrong in one case."""
+
+import math
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.cases import Cases
+from fairlead.errors import ModelError
+
+# Block on a belt (tests/reference): stiffness 100 N/m, mass 1 kg, belt 0.2 m/s, stiction 10 N, sliding 6 N.
+# It sticks until the spring pulls with 10 N, slips about x = 0.06 m, and comes to the speed of the belt again.
+MODEL, OMEGA, SPEED = fairlead.load("belt", set={"run.accuracy": "1e-8"}), 10.0, 0.2
+LET_GO, CENTRE = 0.1, 0.06
+
+
+def slip_time(let_go: float = LET_GO, centre: float = CENTRE) -> float:
+    """Time from letting go to being captured: x - centre = a cos(w t) + (v / w) sin(w t), until x' = v again."""
+    return 2 * (math.pi - math.atan((let_go - centre) * OMEGA / SPEED)) / OMEGA
+
+
+def test_extremes_of_the_block_are_those_of_the_circle_in_the_phase_plane() -> None:
+    row = Cases(MODEL, {"peak": "peak(block.x)", "tension": "peak(spring.tension)"}).row({})
+    radius = math.hypot(LET_GO - CENTRE, SPEED / OMEGA)
+    assert row.figures["peak"] == pytest.approx(CENTRE + radius, abs=1e-7)
+    assert row.figures["tension"] == pytest.approx(100.0 * (CENTRE + radius), abs=1e-5)
+
+
+def test_times_of_changes_are_those_of_sticking_and_slipping() -> None:
+    figures = {"let_go": "time(pad, backward)", "captured": "time(pad, held)", "again": "time(pad, backward, 2)"}
+    found = Cases(MODEL, figures).row({}).figures
+    assert found["let_go"] == pytest.approx(LET_GO / SPEED, abs=1e-7)
+    assert found["captured"] - found["let_go"] == pytest.approx(slip_time(), abs=1e-7)
+    assert found["again"] - found["let_go"] == pytest.approx(0.4 + slip_time(), abs=1e-7)
+
+
+def test_means_over_sticking_and_slipping_are_the_integrals() -> None:
+    begin, end = LET_GO / SPEED, LET_GO / SPEED + slip_time()
+    span = f"{begin - 0.4} s, {end} s"  # a stroke of 0.08 m before letting go, then the slip
+    figures = {"mean": f"mean(block.x, {span})", "rms": f"rms(block.v, {span})", "at": f"at(block.x, {begin - 0.1} s)"}
+    found = Cases(MODEL, figures).row({}).figures
+    t = np.linspace(0.0, slip_time(), 20001)
+    x = CENTRE + (LET_GO - CENTRE) * np.cos(OMEGA * t) + SPEED / OMEGA * np.sin(OMEGA * t)
+    v = -(LET_GO - CENTRE) * OMEGA * np.sin(OMEGA * t) + SPEED * np.cos(OMEGA * t)
+    whole = 0.4 + slip_time()
+    assert found["mean"] == pytest.approx((0.4 * 0.06 + np.trapezoid(x, t)) / whole, abs=1e-6)
+    assert found["rms"] == pytest.approx(math.sqrt((0.4 * SPEED**2 + np.trapezoid(v**2, t)) / whole), rel=1e-5)
+    assert found["at"] == pytest.approx(LET_GO - 0.1 * SPEED, abs=1e-8)
+
+
+def test_a_case_is_the_run_of_the_model_with_these_values() -> None:
+    values = {"pad.normal_force": "12 N", "block.mass": 1.5}
+    figures = {"end": "end(block.x)", "n": "switches(pad)", "lost": "energy(dissipated)", "peak": "peak(pad.friction)"}
+    cases = Cases(MODEL, figures)
+    cases.row({"pad.normal_force": "9 N"})
+    row, result = cases.row(values), MODEL.with_values(values).run(out=None)
+    assert row.ok
+    assert row.figures["end"] == pytest.approx(result["block.x"][-1], abs=1e-12)
+    assert row.figures["n"] == len(result.events) == row.counters["switches"]
+    assert row.figures["lost"] == pytest.approx(result.energy["energy"][1], rel=1e-9)
+    assert row.figures["peak"] == pytest.approx(result.extremes("pad.friction").highest, abs=1e-9)
+
+
+def test_what_goes_wrong_in_a_case_is_a_row_with_its_reason() -> None:
+    cases = Cases(MODEL, {"own": _fails_when_heavy}, max_steps=300)
+    assert cases.row({"run.stop": "2 s"}).status == "finished"
+    assert cases.row({}).status == "budget"
+    assert "300" in cases.row({}).sentence
+    refused = cases.row({"block.mass": "2 N"})
+    assert refused.status == "refused"
+    assert "block" in refused.sentence
+    assert "kg" in refused.sentence
+    error = cases.row({"run.stop": "2 s", "block.mass": "3 kg"})
+    assert (error.status, error.figures) == ("error", {})
+    assert "too heavy" in error.sentence
+
+
+def _fails_when_heavy(result):
+    if result.run["extremes"]["spring.tension"][2] > 0 and result["block.v"][-1] != result["block.v"][-1]:
+        return 0.0
+    if len(result.events) < 4:
+        raise ValueError("too heavy")
+    return 1.0
+
+
+def test_a_function_sees_the_result() -> None:
+    row = Cases(MODEL, {"own": lambda result: result["block.x"][0] + 1.0}).row({"run.stop": "1 s"})
+    assert row.figures["own"] == 1.0
+
+
+def test_all_mistakes_in_figures_come_at_once() -> None:
+    texts = ["peek(block.x)", "peak(blok.x)", "end(*.x)", "time(pad, stuk)", "mean(block.x, 3 s, 2 s)", "block.x",
+             "at(block.x, 50 s)", "at(block.x, 2 N)", "margin(ruck)", "energy(heat)"]  # fmt: skip
+    wrong = {f"figure {k}": text for k, text in enumerate(texts)}
+    with pytest.raises(ModelError) as raised:
+        Cases(MODEL, wrong)
+    told = str(raised.value)
+    assert len(raised.value.faults) == len(wrong)
+    for word in (
+        "Did you mean peak?",
+        "block.x?",
+        "stands for",
+        "held",
+        "empty",
+        "goes from 0 s to 40 s",
+        "dissipated",
+    ):
+        assert word in told
+
+
+def test_a_key_hangs_on_values_and_not_on_their_order() -> None:
+    cases, others = Cases(MODEL, {"n": "switches()"}), Cases(MODEL, {"n": "switches(pad)"})
+    one = {"block.mass": "2 kg", "pad.normal_force": "9 N"}
+    assert cases.key(one) == cases.key(dict(reversed(one.items())))
+    assert len({cases.key(one), cases.key({**one, "block.mass": "3 kg"}), others.key(one)}) == 3
+
+
+def test_an_event_that_never_comes_has_no_time() -> None:
+    row = Cases(MODEL, {"t": "time(pad, off)"}).row({"run.stop": "1 s"})
+    assert row.ok
+    assert math.isnan(row.figures["t"])
+
+
+def test_another_structure_gives_what_a_fresh_model_gives() -> None:
+    cases = Cases(fairlead.load("belt", set={"run.stop": "2 s"}), {"end": "end(block.x)"})
+    for values in (
+        {"pad.method": "binding"},
+        {"pad.method": "hold"},
+        {"pad.method": "binding", "pad.normal_force": "9 N"},
+    ):
+        fresh = fairlead.load("belt", set={"run.stop": "2 s", **values}).run(out=None)
+        assert cases.row(values).figures["end"] == pytest.approx(fresh["block.x"][-1], abs=1e-12)
