@@ -11,8 +11,9 @@ BENCH ?= everything.py
 HARD ?=
 INVARIANCE ?=
 WORKERS ?= auto
+AS_ROOT := $(if $(filter 0,$(shell id -u)),,sudo -n)
 
-.PHONY: help demo test test-all hard invariance lint types bench docs clean
+.PHONY: help demo test test-all browser hard invariance lint types bench docs clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -30,6 +31,12 @@ test: $(VENV)/test.done  ## install with what the tests need, run the tests (WOR
 
 test-all: $(VENV)/test.done  ## the rest of the tests, those that take long
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
+
+browser:  ## install Debian's chromium, which the tests of pages drive; without it they are skipped
+	@if command -v chromium >/dev/null && command -v chromedriver >/dev/null; then echo "chromium is installed"; \
+	elif command -v apt-get >/dev/null && $(AS_ROOT) apt-get update -q >/dev/null 2>&1 \
+	  && $(AS_ROOT) apt-get install -q -y chromium chromium-driver >/dev/null 2>&1; then echo "chromium was installed"; \
+	else echo "chromium cannot be installed here: the browser tests are skipped"; fi
 
 hard: $(VENV)/test.done  ## play all hard cases on all engines, write docs/stability.md (more with HARD="--only tether --table")
 	$(RUN) -m tests.hard $(HARD)

@@ -25,6 +25,7 @@ from fairlead.analysis.released_together import ReleasedTogether
 from fairlead.analysis.remarks import remarks
 from fairlead.analysis.remedy import budget, remedies
 from fairlead.analysis.route_record import route_records
+from fairlead.analysis.scene_record import scene_record, zone_record
 from fairlead.analysis.step_rows import Batches, Thinning, WholeSteps, on_grid
 from fairlead.analysis.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
 from fairlead.analysis.strains import Strains
@@ -304,6 +305,8 @@ def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bo
         "record_every": netlist.record.every, "friction": friction_record(system.flat),
         "remarks": [str(one) for one in (*remarks(system.flat), *engine_remarks(settings, system))] if told else [],
         "routes": route_records(system.flat),
+        "scene": scene_record(netlist, system.flat),
+        "zones": zone_record(system.machine_names, system.machine_zones, system.zones),
     }  # fmt: skip
 
 

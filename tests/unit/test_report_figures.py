@@ -1,15 +1,14 @@
-"""Figures and the page: what is drawn, under which name, and what happens to odd records."""
+"""Figures: what is drawn, under which name, and what happens to odd records."""
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from fairlead.errors import UsageError
-from fairlead.report import figures, map, page, panel
+from fairlead.report import figures, map, panel
 from fairlead.results import Result, RunDirectory, Signal
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -120,28 +119,6 @@ def test_a_later_run_removes_the_pictures_of_an_earlier_one(result: Result) -> N
     (path,) = figures.draw(result, [{"signals": ["block.v"], "file": "v.png"}])
     RunDirectory.create(result.path, SIGNALS, {}, force=True).finish("finished", {})
     assert not path.exists()
-
-
-def test_the_page_is_self_contained_and_escapes_what_users_wrote(result: Result) -> None:
-    text = page.write(result).read_text(encoding="utf-8")
-    assert "<h1>bend &lt;1&gt;</h1>" in text
-    assert "A line &amp; a bend." in text
-    sources = re.findall(r'(?:src|href)="([^"]{0,30})', text)
-    assert sources
-    assert all(source.startswith("data:image/png;base64,") for source in sources)
-
-
-def test_the_page_tells_run_limits_zones_and_ranges(result: Result) -> None:
-    text = page.write(result).read_text(encoding="utf-8")
-    assert "line.core[3].tension = 7 N is above 6 N" in text
-    assert "<td>settings accuracy</td><td>0.001</td>" in text
-    assert "stuck → forward (1)" in text
-    assert '<td>line.core[*].tension</td><td class="number">12</td><td>N</td>' in text
-
-
-def test_the_page_of_a_run_without_signals_says_so(tmp_path: Path) -> None:
-    RunDirectory.create(tmp_path / "run", (), {}).finish("failed", {})
-    assert "Nothing was recorded." in page.write(Result.open(tmp_path / "run")).read_text(encoding="utf-8")
 
 
 def test_a_map_has_values_between_places_and_none_beyond_them() -> None:

@@ -51,6 +51,10 @@ def run(
 
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
+    if report:
+        from fairlead.analysis.to_show import shown_besides
+
+        shown_besides(model)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # told below the table
         result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile, check=False)
@@ -98,8 +102,8 @@ def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) 
     if report:
         from fairlead.report import page
 
-        written.append(page.write(result, plots))  # draws the figures as well
-    elif plots:
+        written.append(page.write(result))
+    if plots:
         from fairlead.report import figures
 
         written += figures.draw(result, plots)

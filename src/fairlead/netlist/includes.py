@@ -25,6 +25,7 @@ class Sources:
     parts: list[Value] = field(default_factory=list)
     faults: list[Fault] = field(default_factory=list)
     data: bytes = b""  # of every file in the order of reading, each after its length
+    texts: dict[str, str] = field(default_factory=dict)  # by the name that messages call a file
     meter: Meter = field(default_factory=Meter)
     seen: set[Path] = field(default_factory=set)
 
@@ -59,6 +60,7 @@ def _read(sources: Sources, file: Path, named_at: Location | None, chain: tuple[
         sources.faults.append(error.fault)
         return None
     sources.data += len(data).to_bytes(8, "little") + data
+    sources.texts[display(file)] = text
     tree, faults = read_yaml(text, display(file), sources.meter)
     sources.faults += faults
     if tree is None or not isinstance(tree.content, dict):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +66,8 @@ def worked_out(sources: Sources, overrides: Mapping[str, str]) -> tuple[Netlist 
     wrong += _loose_ends(tree)
     faults += without_echoes(wrong, faults)
     netlist = _netlist(sources.top, tree, document, sources.digest(overrides))
-    return netlist, tuple(sorted(dict.fromkeys(faults), key=_place))
+    kept = replace(netlist, texts=dict(sources.texts), given=dict(overrides))
+    return kept, tuple(sorted(dict.fromkeys(faults), key=_place))
 
 
 def _netlist(file: Path, tree: Value, document: Document | None, digest: str) -> Netlist:
@@ -74,6 +76,8 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
     record = document.record if document else RecordSettings()
     name = tree.entries["name"].content if "name" in tree.entries else None
     description = tree.entries["description"].content if "description" in tree.entries else None
+    names = ("effects", "friction", "initial", "nominal", "limits")
+    blocks: dict[str, Any] = {block: _block(tree, block) for block in names}
     return Netlist(
         path=file,
         name=str(name or file.stem),
@@ -83,7 +87,7 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
         connections=tuple(ends for ends, _ in _connections(tree) if len(ends) > 1),
         run=run,
         record=record,
-        **{block: _block(tree, block) for block in ("effects", "friction", "initial", "nominal", "limits")},
+        **blocks,
         digest=digest,
         written={block: _block(tree, block) for block in ("run", "record")},
     )

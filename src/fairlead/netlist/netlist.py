@@ -94,6 +94,10 @@ class Netlist:
     digest: str = ""
     written: Mapping[str, Mapping[str, Value]] = field(default_factory=lambda: {"run": {}, "record": {}})
     """The blocks `run` and `record` as written, for messages about them."""
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
+    """The files as they were read, by the name that messages call them; the netlist itself first."""
+    given: Mapping[str, str] = field(default_factory=dict)
+    """Values given from outside, by name (`--set`)."""
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

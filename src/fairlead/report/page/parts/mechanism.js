@@ -1,0 +1,102 @@
+/* The mechanism of a scene without a line: boxes as they are wired, moved by what was recorded; strips of many elements. */
+class MechanismView {
+  constructor(run, canvas) { Object.assign(this, {run, canvas, m: run.mechanism || {boxes: [], wires: [], strips: []}}); }
+  async begin() {
+    const first = async name => name ? (await this.run.values(name)).first[0] : null;
+    for (const b of this.m.boxes) {
+      b.xs = await first(b.x); b.angles = await first(b.angle); b.row = null;
+      for (const z of this.run.zones.families) for (const r of z.rows)
+        if (!z.inner && (z.name === b.name || (z.name.startsWith(b.name + ".") && r.element < 0)) && (!b.row || r.t.length > b.row.t.length)) b.row = r;
+      b.values = [];
+      for (const name of b.shown) b.values.push({name: name.slice(b.name.length + 1), unit: this.run.family.get(name).unit, v: await first(name)});
+      b.range = b.x ? this.span(b.x) : 0;
+    }
+    const ranges = this.m.boxes.map(b => b.range).filter(r => r > 0).sort((a, b) => a - b);
+    this.reach = ranges[0] || 1;
+    for (const b of this.m.boxes) b.travels = b.range > 12 * this.reach;
+    for (const r of this.m.boxes) if (r.range && !r.travels) this.reach = Math.max(this.reach, r.range);
+    for (const s of this.m.strips) {
+      s.v = (await this.run.values(s.family)).first; s.unit = this.run.family.get(s.family).unit;
+      const own = s.family.split(".")[0] + ".";
+      s.zones = this.run.zones.families.find(z => !z.inner && z.name.startsWith(own) && z.rows.length >= s.v.length - 1 && z.rows.length <= s.v.length + 1 && z.rows.length > 2);
+      let most = 0; for (const v of s.v) for (let i = 0; i < v.length; i += 1 + (v.length >> 9)) most = Math.max(most, Math.abs(v[i] - v[0]));
+      s.most = most || 1;
+    }
+  }
+  span(name) { const f = this.run.family.get(name); return f.max - f.min; }
+  resize() {
+    const box = this.canvas.getBoundingClientRect(), ratio = Math.min(devicePixelRatio || 1, 2);
+    Object.assign(this, {width: box.width, height: box.height, ratio});
+    this.canvas.width = Math.round(box.width * ratio); this.canvas.height = Math.round(box.height * ratio);
+    const all = [...this.m.boxes, ...this.m.wires];
+    const x0 = Math.min(...all.map(b => b.cx - b.w / 2)), x1 = Math.max(...all.map(b => b.cx + b.w / 2));
+    const y0 = Math.min(...all.map(b => b.cy - b.h / 2)), y1 = Math.max(...all.map(b => b.cy + b.h / 2));
+    const strip = this.m.strips.length ? Math.min(96 * this.m.strips.length, .62 * box.height) : 0;
+    this.zoom = Math.min((box.width - 70) / Math.max(x1 - x0, 1), (box.height - strip - 60) / Math.max(y1 - y0, 1), 2);
+    const ox = (box.width - this.zoom * (x1 - x0)) / 2 - this.zoom * x0, oy = (box.height - strip - this.zoom * (y1 - y0)) / 2 - this.zoom * y0;
+    this.at = (x, y) => [ox + this.zoom * x, oy + this.zoom * y]; this.stripTop = box.height - strip;
+  }
+  value(v, t) { const [i, j, f] = this.run.between(t); return v[i] + f * (v[j] - v[i]); }
+  /* How far each wire and each box is moved in the picture [px]: what is joined moves together. */
+  moves(t) {
+    const scale = 34 / this.reach, moved = this.m.boxes.map(b => b.xs && !b.travels ? scale * (this.value(b.xs, t) - b.xs[0]) : b.fixed && !b.xs ? 0 : null);
+    const wires = this.m.wires.map(w => { const known = w.ends.map(e => this.m.boxes[e.box]).map((b, k) => moved[w.ends[k].box]).filter((d, k) => d !== null && this.m.boxes[w.ends[k].box] && !this.m.boxes[w.ends[k].box].travels); return known.length && w.domain === "translational" ? known.reduce((a, b) => Math.abs(a) > Math.abs(b) ? a : b) : null; });
+    this.m.boxes.forEach((b, k) => { if (moved[k] === null) {
+      const own = this.m.wires.map((w, n) => [w, wires[n]]).filter(([w, d]) => d !== null && w.ends.some(e => e.box === k)).map(([, d]) => d);
+      moved[k] = own.length ? own.reduce((a, c) => a + c, 0) / Math.max(own.length, 2) : 0; } });
+    return {boxes: moved, wires: wires.map(d => d || 0)};
+  }
+  draw(t) {
+    if (!this.width) this.resize();
+    const ctx = this.canvas.getContext("2d"); ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0); ctx.clearRect(0, 0, this.width, this.height);
+    const moved = this.moves(t), z = this.zoom;
+    ctx.lineWidth = 2; ctx.strokeStyle = css("device");
+    this.m.wires.forEach((w, n) => {
+      const [wx, wy] = this.at(w.cx, w.cy), px = wx + moved.wires[n];
+      ctx.setLineDash(w.domain === "signal" ? [4, 4] : []); ctx.beginPath();
+      for (const e of w.ends) { const b = this.m.boxes[e.box], [bx, by] = this.at(b.cx, b.cy), side = w.cx > b.cx ? 1 : -1, sx = bx + moved.boxes[e.box] + side * b.w * z / 2;
+        ctx.moveTo(sx, by); ctx.bezierCurveTo((sx + px) / 2, by, (sx + px) / 2, wy, px, wy); }
+      ctx.stroke(); ctx.setLineDash([]); ctx.beginPath(); ctx.fillStyle = css("device"); ctx.arc(px, wy, 3.5, 0, 7); ctx.fill();
+    });
+    this.m.boxes.forEach((b, k) => this.box(ctx, b, moved.boxes[k], t));
+    this.m.strips.forEach((s, k) => this.strip(ctx, s, k, t));
+  }
+  box(ctx, b, dx, t) {
+    const [cx, y] = this.at(b.cx, b.cy), x = cx + dx, z = this.zoom, w = b.w * z, h = b.h * z, zone = b.row ? zoneAt(b.row, t) : null;
+    ctx.fillStyle = b.fixed ? css("rule") : css("paper"); ctx.strokeStyle = zone === null ? css("device") : zoneColour(this.run, zone); ctx.lineWidth = zone === null ? 1.5 : 4;
+    ctx.beginPath(); ctx.roundRect(x - w / 2, y - h / 2, w, h, 5); ctx.fill(); ctx.stroke();
+    if (b.travels) { // a belt: ticks that run
+      const d = this.value(b.xs, t) * 60 / this.reach / 8, step = 12; ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath();
+      for (let q = ((d % step) + step) % step; q < w; q += step) { ctx.moveTo(x - w / 2 + q, y + h / 2 + 2); ctx.lineTo(x - w / 2 + q - 4, y + h / 2 + 9); } ctx.stroke();
+    }
+    if (b.angles) { const a = this.value(b.angles, t), r = Math.min(h / 2 - 3, 15); ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath(); ctx.arc(x - w / 2 + r + 4, y, r, 0, 7);
+      for (const q of [0, 2.0944, 4.1888]) { ctx.moveTo(x - w / 2 + r + 4, y); ctx.lineTo(x - w / 2 + r + 4 + r * Math.cos(a + q), y + r * Math.sin(a + q)); } ctx.stroke(); }
+    const size = Math.max(10, Math.min(12.5, 12 * z)), left = b.angles ? 14 * z : 0; ctx.textAlign = "center"; ctx.fillStyle = css("ink"); ctx.font = `600 ${size}px system-ui, sans-serif`;
+    ctx.fillText(b.name, x + left / 2, y - 2); ctx.font = `${size - 1.5}px system-ui, sans-serif`; ctx.fillStyle = css("soft"); ctx.fillText(zone === null ? b.type : this.run.zones.words[zone].name, x + left / 2, y + size);
+    b.values.slice(0, this.m.boxes.length > 12 ? 1 : 2).forEach((v, k) => { const text = `${v.name} ${shown(this.value(v.v, t), v.unit)}`; ctx.font = "11px system-ui, sans-serif"; ctx.lineWidth = 3; ctx.strokeStyle = css("card");
+      ctx.strokeText(text, x, y + h / 2 + 14 + 13 * k + (b.travels ? 8 : 0)); ctx.fillText(text, x, y + h / 2 + 14 + 13 * k + (b.travels ? 8 : 0)); });
+  }
+  strip(ctx, s, k, t) {
+    const n = s.v.length, left = 20, wide = this.width - 40, pitch = wide / n, y = this.stripTop + 40 + 92 * k, [i, j, f] = this.run.between(t);
+    const reach = Math.max(2.2 * pitch, 24), scale = reach / s.most; let common = 0;
+    ctx.font = "11px system-ui, sans-serif"; ctx.textAlign = "left"; ctx.fillStyle = css("soft"); ctx.fillText(`${s.family}: each mark at its place, moved by at most ${shown(s.most, s.unit)}`, left, y - 30);
+    ctx.fillStyle = css("rule"); ctx.fillRect(left, y + 23, wide, 2);
+    for (let e = 0; e < n; e++) {
+      const v = s.v[e], d = v[i] + f * (v[j] - v[i]) - v[0], row = s.zones && (s.zones.rows[e] || null);
+      ctx.fillStyle = row ? zoneColour(this.run, zoneAt(row, t)) : css("accent");
+      ctx.fillRect(left + (e + .5) * pitch + scale * d - Math.max(pitch * .32, 1), y - 16, Math.max(pitch * .64, 2), 38);
+    }
+  }
+  words(t) {
+    const told = this.m.boxes.filter(b => b.row).slice(0, 6).map(b => `${b.name} is ${this.run.zones.words[zoneAt(b.row, t)].name}`);
+    for (const s of this.m.strips) if (s.zones) { const n = {}; for (const r of s.zones.rows) { const w = this.run.zones.words[zoneAt(r, t)].name; n[w] = (n[w] || 0) + 1; }
+      told.push(`${s.zones.name}: ${Object.entries(n).map(([w, c]) => `${c} ${w}`).join(", ")}`); }
+    return told.join("; ") || this.m.boxes.filter(b => b.values.length).slice(0, 4).map(b => `${b.name}.${b.values[0].name} ${shown(this.value(b.values[0].v, t), b.values[0].unit)}`).join("; ");
+  }
+  legend() {
+    const words = new Set(); for (const b of this.m.boxes) if (b.row) { words.add(b.row.start); b.row.to.forEach(z => words.add(z)); }
+    for (const s of this.m.strips) if (s.zones) for (const r of s.zones.rows) { words.add(r.start); r.to.forEach(z => words.add(z)); }
+    return [...words].map(z => [zoneColour(this.run, z), this.run.zones.words[z].name]);
+  }
+  scale() { return this.m.boxes.some(b => b.range) ? `Boxes move with their recorded positions, ${shown(this.reach, "m")} drawn as 34 px${this.m.boxes.some(b => b.travels) ? "; running ticks are what travels far" : ""}.` : "No position of a part was recorded, so boxes stand still; values and zones move with time."; }
+}

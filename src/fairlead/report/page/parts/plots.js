@@ -1,0 +1,237 @@
+/* Plots over time and along the line, drawn by Bokeh; all share one range of time and the cursor of the clock. */
+const B = () => Bokeh.Plotting;
+const TOOLS = "xbox_zoom,xpan,xwheel_zoom,xzoom_in,xzoom_out,reset,save";
+const MOST_POINTS = 60000;
+
+function styled(p, x, y) {
+  const ink = css("ink"), soft = css("soft"), rule = css("rule");
+  Object.assign(p, {background_fill_color: null, border_fill_color: null, outline_line_color: rule, sizing_mode: "stretch_width"});
+  for (const [axis, label] of [[p.xaxis, x], [p.yaxis, y]]) for (const a of [].concat(axis)) {
+    a.axis_label = label;
+    Object.assign(a, {axis_label_text_color: ink, axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", major_label_text_color: soft,
+      axis_line_color: rule, major_tick_line_color: rule, minor_tick_line_color: null, major_label_text_font_size: "11px"});
+  }
+  for (const g of [].concat(p.xgrid, p.ygrid)) g.grid_line_color = rule, g.grid_line_alpha = .6;
+  p.toolbar.logo = null;
+  p.toolbar.active_drag = p.toolbar.tools.find(tool => tool.type === "BoxZoomTool") || "auto";
+  return p;
+}
+function figure(options, x, y) {
+  return styled(B().figure({height: 250, width: 600, tools: TOOLS, toolbar_location: "right", output_backend: "canvas", ...options}), x, y);
+}
+async function put(p, element) { const view = await B().show(p, element); return Array.isArray(view) ? view[0] : view; }
+
+/* The line that shows the time of the clock over a plot, and clicks that set it. */
+function cursor(box, view) {
+  const bar = document.createElement("div"); bar.className = "cursor"; box.append(bar);
+  const frame = () => view.frame && view.frame.bbox;
+  const where = () => { const f = frame(), outer = box.getBoundingClientRect(), inner = view.el.getBoundingClientRect(); return [inner.left - outer.left, inner.top - outer.top, f]; };
+  const move = t => {
+    if (!frame() || !box.isConnected) return;
+    const range = view.frame.x_range, share = (t - range.start) / (range.end - range.start), [dx, dy, f] = where();
+    const on = share >= 0 && share <= 1;
+    bar.style.display = on ? "block" : "none";
+    if (on) { bar.style.transform = `translate(${dx + f.left + share * f.width}px, ${dy + f.top}px)`; bar.style.height = `${f.height}px`; }
+  };
+  let down = null;
+  box.addEventListener("pointerdown", e => { down = [e.clientX, e.clientY]; }, true);
+  box.addEventListener("pointerup", e => {
+    if (!down || Math.hypot(e.clientX - down[0], e.clientY - down[1]) > 4 || !frame()) return;
+    const [, , f] = where(), inner = view.el.getBoundingClientRect(), share = (e.clientX - inner.left - f.left) / f.width, high = (e.clientY - inner.top - f.top) / f.height;
+    if (share >= 0 && share <= 1 && high >= 0 && high <= 1) { const r = view.frame.x_range; clock.set(r.start + share * (r.end - r.start)); }
+  }, true);
+  clock.heard.push(move); span.heard.push(() => move(clock.t)); requestAnimationFrame(() => requestAnimationFrame(() => move(clock.t)));
+}
+
+/* The stretch of time that all plots show. Each plot is a document of its own, so each has a range, and they are kept alike. */
+const span = {
+  start: 0, end: 1, whole_end: 1, ranges: [], heard: [],
+  begin(end) { this.whole_end = this.end = end > 0 ? end : 1; },
+  range() {
+    const made = new Bokeh.Range1d({start: this.start, end: this.end, bounds: [0, this.whole_end], reset_start: 0, reset_end: this.whole_end});
+    made.change.connect(() => { if (!this.busy && Number.isFinite(made.start)) this.set(made.start, made.end); });
+    this.ranges.push(made);
+    return made;
+  },
+  set(start, end) {
+    if (start === this.start && end === this.end || !(end > start)) return;
+    Object.assign(this, {start, end}); this.busy = true;
+    for (const one of this.ranges) if (one.start !== start || one.end !== end) one.setv({start, end});
+    this.busy = false;
+    if (!this.waiting) { this.waiting = true; setTimeout(() => { this.waiting = false; for (const tell of this.heard) tell(); }, 40); }
+  },
+  whole() { this.set(0, this.whole_end); },
+};
+
+/* One panel: families of one unit, of all runs that have them. */
+class Panel {
+  constructor(runs, title, families) { Object.assign(this, {runs, title, families}); }
+  async show(list) {
+    this.box = document.createElement("div"); this.box.className = "panel";
+    const head = document.createElement("div"), name = document.createElement("b"), away = document.createElement("button");
+    head.className = "head"; name.textContent = this.title; away.type = "button"; away.textContent = "Remove"; away.setAttribute("aria-label", `Remove ${this.title}`);
+    away.onclick = () => { this.gone = true; this.box.remove(); };
+    head.append(name, away); this.plot = document.createElement("div"); this.box.append(head, this.plot);
+    this.box.setAttribute("role", "group"); this.box.setAttribute("aria-label", `Plot of ${this.title}`); list.append(this.box);
+    await this.draw(); span.heard.push(() => this.fill());
+  }
+  async draw() {
+    this.curves = [];
+    const unit = this.unit();
+    const p = this.p = figure({x_range: span.range(), y_range: new Bokeh.DataRange1d({})}, "time [s]", unit === "1" ? "value" : `[${unit}]`);
+    const few = [];
+    for (const [r, run] of this.runs.entries()) for (const [f, name] of this.families.entries()) {
+      const family = run.family.get(name);
+      if (!family) continue;
+      const values = await run.values(name), many = values.first.length > 8;
+      values.first.forEach((_, k) => {
+        const colour = many ? (this.runs.length > 1 ? LINES[r % LINES.length] : PALETTE[Math.round(235 * k / (values.first.length - 1))]) : LINES[(few.length) % LINES.length];
+        const label = `${name.replace("[*]", family.elements[k] === null ? "" : `[${family.elements[k]}]`)}${this.runs.length > 1 ? ", " + run.label : ""}`;
+        this.curves.push({run, values, k, colour, dash: many ? "solid" : DASHES[r], label, many, family, name});
+        if (!many) few.push(label);
+      });
+    }
+    this.source = new Bokeh.ColumnDataSource({data: {xs: [], ys: [], colour: [], dash: [], label: []}});
+    const alpha = this.curves.length > 20 ? .75 : 1;
+    p.multi_line({field: "xs"}, {field: "ys"}, {source: this.source, line_color: {field: "colour"}, line_dash: {field: "dash"}, line_width: this.curves.length > 20 ? 1.1 : 1.8, line_alpha: alpha});
+    this.fill();
+    this.view = await put(p, this.plot);
+    cursor(this.plot, this.view); this.note();
+  }
+  unit() { for (const run of this.runs) for (const name of this.families) if (run.family.get(name)) return run.family.get(name).unit; return ""; }
+  note() {
+    const list = document.createElement("ul"); list.className = "legend";
+    const singles = this.curves.filter(c => !c.many);
+    const entries = singles.slice(0, 16).map(c => [c.colour, c.label]);
+    for (const [name, run] of new Set(this.curves.filter(c => c.many).map(c => c.name)).size ? [...new Set(this.curves.filter(c => c.many).map(c => c.name))].flatMap(name => this.runs.filter(r => r.family.get(name)).map(run => [name, run])) : []) {
+      const own = this.curves.filter(c => c.name === name && c.run === run);
+      entries.push([this.runs.length > 1 ? own[0].colour : `linear-gradient(90deg, ${own[0].colour}, ${own[own.length >> 1].colour}, ${own[own.length - 1].colour})`,
+        `${name}, elements ${own[0].family.elements[0]} to ${own[own.length - 1].family.elements[own.length - 1]}${this.runs.length > 1 ? ", " + run.label : ""}`]);
+    }
+    legend(list, entries); this.box.append(list);
+  }
+  fill() {
+    if (this.gone || !this.curves) return;
+    const {start, end} = span, most = Math.min(2400, Math.max(160, MOST_POINTS / this.curves.length));
+    const d = {xs: [], ys: [], colour: [], dash: [], label: []};
+    for (const c of this.curves) {
+      const {x, y} = thinned(c.run, c.values, c.k, start, end, most);
+      d.xs.push(x); d.ys.push(y); d.colour.push(c.colour); d.dash.push(c.dash); d.label.push(c.label);
+    }
+    this.source.data = d;
+  }
+}
+
+/* Values along the line at the time of the clock. */
+class Profile {
+  constructor(runs, line) { Object.assign(this, {runs, line}); }
+  async show(name) {
+    this.name = name; this.drawn = null;
+    const box = document.getElementById("profile"); box.replaceChildren();
+    const run = this.runs[0], family = run.family.get(name);
+    this.parts = [];
+    const p = figure({height: 230, tools: "box_zoom,reset,save"}, this.line.positions ? "place on the route [m]" : "element", `${name.split(".").pop()} [${family.unit}]`);
+    const low = Math.min(...this.runs.map(r => r.family.get(name)?.min ?? Infinity)), high = Math.max(...this.runs.map(r => r.family.get(name)?.max ?? -Infinity)), pad = .05 * (high - low || 1);
+    p.y_range = new Bokeh.Range1d({start: low - pad, end: high + pad, reset_start: low - pad, reset_end: high + pad});
+    for (const s of this.line.stations) if (s.type !== "Straight" && s.begin !== null && s.end !== null && this.line.positions) p.add_layout(new Bokeh.BoxAnnotation({left: s.begin, right: s.end, fill_color: css("device"), fill_alpha: .18, line_color: null}));
+    for (const [r, one] of this.runs.entries()) {
+      if (!one.family.get(name)) continue;
+      const source = new Bokeh.ColumnDataSource({data: {x: [], y: []}});
+      p.line({field: "x"}, {field: "y"}, {source, line_color: LINES[r], line_width: 2, line_dash: DASHES[r]});
+      const x = this.line.positions && one.family.get(this.line.positions) ? (await one.values(this.line.positions)).first : null;
+      this.parts.push({one, source, x, values: (await one.values(name)).first, family: one.family.get(name)});
+    }
+    this.view = await put(p, box); this.draw(clock.t, true);
+  }
+  draw(t, now) {
+    if (!this.parts) return;
+    const stamp = performance.now();
+    if (!now && this.last && stamp - this.last < 90) { clearTimeout(this.later); this.later = setTimeout(() => this.draw(clock.t, true), 100); return; }
+    this.last = stamp; document.getElementById("when").textContent = shown(t, "s");
+    for (const part of this.parts) {
+      const row = part.one.row(t), elements = part.family.elements, between = part.x && part.values.length === part.x.length - 1 && elements[0] === 0;
+      const x = elements.map(e => !part.x ? e : between ? (part.x[e][row] + part.x[e + 1][row]) / 2 : part.x[e] ? part.x[e][row] : NaN);
+      part.source.data = {x, y: part.values.map(v => v[row])};
+    }
+  }
+}
+
+/* Rows of zones as coloured spans. */
+class ZoneChart {
+  constructor(run) { this.run = run; }
+  choices() {
+    const busy = this.run.zones.families.filter(z => !z.inner && z.counts.some(n => n)), total = busy.reduce((n, z) => n + z.rows.filter(r => r.t.length).length, 0);
+    const list = [];
+    if (busy.length > 1 && total <= 260) list.push(["all that changed", busy]);
+    const rank = z => (z.zones.some(w => ["stuck", "forward"].includes((this.run.zones.words.find(o => o.name === w) || {}).means)) ? 1e9 : 0) + z.counts.reduce((a, b) => a + b, 0);
+    for (const z of [...busy].sort((a, b) => rank(b) - rank(a))) list.push([z.name, [z]]);
+    for (const z of this.run.zones.families.filter(z => z.inner && z.counts.some(n => n))) list.push([`${z.name} (pieces of a table)`, [z]]);
+    for (const z of this.run.zones.families.filter(z => !z.counts.some(n => n))) list.push([`${z.name} (never changed)`, [z]]);
+    return list;
+  }
+  async show(families) {
+    const box = document.getElementById("zone-chart"); box.replaceChildren();
+    const rows = families.flatMap(z => { const moved = z.rows.filter(r => r.t.length); return moved.length ? moved : z.rows; }).slice(0, 1200);
+    const d = {left: [], right: [], top: [], bottom: [], colour: [], name: [], zone: []}, end = this.run.end, used = new Set(), n = rows.length;
+    rows.forEach((row, k) => {
+      let from = this.run.times[0] || 0, zone = row.start;
+      const add = to => { if (to > from || n < 0) { d.left.push(from); d.right.push(to); d.top.push(n - k - .06); d.bottom.push(n - k - .94); d.colour.push(zoneColour(this.run, zone)); d.name.push(row.name); d.zone.push(this.run.zones.words[zone].name); used.add(zone); } };
+      row.t.forEach((t, i) => { add(t); from = t; zone = row.to[i]; });
+      add(Math.max(end, from));
+    });
+    const height = Math.min(Math.max(70 + n * (n > 60 ? 5 : n > 20 ? 11 : 22), 130), 1000);
+    const p = figure({height, x_range: span.range(), y_range: new Bokeh.Range1d({start: 0, end: n})}, "time [s]", "");
+    p.quad({field: "left"}, {field: "right"}, {field: "top"}, {field: "bottom"}, {source: new Bokeh.ColumnDataSource({data: d}), fill_color: {field: "colour"}, line_color: null});
+    p.add_tools(new Bokeh.HoverTool({tooltips: [["part", "@name"], ["zone", "@zone"], ["from", "@left{0.0000} s"], ["to", "@right{0.0000} s"]]}));
+    const every = Math.max(1, Math.ceil(n / ((height - 60) / 13))), ticks = [], labels = new Map();
+    rows.forEach((row, k) => { if (k % every === 0) { ticks.push(n - k - .5); labels.set(n - k - .5, row.name.length > 26 ? "..." + row.name.slice(-24) : row.name); } });
+    p.yaxis.ticker = new Bokeh.FixedTicker({ticks}); p.yaxis.major_label_overrides = labels; p.ygrid.visible = false;
+    this.view = await put(p, box); cursor(box, this.view);
+    legend(document.getElementById("zone-legend"), [...used].map(z => [zoneColour(this.run, z), this.run.zones.words[z].name]));
+    const left = this.run.zones.left_out, still = families.flatMap(z => z.rows).length - n;
+    document.getElementById("zone-note").textContent = [`${n} rows`, still > 0 ? `${still} parts that never changed zone are not shown` : "", left ? `${left} parts that change too often for a page are left out` : ""].filter(Boolean).join("; ") + ".";
+  }
+}
+
+/* A map: time to the right, place upward, value as colour. */
+async function map(run, line, name, element) {
+  const family = run.family.get(name), values = await run.values(name), box = document.createElement("div"); box.className = "panel";
+  const title = document.createElement("b"); title.textContent = `${name} [${family.unit}]`; const at = document.createElement("div"); box.append(title, at); element.append(box);
+  const xs = line.positions ? (await run.values(line.positions)).first : null, elements = family.elements, between = xs && values.first.length === xs.length - 1 && elements[0] === 0;
+  const W = Math.min(700, Math.max(run.rows, 2)), H = 200, place = (k, i) => !xs ? elements[k] : between ? (xs[elements[k]][i] + xs[elements[k] + 1][i]) / 2 : xs[elements[k]] ? xs[elements[k]][i] : NaN;
+  const finite = line.stations.flatMap(s => [s.begin, s.end]).filter(v => v !== null), pad = Math.max(1, .5 * (Math.max(...finite) - Math.min(...finite)));
+  let bottom = xs ? Math.max(run.family.get(line.positions).min, Math.min(...finite) - pad) : elements[0], top = xs ? Math.min(run.family.get(line.positions).max, Math.max(...finite) + pad) : elements[elements.length - 1];
+  if (!(top > bottom)) { bottom = elements[0]; top = elements[elements.length - 1] + 1; }
+  const grid = new Float32Array(W * H).fill(NaN), n = values.first.length, all = [];
+  let worst = {low: Infinity, high: -Infinity};
+  for (let k = 0; k < n; k++) for (let i = 0; i < run.rows; i++) { const lo = values.low[k][i], hi = values.high[k][i]; if (lo < worst.low) worst = {...worst, low: lo, tl: run.times[i], yl: place(k, i)}; if (hi > worst.high) worst = {...worst, high: hi, th: run.times[i], yh: place(k, i)}; }
+  for (let c = 0; c < W; c++) {
+    const i = run.row(run.times[0] + (run.end - run.times[0]) * (c + .5) / W);
+    let k = 0;
+    for (let h = 0; h < H; h++) {
+      const y = bottom + (top - bottom) * (h + .5) / H;
+      while (k < n - 2 && place(k + 1, i) < y) k++;
+      const a = place(k, i), b = place(k + 1, i);
+      if (!(y >= a - (b - a) / 2 && y <= b + (b - a) / 2)) continue;
+      const f = Math.min(Math.max((y - a) / (b - a), 0), 1), v = values.first[k][i] + f * (values.first[k + 1][i] - values.first[k][i]);
+      grid[c + W * h] = v; if ((c * 7 + h) % 11 === 0 && Number.isFinite(v)) all.push(v);
+    }
+  }
+  all.sort((a, b) => a - b);
+  const low = all[Math.floor(.003 * all.length)] ?? 0, high0 = all[Math.floor(.997 * all.length)] ?? 1, high = high0 > low ? high0 : low + 1;
+  const canvas = document.createElement("canvas"); canvas.width = W; canvas.height = H; const ctx = canvas.getContext("2d"), image = ctx.createImageData(W, H);
+  for (let h = 0; h < H; h++) for (let c = 0; c < W; c++) { const v = grid[c + W * h], o = 4 * (c + W * (H - 1 - h)); if (Number.isFinite(v)) { const [r, g, b] = ramp((v - low) / (high - low)); image.data.set([r, g, b, 255], o); } }
+  ctx.putImageData(image, 0, 0);
+  const p = figure({height: 280, x_range: span.range(), y_range: new Bokeh.Range1d({start: bottom, end: top})}, "time [s]", xs ? "place [m]" : "element");
+  const t0 = run.times[0];
+  p.image_url({value: canvas.toDataURL()}, t0, bottom, run.end - t0, top - bottom, {anchor: "bottom_left"});
+  for (const s of line.stations) if (xs && s.type !== "Straight") {
+    const a = s.begin ?? bottom, b = s.end ?? top; if (b < bottom || a > top) continue;
+    p.add_layout(new Bokeh.BoxAnnotation({bottom: Math.max(a, bottom), top: Math.min(b, top), fill_color: null, line_color: "#ffffff", line_dash: "dashed", line_alpha: .8}));
+    p.add_layout(new Bokeh.Label({x: t0 + .006 * (run.end - t0), y: (Math.max(a, bottom) + Math.min(b, top)) / 2, text: s.name, text_font_size: "11px", text_baseline: "middle", text_color: "#ffffff", background_fill_color: "#000000", background_fill_alpha: .55, padding: 2}));
+  }
+  p.scatter([worst.tl, worst.th].filter(Number.isFinite), [worst.yl, worst.yh].filter(Number.isFinite), {marker: "x", size: 12, line_width: 3, line_color: "#ff5a4d"});
+  const mapper = new Bokeh.LinearColorMapper({palette: PALETTE, low, high});
+  p.add_layout(new Bokeh.ColorBar({color_mapper: mapper, background_fill_color: null, major_label_text_color: css("soft"), width: 12, title: null}), "right");
+  cursor(at, await put(p, at));
+}

@@ -1,0 +1,85 @@
+"""A headless Chromium, driven by selenium: what the tests of pages and the pictures of the documentation share.
+
+Nothing is installed from here: `make browser` does that, and without a browser there is none to test with.
+"""
+
+import json
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+FLAGS = (
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--disable-dev-shm-usage", "--hide-scrollbars",
+)  # fmt: skip
+PATIENCE = 60.0  # s
+
+
+def missing() -> str:
+    """Why there is no browser; "" when there is one."""
+    if not shutil.which("chromium") or not shutil.which("chromedriver"):
+        return "no chromium with chromedriver: make browser installs them"
+    try:
+        import selenium  # noqa: F401 - whether it is there
+    except ImportError:
+        return "selenium is not installed: it comes with the extra `test`"
+    return ""
+
+
+@contextmanager
+def opened() -> Iterator[Any]:
+    """A browser with a profile of its own, which goes when it does."""
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        options = webdriver.ChromeOptions()
+        options.binary_location = str(shutil.which("chromium"))
+        for flag in (*FLAGS, f"--user-data-dir={profile}"):
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        driver = webdriver.Chrome(options, Service(str(shutil.which("chromedriver"))))
+        driver.set_script_timeout(PATIENCE)
+        try:
+            yield driver
+        finally:
+            driver.quit()
+
+
+def show(driver: Any, page: Path, width: int = 1440, height: int = 1000, dark: bool = False) -> None:
+    """Open a page from disk in a window of so many px, and wait until it is ready."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    wishes = {"prefers-color-scheme": "dark" if dark else "light", "prefers-reduced-motion": "reduce"}
+    features = [{"name": name, "value": value} for name, value in wishes.items()]
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+    driver.get_log("performance")  # what the browser did for itself before
+    driver.get(page.resolve().as_uri())
+    WebDriverWait(driver, PATIENCE).until(lambda it: it.execute_script("return document.body.dataset.ready === 'yes'"))
+
+
+def settled(driver: Any) -> None:
+    """Draw every plot, also those that nobody has scrolled to, and wait until they stand."""
+    driver.execute_async_script(
+        "const done = arguments[0]; (async () => {"
+        "for (const make of fairlead.page.waiting) await make(); setTimeout(done, 400);"
+        "})().catch(e => done(String(e)))"
+    )
+
+
+def complaints(driver: Any) -> list[str]:
+    """Errors and warnings on the console."""
+    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+
+
+def requests(driver: Any) -> list[str]:
+    """Addresses that were asked for, but for the page itself and what it holds."""
+    told = (json.loads(entry["message"])["message"] for entry in driver.get_log("performance"))
+    asked = [one["params"]["request"]["url"] for one in told if one["method"] == "Network.requestWillBeSent"]
+    return [address for address in asked if not address.startswith(("file:", "data:", "blob:", "chrome:"))]

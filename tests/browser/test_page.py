@@ -1,0 +1,146 @@
+"""The page of a run in a real browser: it opens from disk, moves, zooms, escapes, and answers quickly.
+
+A test of its own for every promise; the runs are short. All are skipped where there is no browser (`make browser`).
+"""
+
+import contextlib
+from pathlib import Path
+
+import pytest
+
+import fairlead
+from fairlead.analysis.to_show import shown_besides
+from fairlead.report import page
+from tests.browser.browser import complaints, missing, opened, requests, settled, show
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(bool(missing()), reason=missing()),
+    pytest.mark.xdist_group("browser"),
+]
+MOST_MEMORY = 300e6
+EVIL = "<script>document.title='hacked'</script>"
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with opened() as driver:
+        yield driver
+
+
+def made(folder: Path, name: str, **settings) -> Path:
+    """The page of a bundled model that recorded what a page wants."""
+    model = fairlead.load(name)
+    shown_besides(model)
+    with contextlib.suppress(fairlead.RunError):
+        return page.write(model.run(out=folder / name, **settings))
+    raise AssertionError(name)
+
+
+@pytest.fixture(scope="module")
+def bend(tmp_path_factory) -> Path:
+    return made(tmp_path_factory.mktemp("bend"), "single_bend", stop=3.0)
+
+
+def picture(browser) -> str:
+    return browser.execute_script("return document.getElementById('stage').toDataURL()")
+
+
+@pytest.mark.parametrize("name", ["single_bend", "belt", "winch_drive", "torsion", "hundred_blocks"])
+@pytest.mark.parametrize("width", [400, 1440, 1920])
+def test_a_page_opens_from_disk_without_a_complaint_or_a_request(browser, bend, tmp_path, name, width):
+    file = bend if name == "single_bend" else made(tmp_path, name, stop=1.0)
+    show(browser, file, width, dark=width == 1440)
+    assert settled(browser) is None
+    assert complaints(browser) == []
+    assert requests(browser) == []
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+
+
+def test_playing_moves_the_picture_and_the_time(browser, bend):
+    show(browser, bend)
+    browser.execute_script("fairlead.clock.set(0)")
+    before = picture(browser)
+    browser.execute_script("document.getElementById('play').click()")
+    browser.execute_async_script("setTimeout(arguments[0], 700)")
+    browser.execute_script("document.getElementById('play').click()")
+    assert browser.execute_script("return fairlead.clock.t") > 0
+    assert picture(browser) != before
+
+
+def test_the_picture_of_a_scene_without_a_line_moves_as_well(browser, tmp_path):
+    show(browser, made(tmp_path, "belt", stop=2.0))
+    browser.execute_script("fairlead.clock.set(0)")
+    before = picture(browser)
+    browser.execute_script("fairlead.clock.set(0.3)")
+    assert picture(browser) != before
+
+
+def test_a_signal_is_picked_and_zoomed_into_by_dragging(browser, bend):
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+
+    show(browser, bend)
+    settled(browser)
+    panels = len(browser.find_elements(By.CLASS_NAME, "panel"))
+    browser.find_element(By.ID, "pick").send_keys("line.hose_node[*].v")
+    browser.find_element(By.ID, "add").click()
+    browser.execute_async_script("setTimeout(arguments[0], 800)")
+    assert len(browser.find_elements(By.CLASS_NAME, "panel")) == panels + 1
+    plot = browser.find_element(By.CSS_SELECTOR, "#panels .panel > div:nth-child(2)")
+    browser.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", plot)
+    whole = browser.execute_script("return fairlead.span.end - fairlead.span.start")
+    drag = ActionChains(browser).move_to_element_with_offset(plot, -200, 0).click_and_hold()
+    drag.move_by_offset(150, 0).move_by_offset(50, 0).release().perform()
+    browser.execute_async_script("setTimeout(arguments[0], 400)")
+    zoomed = browser.execute_script("return fairlead.span.end - fairlead.span.start")
+    assert 0 < zoomed < whole / 2
+    browser.find_element(By.ID, "whole").click()
+    assert browser.execute_script("return fairlead.span.end - fairlead.span.start") == pytest.approx(whole)
+
+
+def test_the_keyboard_plays_and_steps(browser, bend):
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+
+    show(browser, bend)
+    browser.execute_script("fairlead.clock.set(1)")
+    stage = browser.find_element(By.ID, "stage")
+    stage.send_keys(Keys.ARROW_RIGHT)
+    assert browser.execute_script("return fairlead.clock.t") > 1
+    stage.send_keys(" ")
+    assert browser.execute_script("return fairlead.clock.playing")
+
+
+def test_names_that_are_markup_are_shown_as_text(browser, tmp_path):
+    from tests.unit.test_report_page import SIGNALS, Result, RunDirectory
+
+    scene = {
+        "files": {"a.yaml": EVIL}, "set": {}, "parameters": {EVIL: EVIL}, "connections": [],
+        "components": {EVIL: {"type": EVIL, "line": 1, "file": "a.yaml", "fixed": False, "parameters": {}}},
+        "plots": [{"title": EVIL, "signals": [SIGNALS[1].name]}],
+    }  # fmt: skip
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {"name": EVIL, "description": EVIL, "scene": scene})
+    run.append([0.0, 1.0], [[0.0] * len(SIGNALS), [1.0] * len(SIGNALS)], [0, 0])
+    run.event(0.5, EVIL, "held", EVIL, EVIL)
+    run.finish("finished", {"sentence": EVIL})
+    show(browser, page.write(Result.open(tmp_path / "run")))
+    settled(browser)
+    assert browser.title == EVIL
+    assert EVIL in browser.execute_script("return document.body.innerText")
+    assert complaints(browser) == []
+
+
+def test_the_page_of_a_whole_route_stays_small_and_tells_how_soon_it_answers(browser, tmp_path):
+    show(browser, made(tmp_path, "guidance_route"))
+    settled(browser)
+    took = browser.execute_script(
+        "const took = []; for (let k = 0; k < 9; k++) { const t = performance.now();"
+        "fairlead.clock.set(fairlead.clock.end * (k + 1) / 10); took.push(performance.now() - t); }"
+        "for (let k = 0; k < 5; k++) { const t = performance.now(); fairlead.span.set(k, 10 + k);"
+        "for (const tell of fairlead.span.heard) tell(); took.push(performance.now() - t); } return took"
+    )
+    print(f"ms after an input: {[round(one, 1) for one in took]}")
+    memory = browser.execute_cdp_cmd("Runtime.getHeapUsage", {})
+    print(f"heap: {memory['usedSize'] / 1e6:.0f} MB")
+    assert memory["usedSize"] + memory.get("backingStorageSize", 0) < MOST_MEMORY

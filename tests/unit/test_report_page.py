@@ -1,0 +1,183 @@
+"""The page of a run: what it says, what it escapes, that no extreme is lost on it, and what odd folders become."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import re
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from fairlead.cli import app
+from fairlead.report import page
+from fairlead.report.page import packing
+from fairlead.report.page.signals import signal_data
+from fairlead.report.page.write import library
+from fairlead.report.page.zones import zone_data
+from fairlead.results import Result, RunDirectory, Signal
+
+EVIL = "</script><script>alert(1)</script>"
+SIGNALS = (
+    Signal("haul.force", "N", "pull of the haul"),
+    Signal(f"{EVIL}.v", "m/s", f"speed of {EVIL}"),
+    *(Signal(f"line.core[{i}].tension", "N", "pull in the core") for i in range(12)),
+)
+SCENE = {
+    "files": {"bend.yaml": f"schema: 1\nname: {EVIL}\n"}, "set": {"mu": EVIL}, "parameters": {"mu": 0.35},
+    "components": {EVIL: {"type": "Mass", "line": 3, "file": "bend.yaml", "fixed": False, "parameters": {"mass": EVIL}},
+                   "wall": {"type": "Ground", "line": 4, "file": "bend.yaml", "fixed": True, "parameters": {}}},
+    "connections": [{"ends": [f"{EVIL}.flange", "wall.flange"], "domain": "translational"}],
+    "plots": [{"title": EVIL, "signals": ["haul.force"]}],
+}  # fmt: skip
+
+
+@pytest.fixture
+def result(tmp_path: Path) -> Result:
+    header = {"name": "bend <1>", "description": "A line & a bend.", "settings": {"accuracy": 1e-3}, "scene": SCENE,
+              "zones": [{"family": "line.outer[*]", "zones": ["held", "forward"], "elements": [2, 3],
+                         "start": [0, 1]}]}  # fmt: skip
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, header)
+    t = np.linspace(0, 1, 50)
+    run.append(t, np.outer(t, np.arange(len(SIGNALS))), np.zeros(50))
+    run.event(0.5, "line.outer[2]", "held", "forward", "slides")
+    run.event(0.6, EVIL, "idle", EVIL, "slides")
+    run.finish("finished", {"steps": 99, "limits_broken": ["line.core[3].tension = 7 N is above 6 N"]})
+    return Result.open(tmp_path / "run")
+
+
+def text_of(result: Result) -> str:
+    """The page without the script of the plotting package, which holds anything."""
+    return page.write(result).read_text(encoding="utf-8").replace(library(), "")
+
+
+def test_nothing_on_the_page_is_loaded_and_the_browser_is_told_to_refuse_it(result: Result) -> None:
+    text = text_of(result)
+    assert "default-src 'none'" in text
+    addresses = re.findall(r'(?:src|href)="([^"]{0,12})', text)
+    assert addresses
+    assert all(address.startswith(("data:", "#")) for address in addresses)
+    assert not re.search(r"@import|\burl\((?!data)", text)
+
+
+def test_what_users_wrote_is_text_wherever_it_stands(result: Result) -> None:
+    text = text_of(result)
+    assert EVIL not in text
+    assert "<h1>bend &lt;1&gt;</h1>" in text
+    assert text.count(html.escape(EVIL)) > 3
+    drawn = base64.b64decode(re.search(r"data:image/svg\+xml;base64,([^\"]+)", text)[1]).decode()
+    assert EVIL not in drawn
+
+
+def test_the_page_tells_limits_settings_and_extremes(result: Result) -> None:
+    text = text_of(result)
+    assert "line.core[3].tension = 7 N is above 6 N" in text
+    assert '<th scope="row">settings accuracy</th><td class="given">0.001</td>' in text
+    assert re.search(r'line\.core\[\*\]\.tension</th><td class="number">12</td><td>N</td>', text)
+
+
+def test_the_page_of_a_run_without_signals_is_a_page(tmp_path: Path) -> None:
+    RunDirectory.create(tmp_path / "run", (), {}).finish("failed", {"sentence": "t = 1 s: it stopped."})
+    text = text_of(Result.open(tmp_path / "run"))
+    assert "Not finished" in text
+    assert "t = 1 s: it stopped." in text
+
+
+def unpacked(chunk: packing.Chunk, signals: int, buckets: int) -> np.ndarray:
+    """What the page makes of packed signals: (signals, kinds, rows)."""
+    planes = np.frombuffer(zlib.decompress(chunk.data), np.uint8).reshape(2, -1).astype(np.int64)
+    codes = np.cumsum((planes[0] + 256 * planes[1]).reshape(signals, -1), axis=1) % 65536
+    values = np.array(chunk.low)[:, None] + codes * np.array(chunk.step)[:, None]
+    return np.where(codes == packing.NAN, np.nan, values).reshape(signals, -1, buckets)
+
+
+@pytest.mark.parametrize("k", [1, 7, 1000])
+def test_packing_keeps_extremes_zeros_and_gaps(k: int) -> None:
+    rng = np.random.default_rng(3)
+    values = rng.normal(size=(5000, 3)) * [1.0, 1e-9, 1e12]
+    values[::3] = 0.0
+    values[1234], values[4321], values[77] = 40.0, -40.0, np.nan
+    rows = -(-5000 // k)
+    found = unpacked(packing.packed(values, k), 3, rows)
+    step = np.ptp(np.nan_to_num(values), axis=0) / 65000
+    for s in range(3):
+        assert np.nanmax(found[s]) == pytest.approx(np.nanmax(values[:, s]), abs=step[s])
+        assert np.nanmin(found[s]) == pytest.approx(np.nanmin(values[:, s]), abs=step[s])
+        if k == 1:
+            np.testing.assert_allclose(found[s, 0], values[:, s], atol=step[s])
+            assert np.all(found[s, 0][values[:, s] == 0.0] == 0.0)
+        else:  # every bucket has the extremes of its own rows
+            for b in range(0, rows, 97):
+                own = values[b * k : (b + 1) * k, s]
+                assert found[s, 1, b] == pytest.approx(np.nanmin(own), abs=step[s])
+                assert found[s, 2, b] == pytest.approx(np.nanmax(own), abs=step[s])
+
+
+def test_signals_that_are_constant_or_never_known_come_back() -> None:
+    values = np.column_stack([np.full(9, 7.5), np.full(9, np.nan)])
+    found = unpacked(packing.packed(values, 1), 2, 9)[:, 0]
+    np.testing.assert_array_equal(found, values.T)
+
+
+def test_a_long_run_is_thinned_until_it_fits(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS[:1], {})
+    noise = np.random.default_rng(0).normal(size=(20_000, 1))
+    run.append(np.arange(20_000.0), noise, np.zeros(20_000))
+    run.finish("finished", {})
+    share = 20_000 / packing.MOST_BYTES
+    data = signal_data(Result.open(tmp_path / "run"), share)
+    assert data["bucket"] > 1
+    assert len(base64.b64decode(data["families"][0]["b"])) <= 20_000
+    assert (data["families"][0]["min"], data["families"][0]["max"]) == (noise.min(), noise.max())
+
+
+def test_a_row_of_zones_begins_where_the_run_began(result: Result) -> None:
+    data = zone_data(result)
+    words = [one["name"] for one in data["words"]]
+    (outer,) = [one for one in data["families"] if one["name"] == "line.outer[*]"]
+    assert [words[k] for k in outer["start"]] == ["held", "forward"]
+    assert outer["counts"] == [1, 0]
+    assert [one["means"] for one in data["words"]][:2] == ["stuck", "forward"]
+
+
+def test_several_runs_share_a_page_and_are_told_apart(result: Result, tmp_path: Path) -> None:
+    text = page.write([result, result], tmp_path / "both.html").read_text(encoding="utf-8").replace(library(), "")
+    data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.DOTALL)[1])
+    assert len(data["runs"]) == 2
+
+
+FOREIGN = '{"format": "x", "status": "y"}'
+
+
+@pytest.mark.parametrize("contents", [{}, {"notes.txt": "x"}, {"run.json": "{"}, {"run.json": FOREIGN}])
+def test_a_folder_that_is_no_run_gets_a_sentence(tmp_path: Path, contents: dict[str, str]) -> None:
+    for name, text in contents.items():
+        (tmp_path / name).write_text(text)
+    answer = CliRunner().invoke(app, ["report", str(tmp_path)])
+    assert answer.exit_code in (1, 2)
+    assert "Traceback" not in answer.output
+    assert str(tmp_path) in answer.output.replace("\n", "")
+
+
+def test_a_truncated_series_gets_a_sentence(result: Result) -> None:
+    series = result.path / "series.nc"
+    series.write_bytes(series.read_bytes()[:3000])
+    answer = CliRunner().invoke(app, ["report", str(result.path)])
+    assert answer.exit_code in (1, 2)
+    assert "series.nc" in answer.output.replace("\n", "")
+
+
+def test_a_killed_run_has_a_page_that_says_so(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS[:1], {"name": "cut"})
+    run.append([0.0, 1.0], [[1.0], [2.0]], [0, 0])
+    run.flush(at_once=True)
+    found = json.loads((tmp_path / "run" / "run.json").read_text())
+    run.finish("finished", {})
+    (tmp_path / "run" / "run.json").write_text(json.dumps({**found, "process": 2**22 + 1, "locked": False}))
+    assert "The process was gone before the run ended" in text_of(Result.open(tmp_path / "run"))
+
+
