@@ -13,7 +13,7 @@ INVARIANCE ?=
 WORKERS ?= auto
 AS_ROOT := $(if $(filter 0,$(shell id -u)),,sudo -n)
 
-.PHONY: help demo test test-all browser hard invariance lint types bench docs clean
+.PHONY: help demo test test-all browser hard invariance lint types bench docs pictures clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -55,6 +55,9 @@ bench: $(VENV)/bench.done  ## error, time and counters beside peers (an hour and
 
 docs: $(VENV)/fairlead.done  ## make the pages and figures about friction again, from the classes
 	$(RUN) docs/make.py
+
+pictures: $(VENV)/test.done  ## take the pictures of pages in README and docs again, with a browser
+	$(RUN) -m tests.browser
 
 clean:  ## remove .venv, results and everything generated
 	rm -rf $(VENV) typing results build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis src/*.egg-info

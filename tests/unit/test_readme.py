@@ -1,4 +1,4 @@
-"""What README.md shows works as printed."""
+"""What README.md and docs/start.md show works as printed."""
 
 import pathlib
 import re
@@ -10,7 +10,8 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 
-README = (pathlib.Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+README = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in ("README.md", "docs/start.md"))
 
 
 def blocks(language: str) -> list[str]:
@@ -53,7 +54,7 @@ def test_the_readme_shows_commands_of_every_verb() -> None:
 def test_every_command_ends_well(line: str, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     words = shlex.split(line.partition(">")[0])[1:]
-    if words[0] == "margins":  # which wants a run
+    if words[0] in ("margins", "report"):  # which wants a run
         model = pathlib.Path(words[1]).name
         assert CliRunner().invoke(app, ["run", model, "--set", "run.stop=0.2 s"]).exit_code == 0
     answer = CliRunner().invoke(app, words)

@@ -14,7 +14,7 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
-REINSTALL = "Install again in a fresh environment (README.md, Try it)"
+REINSTALL = "Install again in a fresh environment (docs/start.md, Install)"
 
 OSCILLATOR = """
 schema: 1

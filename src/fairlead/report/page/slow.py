@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from fairlead.report.page.zones import meaning
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -18,10 +20,13 @@ def slow_data(result: Result) -> dict[str, Any]:
     """A sentence, the busiest parts and kinds with their share of all zone changes, and the text of a profile."""
     run = result.run
     counts = Counter(event.component for event in result.events)
+    zones: dict[str, set[str]] = defaultdict(set)
+    for event in result.events:
+        zones[event.component] |= {event.zone_from, event.zone_to}
     kinds = Counter(family(event.component)[0] for event in result.events)
     total = counts.total()
     return {
-        "sentence": _sentence(run, counts, kinds), "parts": _rows(counts, total), "kinds": _rows(kinds, total),
+        "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(counts, total), "kinds": _rows(kinds, total),
         "profile": str(run.get("profile") or ""), "total": total,
         "times": [(word, run[key]) for key, word in TIMES.items() if run.get(key) is not None],
     }  # fmt: skip
@@ -32,7 +37,9 @@ def _rows(counts: Counter[str], total: int) -> list[dict[str, Any]]:
     return [{"name": name, "count": n, "share": n / total, "bar": n / most[0][1]} for name, n in most]
 
 
-def _sentence(run: dict[str, Any], counts: Counter[str], kinds: Counter[str]) -> str:
+def _sentence(
+    run: dict[str, Any], counts: Counter[str], kinds: Counter[str], zones: Mapping[str, set[str]]
+) -> str:
     steps, rejected = run.get("steps") or 0, run.get("rejected") or 0
     cost = f"{steps} steps and {rejected} rejected ones" if steps else "its steps"
     if not counts:
@@ -41,4 +48,13 @@ def _sentence(run: dict[str, Any], counts: Counter[str], kinds: Counter[str]) ->
     return (
         f"The run took {cost}. A step ends where a part changes zone, which happened {total} times: most often in "
         f"{kind} ({100 * m / total:.0f} % of all changes), and of single parts in {who} ({n} times)."
+        f"{_contact(zones, counts)}"
     )
+
+
+def _contact(zones: Mapping[str, set[str]], counts: Counter[str]) -> str:
+    """The busiest of the parts that stick at times, if that is not the busiest of all."""
+    sticks = [name for name, _ in counts.most_common() if "stuck" in map(meaning, zones[name])]
+    if not sticks or counts[sticks[0]] == counts.most_common(1)[0][1]:
+        return ""
+    return f" Of contacts, {sticks[0]} changes most ({counts[sticks[0]]} times)."
