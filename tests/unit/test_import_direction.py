@@ -36,7 +36,7 @@ ALLOWED = {
     "brief": set(),
     "arguments": {"errors", "quantities"},
     "interruption": set(),
-    "report": {"arguments", "errors", "quantities", "results", "analysis", "flatten"},
+    "report": {"arguments", "errors", "quantities", "patterns", "results", "analysis", "flatten"},
 }
 # May import all that lies before:
 LAST = {"", "model_page", "result", "run", "renewal", "simulate", "statics", "studies", "cases", "testing", "cli",

@@ -20,6 +20,7 @@ from fairlead.cli import (
     graph,
     margins,
     new,
+    plot,
     report,
     run,
     schema,
@@ -40,7 +41,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for verb in (
-    check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, friction.friction,
+    check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
     margins.margins, compare.compare, cost.cost, effects.effects, schema.schema, new.new, doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)

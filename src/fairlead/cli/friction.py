@@ -37,9 +37,9 @@ def friction(
 
     usual, records = si(normal, "N"), []
     out.mkdir(parents=True, exist_ok=True)
-    contacts, remarks = _contacts(subject, settings, libraries, method)
+    contacts, remarks = contacts_of(subject, settings, libraries, method)
     for number, (names, values) in enumerate(contacts.items()):
-        given = _pressed(values)
+        given = pressed(values)
         found = characteristic(values, usual if given is None else given)
         figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
         rows = found.rows()
@@ -56,7 +56,7 @@ def friction(
         echo(json.dumps(records, indent=2))
 
 
-def _contacts(
+def contacts_of(
     subject: str, settings: list[str], libraries: list[str], method: str
 ) -> tuple[dict[str, "Values"], list["Fault"]]:
     """Contacts by name, and remarks on them; equal ones share an entry, named by the first and how many follow."""
@@ -79,7 +79,7 @@ def _contacts(
     return named, too_wide(model.flat)
 
 
-def _pressed(values: "Values") -> float | None:
+def pressed(values: "Values") -> float | None:
     """The normal force that stands for the input where nothing is connected; None when there is none."""
     stands = values.type.declaration.inputs[values.type.answers.pressed_by].default
     return values.path(stands) if isinstance(stands, str) else stands

@@ -10,7 +10,7 @@ from fairlead.analysis.friction_record import sentence as of_friction
 from fairlead.analysis.ruck import sentence as of_ruck
 from fairlead.analysis.ruck import verdicts
 from fairlead.analysis.told import told
-from fairlead.report.page.zones import meaning
+from fairlead.report.page.zones import meaning, starts
 
 if TYPE_CHECKING:
     from fairlead.results import Result
@@ -76,9 +76,9 @@ def _why(result: Result, found: dict[str, Any]) -> str:
 
 
 def _zones_at(result: Result, t: float) -> dict[str, str]:
-    from fairlead.report.page.zones import _starts
 
-    zones = _starts(result.run)
+
+    zones = starts(result.run)
     for event in result.events:
         if event.t > t:
             break

@@ -42,7 +42,7 @@ def meaning(zone: str) -> str:
 
 def zone_data(result: Result) -> dict[str, Any]:
     """Zone names with their meaning; rows by family: start zone, times and zones of changes."""
-    spans, start = _changes(result), _starts(result.run)
+    spans, start = _changes(result), starts(result.run)
     rows = {name: start.get(name, spans[name][0][1] if name in spans else "") for name in {**start, **spans}}
     kept, left_out = _few_enough(spans)
     words = {word: k for k, word in enumerate(dict.fromkeys(_words(rows, spans)))}
@@ -67,7 +67,7 @@ def _changes(result: Result) -> dict[str, list[tuple[float, str, str]]]:
     return dict(found)
 
 
-def _starts(run: Mapping[str, Any]) -> dict[str, str]:
+def starts(run: Mapping[str, Any]) -> dict[str, str]:
     """The zone at the start, by part."""
     found = {}
     for one in run.get("zones") or ():

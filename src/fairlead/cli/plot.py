@@ -1,0 +1,150 @@
+"""`fairlead plot`: a figure for print of a run or of a model, and the figures of the source paper."""
+
+import enum
+import pathlib
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from fairlead.cli.options import Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import echo
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from fairlead.results import Result
+
+PAPER_CURVE = {"curve": "hump", "stiction": 0.35, "peak": 0.5, "peak_velocity": 0.1, "coulomb": 0.4}
+"""Of Figure 3, which has no numbers: the shape it shows, with the low friction of Figure 6 at rest."""
+LEVELS = (0.35, 0.6)
+"""Friction of Figure 6."""
+
+
+class What(enum.StrEnum):
+    """What can be drawn; the last two are of a model."""
+
+    SIGNALS = "signals"
+    PROFILE = "profile"
+    MAP = "map"
+    ZONES = "zones"
+    LEDGER = "ledger"
+    FRICTION = "friction"
+    WORK_PRECISION = "work-precision"
+
+
+def plot(
+    settings: Settings,
+    libraries: Libraries,
+    source: Annotated[str, typer.Argument(metavar="RUN|MODEL", help="A folder with results, or a netlist.")] = "",
+    what: Annotated[What | None, typer.Argument(metavar="WHAT", help="What to draw.")] = None,
+    signals: Annotated[
+        list[str] | None, typer.Option("--signals", metavar="PATTERN", help="Signals, or parts with zones. Repeatable.")
+    ] = None,
+    at: Annotated[
+        list[str] | None,
+        typer.Option("--at", metavar="TIME", help="Times of a profile; of signals and zones from when to when."),
+    ] = None,
+    out: Annotated[
+        pathlib.Path | None,
+        typer.Option(metavar="FILE", help="Write here, as PNG, SVG or PDF by its ending. Of --paper: a folder."),
+    ] = None,
+    paper: Annotated[bool, typer.Option("--paper", help="Make Figures 3, 5 and 6 of the source paper.")] = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Draw signals, a profile, a map, zones, the ledger, friction or work-precision, for print."""
+    if paper:
+        written = _paper(out or pathlib.Path("results") / "paper")
+    elif not source or what is None:
+        raise typer.BadParameter("plot wants a run or a model, and what to draw (or --paper).")
+    elif what in (What.FRICTION, What.WORK_PRECISION):
+        written = [_of_model(source, what, settings, libraries, out)]
+    else:
+        from fairlead.quantities import si
+        from fairlead.report.printed import printed
+
+        result, folder = _result(source, settings, libraries)
+        times = [si(text, "s") for text in at or ()]
+        written = [printed(result, what.value, out or folder / f"{what.value}.png", signals or (), times)]
+    if not quiet:
+        for file in written:
+            echo(f"wrote {file}")
+
+
+def _result(source: str, settings: list[str], libraries: list[str]) -> tuple["Result", pathlib.Path]:
+    """The run in a folder; of a model a run in memory, with what a figure may want recorded. And where figures go."""
+    import fairlead
+    from fairlead.analysis.to_show import shown_besides
+    from fairlead.result import Result
+
+    path = pathlib.Path(source)
+    if path.is_dir():
+        if settings:
+            raise typer.BadParameter("--set changes a model, and a run is over. Give the netlist.")
+        return Result.open(path), path
+    model = fairlead.load(source, set=parse_settings(settings), libraries=libraries)
+    shown_besides(model)
+    return model.run(out=None), pathlib.Path("results") / model.netlist.name
+
+
+def _of_model(
+    source: str, what: What, settings: list[str], libraries: list[str], out: pathlib.Path | None
+) -> pathlib.Path:
+    """Friction of the first kind of contact of a model, or what accuracy costs it."""
+    import fairlead
+
+    fixed = parse_settings(settings)
+    name = fairlead.load(source, set=fixed, libraries=libraries).netlist.name
+    file = out or pathlib.Path("results") / name / f"{what.value}.png"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if what is What.FRICTION:
+        from fairlead.analysis.characteristic import characteristic
+        from fairlead.cli.friction import contacts_of, pressed
+        from fairlead.report.friction_figure import draw
+
+        contacts, _ = contacts_of(source, settings, libraries, "")
+        names, values = next(iter(contacts.items()))
+        given = pressed(values)
+        found = characteristic(values, 1.0 if given is None else given)
+        return draw(found, file, f"{names}: {found.label}")
+    from fairlead.analysis.cost import cost
+    from fairlead.analysis.kept_runs import KeptRuns, default_folder
+    from fairlead.analysis.ladder import Ladder
+    from fairlead.report.cost_figure import draw as draw_cost
+
+    study = cost(
+        lambda more: fairlead.load(source, set={**fixed, **more}, libraries=libraries), Ladder(), budget=60.0,
+        signals=["*"], kept=KeptRuns(default_folder()), libraries=libraries,
+    )  # fmt: skip
+    return draw_cost(study, file)
+
+
+def _paper(folder: pathlib.Path) -> list[pathlib.Path]:
+    """Figures 3, 5 and 6 of the source paper, each as PNG and PDF."""
+    import matplotlib
+
+    from fairlead.report.figures import STYLE
+    from fairlead.report.printed import save
+
+    with matplotlib.rc_context({**STYLE, "backend": "agg"}):
+        figures = _figures()
+        return [save(figure, folder / f"{name}{ending}")
+                for name, figure in figures.items() for ending in (".png", ".pdf")]  # fmt: skip
+
+
+def _figures() -> dict[str, "Figure"]:
+    import fairlead
+    from fairlead.analysis.characteristic import characteristic
+    from fairlead.component.parameters import make
+    from fairlead.component.registry import known_types
+    from fairlead.report.printed.paper import figure3, figure5, figure6
+
+    members = known_types()["Contact"].members  # type: ignore[attr-defined]
+    values = make(members["binding"], form="literal", curve=dict(PAPER_CURVE), creep=1e-4)
+    runs = []
+    for mu in LEVELS:
+        runs.append(fairlead.load("single_bend", set={"mu": mu, "method": "binding"}).run(out=None))
+    return {
+        "figure3": figure3(characteristic(values, 100.0)), "figure5": figure5(values, 100.0),
+        "figure6": figure6(runs, [f"mu = {mu:.2f}" for mu in LEVELS]),
+    }  # fmt: skip

@@ -1,0 +1,76 @@
+"""The zone chart for print: a row for each part that changed zone, coloured spans for its zones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from fairlead.errors import UsageError
+from fairlead.patterns import picked
+from fairlead.report.figures import WIDTH
+from fairlead.report.page.zones import PIECE, meaning, starts
+from fairlead.report.panel import COLOURS
+from fairlead.results.signal import family
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from fairlead.results import Result
+
+MOST_ROWS = 400
+HUES = {"stuck": "#0072B2", "forward": "#E69F00", "backward": "#CC79A7", "between": "#7B68C8", "off": "#E4E7EB",
+        "slack": "#56B4E9", "ruck": "#D3261A", "sound": "#C3CCD6"}  # fmt: skip
+"""Colours by what a zone means, those of the page."""
+
+Span = tuple[float, float, str]
+
+
+def spans(result: Result) -> dict[str, list[Span]]:
+    """By part that changed zone: from, to [s] and zone, from the first row of the run to its last."""
+    first, last = float(result.t[0]), float(result.t[-1])
+    begun, found = starts(result.run), dict[str, list[Span]]()
+    since: dict[str, tuple[float, str]] = {}
+    for event in result.events:
+        t, zone = since.get(event.component, (first, begun.get(event.component, event.zone_from)))
+        found.setdefault(event.component, []).append((t, event.t, zone))
+        since[event.component] = (event.t, event.zone_to)
+    for name, (t, zone) in since.items():
+        found[name].append((t, last, zone))
+    return found
+
+
+def zone_chart(result: Result, names: Sequence[str], times: Sequence[float]) -> Figure:
+    """Rows by part: those that `names` pick, else all but pieces of tables. Two `times` [s] limit the time.
+
+    Raises UsageError when nothing that was asked for changed zone.
+    """
+    from matplotlib.figure import Figure
+
+    found = spans(result)
+    if names:
+        known = dict.fromkeys(found)
+        chosen = {name: found[name] for pattern in names for name in picked(known, pattern)}
+    else:
+        chosen = {name: each for name, each in found.items() if not all(PIECE.fullmatch(zone) for *_, zone in each)}
+    if not chosen:
+        raise UsageError("No part that was asked for changed its zone.\n    Result.switches() lists those that did.")
+    kinds = {kind: k for k, kind in enumerate(dict.fromkeys(family(name)[0] for name in chosen))}
+    rows = sorted(chosen.items(), key=lambda one: (kinds[family(one[0])[0]], family(one[0])[1] or 0))[:MOST_ROWS]
+    figure: Figure = Figure(figsize=(WIDTH, min(1.2 + 0.16 * len(rows), 11.0)), layout="constrained")
+    ax = figure.subplots()
+    words = list(dict.fromkeys(zone for _, each in rows for *_, zone in each))
+    own = {word: COLOURS[k % len(COLOURS)] for k, word in enumerate(w for w in words if not meaning(w))}
+    hues = {word: HUES.get(meaning(word)) or own[word] for word in words}
+    for k, (_, each) in enumerate(rows):
+        ax.broken_barh([(a, b - a) for a, b, _ in each], (k - 0.45, 0.9), color=[hues[zone] for *_, zone in each])
+    every = max(1, len(rows) // 50)
+    ax.set_yticks(range(0, len(rows), every), [name for name, _ in rows[::every]], fontsize=6 if every > 1 else 7)
+    ax.set_ylim(len(rows) - 0.5, -0.5)
+    ax.set_xlim(*(times if len(times) == 2 else (result.t[0], result.t[-1])))
+    ax.grid(visible=False, axis="y")
+    ax.set_xlabel("time [s]")
+    marks = [ax.barh(-9, 0, color=hues[word], label=word) for word in words]
+    ax.legend(handles=marks, loc="lower left", bbox_to_anchor=(0, 1.0), ncols=min(len(words), 6), borderaxespad=0.2)
+    left = f", first {len(rows)} of {len(chosen)} parts" if len(rows) < len(chosen) else ""
+    figure.suptitle(f"{result.run.get('name', '')}: zones{left}", x=0.01, horizontalalignment="left", parse_math=False)
+    return figure

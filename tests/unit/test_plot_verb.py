@@ -1,0 +1,132 @@
+"""`fairlead plot`: every figure in every format, what is in it, and what is refused by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from fairlead.cli import app
+from fairlead.component.parameters import make
+from fairlead.component.registry import known_types
+from fairlead.errors import UsageError
+from fairlead.report.printed import WHATS, printed
+from fairlead.report.printed.along import profile
+from fairlead.report.printed.ledger import ledger
+from fairlead.report.printed.paper import figure6, prism
+from fairlead.report.printed.zone_chart import spans, zone_chart
+from fairlead.results import Result, RunDirectory, Signal
+
+matplotlib.use("agg")
+BEGINNINGS = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}
+ROUTE = {
+    "line": "line", "route": "route", "layers": ["hose"], "outer": "hose_node", "nodes": 4, "ruck_force": 5.0,
+    "side_wall": None, "places": [0.0, 1.0, 2.0, 3.0],
+    "stations": [{"name": "bend", "type": "Bend", "begin": 1.0, "end": 2.0, "curvature": 1.0, "contact": "outer",
+                  "moves": False}],
+}  # fmt: skip
+
+
+@pytest.fixture
+def result(tmp_path: Path) -> Result:
+    """A line of three elements that moves inboard by 1 m in 2 s; its tension is time plus element."""
+    signals = [Signal(f"line.hose_node[{k}].{q}", u) for q, u in (("x", "m"), ("v", "m/s")) for k in range(4)]
+    signals += [Signal(f"line.core_node[{k}].v", "m/s") for k in range(4)]
+    signals += [Signal(f"line.hose[{k}].tension", "N") for k in range(3)]
+    t = np.linspace(0, 2, 41)
+    columns = [k - t / 2 for k in range(4)] + [t * 0 - 0.5] * 8 + [t + k - 9.0 for k in range(3)]
+    energy = {"supplied": 10.0, "dissipated": 7.0, "stored_change": 2.0, "closure": 0.0}
+    zones = {"family": "line.hose[*]", "zones": ["sound", "beyond"], "elements": [0, 1], "start": [0, 0]}
+    header = {"name": "line", "routes": [ROUTE], "zones": [zones]}
+    run = RunDirectory.create(tmp_path / "run", signals, header)
+    run.append(t, np.column_stack(columns), np.zeros(41))
+    run.event(0.5, "line.hose[1]", "sound", "beyond", "rucks")
+    run.event(1.5, "line.hose[1]", "beyond", "sound", "recovers")
+    run.event(1.0, "line.load[1]", "piece 0", "piece 1", "next")
+    run.finish("finished", {"energy": energy, "lost": {"stop": 0.5}})
+    return Result.open(tmp_path / "run")
+
+
+@pytest.mark.parametrize("what", WHATS)
+@pytest.mark.parametrize("ending", BEGINNINGS)
+def test_every_figure_is_written_in_every_format(result: Result, tmp_path: Path, what: str, ending: str) -> None:
+    file = printed(result, what, tmp_path / "made" / f"{what}{ending}")
+    assert file.read_bytes().startswith(BEGINNINGS[ending])
+
+
+def test_a_profile_has_the_places_and_values_of_its_times(result: Result) -> None:
+    one, other = profile(result, ["line.hose[*].tension"], [0.0, 2.0]).axes[0].lines
+    np.testing.assert_allclose(one.get_data(), [[0.5, 1.5, 2.5], [-9.0, -8.0, -7.0]])
+    np.testing.assert_allclose(other.get_data(), [[-0.5, 0.5, 1.5], [-7.0, -6.0, -5.0]])
+
+
+def test_times_outside_the_run_are_refused(result: Result) -> None:
+    with pytest.raises(UsageError, match="1 to 8 within 0 to 2 s"):
+        profile(result, [], [3.0])
+
+
+def test_spans_fill_the_run_from_its_start_zone(result: Result) -> None:
+    assert spans(result)["line.hose[1]"] == [(0.0, 0.5, "sound"), (0.5, 1.5, "beyond"), (1.5, 2.0, "sound")]
+
+
+def test_pieces_of_tables_are_drawn_on_request_only(result: Result) -> None:
+    assert [one.get_text() for one in zone_chart(result, [], []).axes[0].get_yticklabels()] == ["line.hose[1]"]
+    assert [one.get_text() for one in zone_chart(result, ["*"], []).axes[0].get_yticklabels()] == [
+        "line.hose[1]", "line.load[1]",
+    ]  # fmt: skip
+    with pytest.raises(UsageError, match="changed its zone"):
+        zone_chart(result, ["pad"], [])
+
+
+def test_the_ledger_adds_up(result: Result) -> None:
+    bars = [bar.get_width() for bar in ledger(result).axes[0].patches]
+    assert bars == [10.0, 7.0, 2.0, 0.5, 0.5]  # the last is what nothing accounts for
+
+
+def test_the_prism_of_figure_5_is_that_of_the_law() -> None:
+    """From the forces of the class: T - S over slip, with S the line of transit (docs/physics.md 1)."""
+    from fairlead.analysis.characteristic import characteristic
+
+    curve = {"curve": "hump", "stiction": 0.35, "peak": 0.5, "peak_velocity": 0.1, "coulomb": 0.4}
+    p = make(known_types()["Contact"].members["binding"], form="literal", curve=curve, creep=1e-4)
+    found = characteristic(p, 100.0)
+    branches = {**found.driven, **found.caught, **found.branches}
+    for zone in ("plateau", "ramp_forward"):
+        v, force = branches[zone]
+        v, force = v[np.abs(v) > 1e-6], force[np.abs(v) > 1e-6]
+        assert len(v)
+        np.testing.assert_allclose(prism(p, 100.0, v, 0 * v), force / v - 100.0 * p.mu_n / p.v_n, rtol=1e-9, atol=1e-3)
+    assert prism(p, 100.0, np.array([0.0]), np.array([100.0 * p.mu_s * 1.001])) == 0.0
+
+
+def test_figure_6_marks_the_ruck_where_the_run_has_it(result: Result) -> None:
+    ax = figure6([result], ["mu = 0.60"]).axes[0]
+    assert "rucks" in ax.get_title()
+    assert any("0.5 s" in text.get_text() for text in ax.texts)
+    assert [line.get_label() for line in ax.lines][:2] == ["hose", "bulkhead"]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ([], "what to draw"),
+        (["RUN", "map", "--out", "x.bmp"], "is no figure that can be drawn"),
+        (["RUN", "ledger", "--set", "mu=1"], "a run is over"),
+        (["belt", "map", "--set", "run.stop=0.1 s"], "has no line on a route"),
+    ],
+)
+def test_what_cannot_be_drawn_is_told(result: Result, words: list[str], told: str) -> None:
+    answer = CliRunner().invoke(app, ["plot", *(str(result.path) if word == "RUN" else word for word in words)])
+    assert answer.exit_code == 2
+    assert told in " ".join(answer.output.replace("│", " ").split())
+
+
+@pytest.mark.slow
+def test_the_figures_of_the_paper_are_made(tmp_path: Path) -> None:
+    answer = CliRunner().invoke(app, ["plot", "--paper", "--out", str(tmp_path)])
+    assert answer.exit_code == 0, answer.output
+    names = sorted(file.name for file in tmp_path.iterdir())
+    assert names == [f"figure{k}.{ending}" for k in (3, 5, 6) for ending in ("pdf", "png")]
