@@ -7,6 +7,7 @@ for force in ("8 N", "10 N", "12 N"):
     print(cases.row({"pad.normal_force": force}).figures["peak"])
 """
 
-from fairlead.studies.cases import Cases, Row
+from fairlead.studies.cases.cases import Cases
+from fairlead.studies.cases.row import Row
 
 __all__ = ["Cases", "Row"]

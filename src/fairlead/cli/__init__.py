@@ -25,6 +25,7 @@ from fairlead.cli import (
     run,
     schema,
     statics,
+    sweep,
 )  # fmt: skip
 from fairlead.cli.terminal import echo
 from fairlead.cli.verb import Verb, Verbs
@@ -42,7 +43,7 @@ app = typer.Typer(
 )
 for verb in (
     check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
-    margins.margins, compare.compare, cost.cost, effects.effects, schema.schema, new.new, doctor.doctor,
+    margins.margins, compare.compare, sweep.sweep, cost.cost, effects.effects, schema.schema, new.new, doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)
 

@@ -46,9 +46,23 @@ class Cases:
         self._structures: dict[tuple[str, ...], Model] = {}
 
     @property
+    def name(self) -> str:
+        """The name of the model."""
+        return self.model.netlist.name
+
+    @property
     def units(self) -> dict[str, str]:
         """Unit of each figure by its name."""
         return {figure.name: figure.unit for figure in self.figures}
+
+    def __getstate__(self) -> dict[str, object]:
+        """What a pickle holds: no compiled structure."""
+        return {**vars(self), "_structures": {}}
+
+    @property
+    def limited(self) -> bool:
+        """Whether the netlist has limits."""
+        return bool(self.model.netlist.limits)
 
     def key(self, values: Mapping[str, Value]) -> str:
         """What the case of these values is known by."""

@@ -13,6 +13,7 @@ A figure may also be a Python function that takes the `Result` and returns a num
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -86,8 +87,19 @@ def read_figures(wanted: Mapping[str, str | Function], model: Model) -> tuple[Fi
 
 
 def _function(name: str, function: Function) -> Figure:
-    told = f"{getattr(function, '__module__', '')}:{getattr(function, '__qualname__', repr(function))}"
-    return Figure(name, told, "function", function=function)
+    return Figure(name, _label(function), "function", function=function)
+
+
+def _label(function: Function) -> str:
+    """What a function is known by: its name and its text, where Python has that."""
+    label = getattr(function, "label", None)
+    if isinstance(label, str):
+        return label
+    try:
+        text = inspect.getsource(function)
+    except (OSError, TypeError):
+        text = ""
+    return f"{getattr(function, '__qualname__', type(function).__name__)} {text}"
 
 
 class _Wrong(ValueError):
@@ -228,22 +240,19 @@ def _seconds(text: str) -> float:
 
 
 def default_figures(model: Model) -> dict[str, str]:
-    """What is told when nobody says: extremes of what the netlist records by name, margins, switches, limits."""
+    """What is told when nobody says: extremes of what the netlist records by name, and margins of lines."""
     plotted = [pattern for plot in model.netlist.record.plots for pattern in plot.signals]
     patterns = [one for one in (*model.netlist.record.signals, *plotted) if one.strip("*")]
     patterns = list(dict.fromkeys(patterns)) or list(dict.fromkeys(plotted))
     found: dict[str, str] = {}
     for pattern in patterns[:MOST_DEFAULT]:
         found |= {f"{word}({pattern})": f"{word}({pattern})" for word in ("peak", "lowest")}
-    found["switches"] = "switches()"
     for word in MARGINS:
         try:
             _Known(model).figure(word, f"margin({word})")
         except _Wrong:
             continue
         found[f"margin({word})"] = f"margin({word})"
-    if model.netlist.limits:
-        found["broken"] = "broken()"
     return found
 
 

@@ -1,0 +1,112 @@
+"""A design: which cases there are, by number, without writing them all down.
+
+A design is the product of a grid, a list of cases and a sample; what is absent counts as one. The last name of the grid
+varies fastest, and the sample faster than the grid.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from fairlead.errors import UsageError, listing
+from fairlead.studies.cases.row import Value
+from fairlead.studies.sweeps.distributions import Distribution
+from fairlead.studies.sweeps.sampling import points
+
+MOST_CASES = 1_000_000
+"""Cases of a sweep: a table of so many rows still fits into memory, and 10 ms each are three hours."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Points of distributions, by one of `sampling.KINDS`; `samples` of Morris are trajectories."""
+
+    kind: str
+    samples: int
+    over: Mapping[str, Distribution]
+    seed: int = 0
+    correlations: Mapping[tuple[str, str], float] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """How many cases these are."""
+        d = len(self.over)
+        return self.samples * {"saltelli": d + 2, "morris": d + 1}.get(self.kind, 1)
+
+    def columns(self) -> dict[str, list[str]]:
+        """Values of each name."""
+        shares = points(self.kind, self.samples, list(self.over), self.seed, self.correlations)
+        return {name: law.texts(shares[:, k]) for k, (name, law) in enumerate(self.over.items())}
+
+
+@dataclass(frozen=True)
+class Design:
+    """Cases by number."""
+
+    grid: Mapping[str, Sequence[Value]] = field(default_factory=dict)
+    listed: Sequence[Mapping[str, Value]] = ()
+    sample: Sample | None = None
+
+    @property
+    def count(self) -> int:
+        """How many cases."""
+        listed = max(len(self.listed), 1)
+        return math.prod(map(len, self.grid.values())) * listed * (self.sample.count if self.sample else 1)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all parameters that vary, or are given."""
+        listed = dict.fromkeys(name for one in self.listed for name in one)
+        return list(dict.fromkeys([*self.grid, *listed, *(self.sample.over if self.sample else ())]))
+
+    def refuse(self) -> None:
+        """Raise UsageError for a design without cases, with too many, or with a name in two places."""
+        if not (self.grid or self.listed or self.sample):
+            raise UsageError("A sweep needs something to vary.\n    Give --grid mu=0.2:0.7:0.05, or a file of cases.")
+        if empty := [name for name, values in self.grid.items() if not values]:
+            raise UsageError(f"The grid has no value of {empty[0]}.\n    Give one at least.")
+        if self.count > MOST_CASES:
+            sizes = " x ".join(f"{len(values)} of {name}" for name, values in self.grid.items())
+            said = f"{self.count:.3g} cases" + (f" ({sizes})" if len(self.grid) > 1 else "")
+            way_out = "Take larger steps, fewer parameters, or a sample: --sobol 1024 --over mu='uniform(0.2, 0.7)'."
+            raise UsageError(f"This is a sweep of {said}; at most {MOST_CASES} are taken.\n    {way_out}")
+        listed = {name for one in self.listed for name in one}
+        parts = [set(self.grid), listed, set(self.sample.over if self.sample else ())]
+        twice = (parts[0] & parts[1]) | (parts[0] & parts[2]) | (parts[1] & parts[2])
+        if twice:
+            raise UsageError(f"{listing(sorted(twice))} is given in two ways at once, by grid, list or sample.")
+        if self.sample and (strange := {n for pair in self.sample.correlations for n in pair} - set(self.sample.over)):
+            raise UsageError(f"A correlation names {listing(sorted(strange))}, which has no distribution.")
+
+    def cases(self) -> Iterator[dict[str, Value]]:
+        """All cases in their order."""
+        columns = self.sample.columns() if self.sample else {}
+        samples = self.sample.count if self.sample else 1
+        for number in range(self.count):
+            rest, at = divmod(number, samples)
+            of_sample = {name: texts[at] for name, texts in columns.items()}
+            of_grid: dict[str, Value] = {}
+            for name in reversed([*self.grid]):
+                rest, k = divmod(rest, len(self.grid[name]))
+                of_grid[name] = self.grid[name][k]
+            listed = self.listed[rest] if self.listed else {}
+            yield {**{name: of_grid[name] for name in self.grid}, **listed, **of_sample}
+
+    def corners(self) -> Iterator[dict[str, Value]]:
+        """Few cases in which every end and every word occurs once: what is wrong in a range is wrong in one of them."""
+        columns = self.sample.columns() if self.sample else {}
+        named: dict[str, list[Value]] = {name: _ends(values) for name, values in self.grid.items()}
+        named |= {name: _ends(sorted(set(texts))) for name, texts in columns.items()}
+        first = {name: values[0] for name, values in named.items()}
+        for k in range(max(map(len, named.values()), default=1)):
+            case = {name: values[min(k, len(values) - 1)] for name, values in named.items()}
+            yield {**first, **case, **(self.listed[min(k, len(self.listed) - 1)] if self.listed else {})}
+
+
+MOST_ENDS = 12
+
+
+def _ends(values: Sequence[Value]) -> list[Value]:
+    return [*values] if len(values) <= MOST_ENDS else [values[0], values[-1]]

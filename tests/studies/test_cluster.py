@@ -1,0 +1,129 @@
+"""A scheduler on this machine: its table is that of processes, also when workers die or the scheduler does."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+import fairlead
+from fairlead.cases import Cases
+from fairlead.errors import FairleadError, UsageError
+from fairlead.studies.sweeps.design import Design
+from fairlead.studies.sweeps.sweep import sweep
+from tests.studies.jobs import crash_at_three, job, square
+
+pytest.importorskip("pyarrow", reason="pyarrow is not installed; pip install 'fairlead[cluster]'")
+pytest.importorskip("distributed", reason="dask.distributed is not installed; pip install 'fairlead[cluster]'")
+from fairlead.studies.sweeps.cluster import Cluster
+
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")]
+ROOT = Path(__file__).parents[2]
+TIMES = ["seconds", "loop", "host"]
+
+
+@contextmanager
+def scheduler(workers, *more):
+    """A scheduler with so many worker processes: its address, and the processes."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    address = f"tcp://127.0.0.1:{port}"
+    options = ["--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
+    quiet = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    going = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", *options], **quiet)]
+    command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard"]
+    going += [subprocess.Popen([*command, *(more or ("--no-nanny",))], **quiet) for _ in range(workers)]
+    try:
+        yield address, going
+    finally:
+        for one in reversed(going):
+            one.terminate()
+            one.wait()
+
+
+def plain(frame):
+    return frame.sort_values("key").drop(columns=TIMES).reset_index(drop=True)
+
+
+def at(count, do):
+    """A watch of a sweep that calls `do` once, when so many cases are done."""
+    called = []
+
+    def watch(now):
+        if now.done >= count and not called:
+            called.append(True)
+            do()
+
+    return watch
+
+
+def test_two_of_four_workers_are_killed_and_the_table_is_that_of_processes(tmp_path) -> None:
+    design = Design(grid={"x": [str(k) for k in range(200)], "wait": ["0.02"]})
+    expected = sweep(job(square), design, tmp_path / "here", processes=0)[0].frame()
+    with scheduler(4) as (address, going):
+        kill = at(40, lambda: [one.send_signal(signal.SIGKILL) for one in going[1:3]])
+        made = sweep(job(square), design, tmp_path / "there", computers=lambda one: Cluster(one, address), watch=kill)
+        assert [one.wait() for one in going[1:3]] == [-9, -9]
+    assert plain(made[0].frame()).equals(plain(expected))
+
+
+def test_a_model_travels_with_its_library_and_its_tables(tmp_path) -> None:
+    scene = tmp_path / "scene"
+    scene.mkdir()
+    (scene / "push.csv").write_text("t,f\n0,0\n1,2\n")
+    (scene / "parts.py").write_text(
+        "from fairlead.component import Component, Law, Parameter, Translational\n"
+        "class Stiff(Component):\n"
+        '    """A spring:  tension = stiffness * s."""\n'
+        '    a, b = Translational("one end"), Translational("the other end")\n'
+        '    stiffness = Parameter("N/m", "Tension per stretch.", above=0)\n'
+        "    def law(p, a, b):\n"
+        "        tension = p.stiffness * (b.x - a.x)\n"
+        "        return Law(a=-tension, b=+tension, stored=p.stiffness * (b.x - a.x)**2 / 2)\n"
+    )
+    (scene / "pushed.yaml").write_text(
+        "schema: 1\nname: pushed\ncomponents:\n  wall: {type: Ground}\n  spring: {type: Stiff, stiffness: 100 N/m}\n"
+        "  block: {type: Mass, mass: 1 kg}\n  push: {type: ForceSource, force: {table: {file: push.csv}}}\n"
+        "connections:\n  - [wall.flange, spring.a]\n  - [spring.b, block.flange, push.flange]\nrun: {stop: 1 s}\n"
+    )
+    model = fairlead.load(scene / "pushed.yaml", libraries=[str(scene / "parts.py")])
+    cases = Cases(model, {"end": "end(block.x)"})
+    design = Design(grid={"block.mass": ["1 kg", "2 kg", "3 kg"]})
+    with scheduler(1) as (address, _):
+        made = sweep(cases, design, tmp_path / "there", computers=lambda one: Cluster(one, address))
+    expected = [cases.row(values).figures["end"] for values in design.cases()]
+    assert made[0].frame()["end"].tolist() == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_lost_scheduler_is_a_sentence_and_the_rest_is_computed_later(tmp_path) -> None:
+    design = Design(grid={"x": [str(k) for k in range(300)], "wait": ["0.02"]})
+    with scheduler(2) as (address, going):
+        kill = at(40, lambda: going[0].send_signal(signal.SIGKILL))
+        with pytest.raises(FairleadError, match="gone"):
+            sweep(job(square), design, tmp_path, computers=lambda one: Cluster(one, address), watch=kill)
+    table, standing = sweep(job(square), design, tmp_path, processes=0)
+    assert 40 <= standing.reused < 300
+    assert len(table.frame()) == 300
+
+
+def test_a_case_that_kills_its_workers_is_a_row(tmp_path) -> None:
+    design = Design(grid={"x": [str(k) for k in range(20)]})
+    with scheduler(1, "--nworkers", "2") as (address, _):  # under nannies, which start workers again
+        made = sweep(job(crash_at_three), design, tmp_path, computers=lambda one: Cluster(one, address))
+    frame = made[0].frame()
+    assert frame["case"][frame["status"] == "killed"].tolist() == [3]
+    assert len(frame) == 20
+
+
+def test_nobody_who_answers_is_a_sentence(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("fairlead.studies.sweeps.cluster.TIMEOUT", "1 s")
+    design = Design(grid={"x": ["1"]})
+    with pytest.raises(UsageError, match="nobody answers"):
+        sweep(job(square), design, tmp_path, computers=lambda one: Cluster(one, "tcp://127.0.0.1:9"))
+    with pytest.raises(UsageError, match="no such file"):
+        sweep(job(square), design, tmp_path, computers=lambda one: Cluster(one, "scheduler.json"))
