@@ -134,7 +134,7 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
     assert not wrong, "\n".join(wrong)
 
 
-ROOMS_OF_STUDIES = ("cases", "sweeps")
+ROOMS_OF_STUDIES = ("cases", "sweeps", "pictures")
 """Each imports only those before it."""
 
 

@@ -1,4 +1,4 @@
-"""`fairlead plot`: a figure for print of a run or of a model, and the figures of the source paper."""
+"""`fairlead plot`: a figure for print of a run or of a model, pictures of a sweep, figures of the source paper."""
 
 import enum
 import pathlib
@@ -35,7 +35,7 @@ class What(enum.StrEnum):
 def plot(
     settings: Settings,
     libraries: Libraries,
-    source: Annotated[str, typer.Argument(metavar="RUN|MODEL", help="A folder with results, or a netlist.")] = "",
+    source: Annotated[str, typer.Argument(metavar="RUN|MODEL", help="A folder of a run or sweep, or a netlist.")] = "",
     what: Annotated[What | None, typer.Argument(metavar="WHAT", help="What to draw.")] = None,
     signals: Annotated[
         list[str] | None, typer.Option("--signals", metavar="PATTERN", help="Signals, or parts with zones. Repeatable.")
@@ -49,11 +49,16 @@ def plot(
         typer.Option(metavar="FILE", help="Write here, as PNG, SVG or PDF by its ending. Of --paper: a folder."),
     ] = None,
     paper: Annotated[bool, typer.Option("--paper", help="Make Figures 3, 5 and 6 of the source paper.")] = False,
+    figure: Annotated[str, typer.Option(metavar="NAME", help="Of a sweep: which figure. Default: the first.")] = "",
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Draw signals, a profile, a map, zones, the ledger, friction or work-precision, for print."""
-    if paper:
+    """Draw signals, a profile, a map, zones, the ledger, friction or work-precision, for print; or a sweep."""
+    from fairlead.studies.sweeps.table import is_sweep
+
+    if source and is_sweep(pathlib.Path(source)):
+        written = _of_sweep(pathlib.Path(source), figure, what, out)
+    elif paper:
         written = _paper(out or pathlib.Path("results") / "paper")
     elif not source or what is None:
         raise typer.BadParameter("plot wants a run or a model, and what to draw (or --paper).")
@@ -69,6 +74,19 @@ def plot(
     if not quiet:
         for file in written:
             echo(f"wrote {file}")
+
+
+def _of_sweep(place: pathlib.Path, figure: str, what: What | None, out: pathlib.Path | None) -> list[pathlib.Path]:
+    """All pictures that fit the design of a sweep, in a folder of the figure's name."""
+    from fairlead.studies.pictures.draw import draw, folder_name
+    from fairlead.studies.pictures.rows import Rows
+
+    if what is not None:
+        raise typer.BadParameter(f"{what.value} is of a run; of a sweep everything that fits is drawn (--figure NAME).")
+    rows = Rows.read(place)
+    chosen = rows.figure(figure)
+    folder = place if place.is_dir() else place.parent
+    return draw(rows, chosen, out or folder / "figures" / folder_name(chosen))
 
 
 def _result(source: str, settings: list[str], libraries: list[str]) -> tuple["Result", pathlib.Path]:

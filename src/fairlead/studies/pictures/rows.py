@@ -1,0 +1,68 @@
+"""The rows of a sweep as its pictures want them: those of the design, and which columns are what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fairlead.errors import UsageError, did_you_mean, listing, shown
+from fairlead.studies.cases.row import FINISHED
+from fairlead.studies.sweeps.table import read
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table in memory: all rows of the design, in its order."""
+
+    frame: pandas.DataFrame
+    heading: dict[str, Any]
+
+    @classmethod
+    def read(cls, place: Path) -> Rows:
+        """Raises UsageError where there is no table, or none of its cases has finished."""
+        table, heading = read(place)
+        frame = table.to_pandas()
+        frame = frame[frame["case"] >= 0].sort_values("case", kind="stable").reset_index(drop=True)
+        if not (frame["status"] == FINISHED).any():
+            raise UsageError(f"{shown(str(place))}: no case has finished, so there is nothing to draw.")
+        return cls(frame, heading)
+
+    @property
+    def finished(self) -> pandas.DataFrame:
+        """Rows with figures."""
+        return self.frame[self.frame["status"] == FINISHED]
+
+    @property
+    def numbers(self) -> list[str]:
+        """Parameters with numbers that vary."""
+        texts = set(self.heading["texts"])
+        return [name for name in self.varied if name not in texts]
+
+    @property
+    def words(self) -> list[str]:
+        """Parameters with words that vary."""
+        return [name for name in self.varied if name in set(self.heading["texts"])]
+
+    @property
+    def varied(self) -> list[str]:
+        """Parameters with more than one value."""
+        return [name for name in self.heading["parameters"] if self.frame[name].nunique(dropna=False) > 1]
+
+    def figure(self, name: str) -> str:
+        """The figure of that name; the first one for "". Raises UsageError."""
+        known = [*self.heading["units"]]
+        if not name and known:
+            return known[0]
+        if name not in known:
+            near = did_you_mean(name, known)
+            raise UsageError(f"The sweep has no figure {shown(name)}. {near}\n    There are {listing(known)}.")
+        return name
+
+    def label(self, figure: str) -> str:
+        """A figure with its unit."""
+        unit = self.heading["units"][figure]
+        return figure if unit in ("", "1") else f"{figure} [{unit}]"

@@ -1,0 +1,79 @@
+"""Indices and pictures of a sweep, from its table alone."""
+
+import math
+
+import pytest
+
+from fairlead.errors import UsageError
+from fairlead.studies.sweeps.design import Design, Sample
+from fairlead.studies.sweeps.distributions import read_distribution
+from fairlead.studies.sweeps.sweep import sweep
+from tests.studies.jobs import ishigami, job, square
+
+pytest.importorskip("pyarrow", reason="pyarrow is not installed; pip install 'fairlead[sweep]'")
+from fairlead.studies.pictures.draw import draw
+from fairlead.studies.pictures.indices import morris_indices, sobol_indices
+from fairlead.studies.pictures.rows import Rows
+from fairlead.studies.pictures.tornado import tornado
+
+LAW = read_distribution(f"uniform({-math.pi!r}, {math.pi!r})")
+
+
+def swept(tmp_path, kind, samples):
+    sample = Sample(kind, samples, dict.fromkeys("abc", LAW), seed=1)
+    sweep(job(ishigami, "f"), Design(sample=sample), tmp_path, processes=0)
+    return Rows.read(tmp_path)
+
+
+def test_sobol_indices_of_the_ishigami_function_are_those_of_its_variance(tmp_path) -> None:
+    # V = a^2/8 + b pi^4/5 + b^2 pi^8/18 + 1/2 with a = 7, b = 0.1; Sobol and Levitan (1999), eq. 4
+    whole = 49 / 8 + 0.1 * math.pi**4 / 5 + 0.01 * math.pi**8 / 18 + 0.5
+    alone = 0.5 * (1 + 0.1 * math.pi**4 / 5) ** 2
+    together = 0.01 * math.pi**8 * (1 / 18 - 1 / 50)
+    first, total = (alone, 49 / 8, 0.0), (alone + together, 49 / 8, together)
+    found = sobol_indices(swept(tmp_path, "saltelli", 1024), "f")
+    for index, one, other in zip(found, first, total, strict=True):
+        assert index.first == pytest.approx(one / whole, abs=0.05)  # of 1024 points: 0.03 from seed to seed
+        assert index.total == pytest.approx(other / whole, abs=0.05)
+        assert index.total_interval[0] < other / whole < index.total_interval[1]
+
+
+def test_morris_tells_a_straight_line_exactly(tmp_path) -> None:
+    pytest.importorskip("SALib", reason="SALib is not installed; pip install 'fairlead[sweep]'")
+    over = {"x": read_distribution("uniform(0, 2)"), "y": read_distribution("uniform(0, 5)")}
+    sample = Sample("morris", 6, over)
+    sweep(job(line, "z"), Design(sample=sample), tmp_path, processes=0)
+    x, y = morris_indices(Rows.read(tmp_path), "z")
+    # The elementary effect of 3 x over a range of 2 is 6, of -y over 5 it is 5; 0.99 of the ranges are used.
+    assert x.total == pytest.approx(0.99 * 6, rel=1e-9)
+    assert y.total == pytest.approx(0.99 * 5, rel=1e-9)
+    assert x.first == pytest.approx(0, abs=1e-9)
+
+
+def line(values):
+    return {"z": 3 * values["x"] - values["y"]}
+
+
+def test_a_tornado_averages_over_the_others(tmp_path) -> None:
+    grid = {"x": ["0", "1", "2"], "y": ["0", "10"]}
+    sweep(job(line, "z"), Design(grid=grid), tmp_path, processes=0)
+    wide, narrow = tornado(Rows.read(tmp_path), "z")
+    assert (wide.parameter, wide.low, wide.high, wide.at_low, wide.at_high) == ("y", -7.0, 3.0, "10", "0")
+    assert (narrow.parameter, narrow.width) == ("x", 6.0)
+
+
+def test_pictures_are_those_that_fit_the_design(tmp_path) -> None:
+    sweep(job(line, "z"), Design(grid={"x": ["0", "1"], "y": ["0", "10"]}), tmp_path / "grid", processes=0)
+    drawn = draw(Rows.read(tmp_path / "grid"), "z", tmp_path / "figures")
+    assert [file.stem for file in drawn] == ["response", "heat_map", "tornado", "failures"]
+    drawn = draw(swept(tmp_path / "sample", "saltelli", 8), "f", tmp_path / "others")
+    assert [file.stem for file in drawn] == ["scatter", "tornado", "failures", "indices"]
+    assert all(file.stat().st_size > 5000 for file in drawn)
+
+
+def test_a_sweep_without_a_row_and_an_unknown_figure_are_sentences(tmp_path) -> None:
+    with pytest.raises(UsageError, match="no table"):
+        Rows.read(tmp_path)
+    sweep(job(square), Design(grid={"x": ["1", "2"]}), tmp_path, processes=0)
+    with pytest.raises(UsageError, match="There are y"):
+        Rows.read(tmp_path).figure("z")
