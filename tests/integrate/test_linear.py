@@ -89,7 +89,7 @@ def mechanical_network(rng, bodies, contacts):
 def memory_for(problem, plan, perturbed=0):
     n, core = len(problem.initial), plan.lengths["n_core"]
     lengths = dict.fromkeys([*VECTORS.values(), *INDICES.values()], 1) | {
-        "n": n, "n_plus_1": n + 1, "n_jacobian": len(problem.pattern.rows), **plan.lengths,
+        "n": n, "n_plus_1": n + 1, "three_n": 3 * n, "n_jacobian": len(problem.pattern.rows), **plan.lengths,
         "n_core_plus_1": core + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
         "most_perturbed": perturbed, "perturbed_square": perturbed**2, "perturbed_core": perturbed * core,
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,

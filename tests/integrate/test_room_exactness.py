@@ -115,3 +115,26 @@ def test_a_rate_of_degree_five_is_metered_exactly_to_the_end_of_the_piece(seed, 
     at.number["cut_at"] = theta
     metered()(at, H)
     assert at.array["y_piece"][1] == pytest.approx(5.0 + rate.integ()(theta * H), rel=1e-12)
+
+
+@pytest.mark.parametrize("grows", [-2.0, 0.5, 1.5, 2.5])
+@pytest.mark.parametrize("theta", [0.4, 1.0])
+def test_the_work_of_a_bond_that_grows_within_a_step_is_metered(theta, grows):
+    """A node of 2 kg on a carrier that speeds up by `a`; the bond is 1e9 exp(grows t/H) N s/m, W knows 1e9.
+
+    The carrier pays m a, so in a piece from rest its drive gives m a^2 t^2/2, whatever the bond has become. The dense
+    output shows a speed that is off by 1e-6 m/s inside the step, which is a kilonewton.
+    """
+    a, m = 3.0, 2.0
+
+    def field(t, y):
+        force = 1e9 * np.exp(grows * t / H) * (a * t - y[0])
+        return [force / m, force * a * t]
+
+    at, _kept = equations(np.array([[-1e9 / m, 0.0], [0.0, 0.0]]), field, meters=[1])
+    at.array["y_end"][:], at.array["D"][:2] = [a * H, 77.0], [1e-6, 0.0]
+    at.array["weight"][:] = 1e-6
+    at.number["cut_at"] = theta
+    metered()(at, H)
+    # The rate is a square of time, which the rule gets exactly; the slope that D shows is off by 4e-6 of its size.
+    assert at.array["y_piece"][1] == pytest.approx(m * a**2 * (theta * H) ** 2 / 2, rel=1e-4)

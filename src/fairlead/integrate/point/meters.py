@@ -15,6 +15,10 @@ dense output gives it to five digits and more. So the dense output is moved by i
 
 which takes a stiff unknown to where it goes with the slopes of the others, and others by less than their error. No node
 is an end of the piece, since there the slope of the dense output is rough. Elsewhere the stages do better.
+
+W is of the start of the step. A bond that takes hold of a node grows by several times within a step, and a move by W
+then goes so many times too far, each further off than the one before. So each unknown goes by the secant of its own
+last two moves: exact after one of them where a law is linear in its speed, whatever its strength has become.
 """
 
 from __future__ import annotations
@@ -30,6 +34,10 @@ accuracies after however many steps that all err the same way. The method finds 
 is stiff; at one, such runs would pay for nothing."""
 LITTLE = 0.1
 """What has passed, in the unit of the quadrature, below which the error is no longer measured by it."""
+TURNS = 4
+"""Most moves at a node; after the second the secants have met what is linear in its speed."""
+FURTHEST = 10.0
+"""Times the move by W that a secant may go, where a law is less stiff at the node than at the start of the step."""
 APART = 0.5 * 0.6**0.5
 """Distance of the outer nodes from the middle of the piece, in pieces."""
 
@@ -46,11 +54,12 @@ def meter_piece(m, h):
     y, piece, y_end = reals(point.at_y, n), reals(point.at_y_piece, n), reals(point.at_y_end, n)
     D = reals(point.at_D, 3 * n)
     first, middle, last = reals(point.at_u, n), reals(point.at_v, n), reals(point.at_f, n)
-    rates_inside(problem, point, linear, stepping, theta * (0.5 - APART), h)
+    share = share_of(m.run, point)
+    rates_inside(problem, point, linear, stepping, theta * (0.5 - APART), h, share)
     copy(last, first)
-    rates_inside(problem, point, linear, stepping, theta * 0.5, h)
+    rates_inside(problem, point, linear, stepping, theta * 0.5, h, share)
     copy(last, middle)
-    rates_inside(problem, point, linear, stepping, theta * (0.5 + APART), h)
+    rates_inside(problem, point, linear, stepping, theta * (0.5 + APART), h, share)
     for k in range(n):
         if quadrature[k] == 1:
             size = theta * h / inertia_of(m.linear.matrices, k)
@@ -67,13 +76,13 @@ def meter_piece(m, h):
 
 
 @compiled
-def rates_inside(problem, point, linear, stepping, theta, h):
-    """Into `f`: the rates at theta of the step, of the dense output moved by its residual."""
-    rule = stepping.rule
+def rates_inside(problem, point, linear, stepping, theta, h, share):
+    """Into `f`: the rates at theta of the step, of the dense output moved by its residual until the rates settle."""
     n = problem.n
     y, y_end, D = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n)
     probe = reals(point.at_y_probe, n)
     v, b, f = reals(point.at_x, n), reals(point.at_b, n), reals(point.at_f, n)
+    asked, moved = reals(point.at_residual, n), reals(point.at_error_vector, n)
     holds = indices(stepping.exchange.at_holds, n)
     rest = 1.0 - theta
     interpolate(point, theta, point.at_y_probe)
@@ -82,7 +91,8 @@ def rates_inside(problem, point, linear, stepping, theta, h):
         inner_slope = D[n + k] + 2.0 * theta * D[2 * n + k]
         v[k] = -(y_end[k] - y[k] + (rest - theta) * inner + theta * rest * inner_slope) / h
     field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_y_probe, point.at_f))
-    for _ in range(1 + 3 * rule.locates):  # a parabola is further off than the dense output of `rodas`
+    problem.rhs += 1
+    for turn in range(TURNS):
         copy(f, b)
         add_mass_times(linear.matrices, point.at_x, point.at_b)
         for k in range(n):
@@ -90,9 +100,42 @@ def rates_inside(problem, point, linear, stepping, theta, h):
                 b[k] = 0.0
         solve(linear, point.at_b)
         for k in range(n):
-            probe[k] += b[k]
+            move = b[k] * (secant(asked[k], b[k], moved[k]) if turn > 0 else 1.0)
+            asked[k], moved[k] = b[k], move
+            probe[k] += move
+        copy(f, b)
         field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_y_probe, point.at_f))
-    problem.rhs += 2 + 3 * rule.locates
+        problem.rhs += 1
+        if settled(point, linear.matrices, h, share):
+            break
+
+
+@compiled
+def settled(point, matrices, h, share):
+    """Whether the rates `f` of the quadratures give this step what `b`, those before, do, to a share of a weight."""
+    quadrature, weight = indices(point.at_quadrature, point.n), reals(point.at_weight, point.n)
+    y, f, before = reals(point.at_y_end, point.n), reals(point.at_f, point.n), reals(point.at_b, point.n)
+    for k in range(point.n):
+        if quadrature[k] == 1:
+            change = h * abs(f[k] - before[k]) / inertia_of(matrices, k)
+            if not change <= share * weight[k] * max(LITTLE, abs(y[k])):
+                return False
+    return True
+
+
+@compiled
+def secant(asked, left, moved):
+    """Times the move by W to go: it asked for `asked`, `moved` was made, and it asks for `left` now."""
+    done = asked - left
+    if moved * done <= 0.0:
+        return 1.0
+    return min(moved / done, FURTHEST)
+
+
+@compiled
+def share_of(run, point):
+    """Weights that this step may miss of a quadrature: its share of OFF by time."""
+    return OFF * run.h / (point.t + run.h - run.start)
 
 
 @compiled
@@ -101,7 +144,7 @@ def judge_meters(run, point, recorder):
     error, quadrature = reals(point.at_error_vector, point.n), indices(point.at_quadrature, point.n)
     weight = reals(point.at_weight, point.n)
     y = reals(point.at_y_end, point.n)
-    share = OFF * run.h / (point.t + run.h - run.start)
+    share = share_of(run, point)
     recorder.meters_off = 0
     for k in range(point.n):
         if quadrature[k] == 1 and abs(error[k]) > share * weight[k] * max(LITTLE, abs(y[k])):
