@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tests.hard.attempt import Attempt
 from tests.hard.known import known_failure
+from tests.hard.peers.table import peers_of, with_peers
 from tests.hard.registry import ENGINES, TREATMENTS, Row
 
 Done = Sequence[tuple[Row, Attempt]]
@@ -29,6 +30,7 @@ and with exact hold, robust binding (creep 1e-5 m/s unless the case says otherwi
 make hard                                                # all rows; an interrupted round goes on, at the same commit
 .venv/bin/python -m tests.hard --only tether --table     # rows with a word in their name
 .venv/bin/python -m tests.hard --budget 300              # start nothing new after 300 s
+.venv/bin/python -m tests.hard --peers                   # other tools (extra `bench`), their part of this page alone
 ```
 
 `make hard` writes this page, from rows of one commit. The cases are in `tests/hard/cases`, scenes without a generator
@@ -50,7 +52,9 @@ def write(path: Path, done: Done, left: Sequence[Row]) -> None:
     if len(commits) > 1:
         raise ValueError(f"rows of {', '.join(commits)}: play them all at one commit, with `make hard`")
     parts = [HEAD, _played(done, left), _summary(done), _failures(done), _waiting(left), _cases(done), _made(done)]
-    path.write_text("\n".join(parts), encoding="utf-8")
+    peers = peers_of(path.read_text(encoding="utf-8")) if path.exists() else ""
+    text = "\n".join(parts)
+    path.write_text(with_peers(text, peers) if peers else text, encoding="utf-8")
 
 
 def failures(text: str) -> set[tuple[str, str, str]]:

@@ -19,6 +19,7 @@ from tests.hard.attempt import Attempt
 from tests.hard.kept import Kept, commit, version
 from tests.hard.known import disagreements
 from tests.hard.page import write
+from tests.hard.peers.table import play as play_peers
 from tests.hard.registry import ENGINES, Row, rows
 from tests.hard.worker import Worker
 
@@ -31,6 +32,8 @@ COLOURS = {"ok": "green", "stopped": "yellow", "wrong": "red", "stuck": "red", "
 def main(words: list[str] | None = None) -> int:
     """Play, print, write; the exit code is 0 when just the rows fail that known.py lists, else 1."""
     asked = _options().parse_args(words)
+    if asked.peers:
+        return play_peers(PAGE)
     chosen = [row for row in rows() if not asked.only or _fits(row, asked.only)]
     console, kept, worker = Console(), Kept(asked.kept), Worker()
     status = console.status("")
@@ -80,6 +83,7 @@ def _options() -> argparse.ArgumentParser:
     parser.add_argument("--again", action="store_true", help="play rows again that are known")
     parser.add_argument("--write", action="store_true", help="play nothing, write the page from the rows that are kept")
     parser.add_argument("--table", action="store_true", help="print every row, known ones too")
+    parser.add_argument("--peers", action="store_true", help="play other tools, and write their part of the page alone")
     parser.add_argument("--kept", type=Path, default=KEPT, help="where rows are kept")
     return parser
 

@@ -12,6 +12,9 @@ from tests.hard import page
 from tests.hard.attempt import Attempt
 from tests.hard.kept import Kept, commit, version
 from tests.hard.known import KNOWN, LEFT, MENDED, disagreements, known_failure, left_out
+from tests.hard.peers import table
+from tests.hard.peers.cases import cases
+from tests.hard.peers.played import TOOLS
 from tests.hard.registry import rows
 
 PAGE = Path(__file__).parents[2] / "docs" / "stability.md"
@@ -91,3 +94,23 @@ def test_the_rows_that_the_page_shows_as_failing_are_those_of_the_list():
 
 def test_every_case_says_what_it_is_and_has_an_oracle():
     assert not [row.case.name for row in rows() if not row.case.what or not row.case.oracle]
+
+
+def test_a_page_that_is_made_anew_keeps_the_part_of_other_tools(tmp_path):
+    path, part = tmp_path / "page.md", f"{table.TITLE}\n\n| case | off by 3 m |\n{table.END}"
+    page.write(path, [(ROW, DONE)], ROWS[1:])
+    plain = path.read_text(encoding="utf-8")
+    path.write_text(table.with_peers(plain, part), encoding="utf-8")
+    page.write(path, [(ROW, DONE)], ROWS[1:])
+    text = path.read_text(encoding="utf-8")
+    assert table.peers_of(text) == part
+    assert text.replace(f"{part}\n\n", "") == plain
+    assert page.failures(text) == names([ROW])
+
+
+def test_each_statement_of_a_case_by_hand_is_right_with_scipy():
+    """The zones, forces and order of release that scipy and PathSim are given meet the closed forms."""
+    few = [one for one in cases() if one.name.split()[0] in ("stack", "equal", "belt", "load")]
+    assert len(few) == 5
+    for one in few:
+        assert one.error(TOOLS["scipy"](one)) <= one.within
