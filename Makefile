@@ -20,9 +20,13 @@ help:  ## list these commands
 	@awk -F '[:#]+' '/^[a-z-]+:.*##/ { printf "  make %-11s%s\n", $$1, $$NF }' Makefile
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
-demo: $(VENV)/fairlead.done  ## install, run the single bend, leave a report to look at
+demo: $(VENV)/fairlead.done  ## install, run the single bend with little and much friction, leave a page to look at
 	@echo "The first run on a machine compiles the engine once, which takes up to a minute."
 	$(RUN) -m fairlead run $(MODEL) --report --force --out results/$(MODEL)
+ifeq ($(MODEL),single_bend)
+	$(RUN) -m fairlead run $(MODEL) --set mu=0.6 --report --force --out results/$(MODEL)_mu_0.6
+	$(RUN) -m fairlead report results/$(MODEL)_mu_0.6 results/$(MODEL) --out results/$(MODEL)/report.html
+endif
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
 # Neighbours share runs, so each worker takes a stretch of the tests and steals from the end of another's.

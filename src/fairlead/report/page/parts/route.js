@@ -229,7 +229,7 @@ class RouteView {
     const slides = n => (n.forward || 0) + (n.backward || 0);
     told.push(`on devices ${slides(outer)} contacts slide, ${outer.stuck || 0} stick`);
     if (this.inner.length) told.push(`inside the hose ${slides(inner)} slide, ${inner.stuck || 0} stick`);
-    told.push(layers.ruck ? `${layers.ruck} elements ruck` : "no element rucks");
+    if (this.line.ruck_force) told.push(layers.ruck ? (layers.ruck > 1 ? `${layers.ruck} elements ruck` : "1 element rucks") : "no element rucks");
     if (layers.slack) told.push(`${layers.slack} elements are slack`);
     if (this.values) {
       const row = this.run.row(t); let k = -1, least = Infinity, most = -Infinity, m = -1;
