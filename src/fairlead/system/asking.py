@@ -7,8 +7,7 @@ import ctypes
 import numpy as np
 
 from fairlead.system.driver import callbacks
-from fairlead.system.rest import Booleans, Floats
-from fairlead.system.system import Instance
+from fairlead.system.system import Booleans, Floats, Instance
 
 POINTER = ctypes.c_void_p
 CALLS = {k: ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, *(k + 1) * [POINTER]) for k in (1, 2)}

@@ -16,6 +16,7 @@ from fairlead.system.driver import SPREAD, callbacks
 from fairlead.system.jacobian import jacobian
 from fairlead.system.mass import mass
 from fairlead.system.outputs import signals, stored
+from fairlead.system.program import Pattern
 from fairlead.system.rated_nodes import rated_rows
 from fairlead.system.shares import rows, shares
 from fairlead.system.sharing import guard_inertias, sharing
@@ -29,7 +30,7 @@ from fairlead.system.switching import (
     machine_zones,
     takes_impulse,
 )
-from fairlead.system.system import Pattern, System
+from fairlead.system.system import System
 from fairlead.system.timing import first_pieces, samplers
 from fairlead.system.tolerances import roundings, scales
 from fairlead.system.unknowns import Numbering

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.system.blocks import Block, Floats, Integers, Memory
+from fairlead.system.program import Pattern
 from fairlead.system.rated_nodes import rows_without_rates
 from fairlead.system.shares import Share
-from fairlead.system.system import Pattern
 from fairlead.system.unknowns import Numbering
 
 

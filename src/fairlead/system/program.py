@@ -14,12 +14,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Integers = NDArray[np.int64]
 Floats = NDArray[np.float64]
+
+
+class Pattern(NamedTuple):
+    """Where a sparse matrix has entries, by columns (CSC)."""
+
+    starts: Integers
+    rows: Integers
 
 
 @dataclass

@@ -18,11 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.system.system import Instance, System
+from fairlead.system.system import Booleans, Floats, Instance, System
 
 Integers = NDArray[np.int64]
-Floats = NDArray[np.float64]
-Booleans = NDArray[np.bool_]
 
 STILL = 1e-6
 """A speed below this share of its error weight is that of a contact that holds: rounding."""

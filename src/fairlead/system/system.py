@@ -10,7 +10,7 @@ import functools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from fairlead.system import layout
 from fairlead.system.blocks import Block, Memory, Tables
 from fairlead.system.break_away import least_left
 from fairlead.system.plain_python import CalledController, Known, called_controllers
+from fairlead.system.program import Pattern
 from fairlead.system.rated_nodes import rows_without_rates
 from fairlead.system.recording import OutputSignal, Recording, choose
 from fairlead.system.structure import Structure
@@ -30,14 +31,8 @@ from fairlead.system.working import Bytes, Working, addressed, discrete
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
 EVERYTHING = ("*",)
-
-
-class Pattern(NamedTuple):
-    """Where a sparse matrix has entries, by columns (CSC)."""
-
-    starts: Integers
-    rows: Integers
 
 
 class Asked(Protocol):
