@@ -4,7 +4,7 @@ import ctypes
 
 import numpy as np
 
-from fairlead.system.system import Instance
+from fairlead.system.compiled.system import Instance
 
 
 class Called:

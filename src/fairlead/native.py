@@ -2,7 +2,7 @@
 
     key = digest(source_text, ...)                 everything the code depends on
     native = load_or_compile(key, build)           build() runs on a miss only, and imports the compiler: numba
-                                                   for the integrator, `system/lowering.py` for kernels
+                                                   for the integrator, `kernels/lowering.py` for kernels
     native.address["rhs"]                          C function address, callable through ctypes
 
 numba's own cache watches one file per function and goes stale when a called function in another

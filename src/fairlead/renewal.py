@@ -23,8 +23,8 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.flatten.same_wiring import difference
 from fairlead.netlist.netlist import Netlist
 from fairlead.system.compile import energy_counted
+from fairlead.system.compiled.system import System
 from fairlead.system.refresh import refreshed
-from fairlead.system.system import System
 
 
 class Stages(Protocol):

@@ -41,11 +41,11 @@ from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
 from fairlead.result import Result
 from fairlead.results import MemoryRun, RunDirectory, Signal, Sink
-from fairlead.system.out_of_range import beyond_their_tables
+from fairlead.system.compiled.out_of_range import beyond_their_tables
 
 if TYPE_CHECKING:
-    from fairlead.system.recording import OutputSignal, Recording
-    from fairlead.system.system import System
+    from fairlead.system.arrays.recording import OutputSignal, Recording
+    from fairlead.system.compiled.system import System
 
 SIDES = np.array([0, -1, +1, 2], dtype=np.int8)  # as the results do: ordinary, before an event, after it, inside a step
 MOST_JUMPS_TOLD = 5

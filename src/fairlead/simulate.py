@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from fairlead.netlist.netlist import Netlist
     from fairlead.result import Result
     from fairlead.statics import StaticsOfLines
-    from fairlead.system.system import System
+    from fairlead.system.compiled.system import System
 
 STAGES = ("netlist", "component", "flatten", "system")
 DRAWINGS = ("mermaid", "dot", "svg")

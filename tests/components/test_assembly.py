@@ -5,7 +5,7 @@ import pytest
 
 import fairlead
 from fairlead.netlist.files import bundled_models
-from fairlead.system.build import HOLD_TIME
+from fairlead.system.compiled.build import HOLD_TIME
 from tests.callbacks import Called, differences
 
 SIZES = {"m": 1e-2, "m/s": 0.1, "N": 10.0, "Pa": 1e5}  # of the random states; as large as what moves in these scenes

@@ -268,7 +268,7 @@ def test_parameters_that_random_numbers_do_not_suit_can_be_given():
 
 
 def test_a_derivative_that_is_wrong_in_the_machine_code_is_told(monkeypatch):
-    from fairlead.system import layout
+    from fairlead.kernels import layout
     from fairlead.testing.rig import Rig
 
     ask = Rig.ask

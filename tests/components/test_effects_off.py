@@ -15,7 +15,7 @@ from fairlead.component.base import Composite
 from fairlead.component.registry import bundled
 from fairlead.component.scene import Scene, is_head
 from fairlead.component.values import variant_of
-from fairlead.system.kernels import kernel
+from fairlead.kernels.kernel import kernel
 from fairlead.testing.samples import sample
 
 ON_A_ROUTE = {

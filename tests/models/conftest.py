@@ -3,7 +3,7 @@
 import pytest
 
 from fairlead.integrate import parts
-from fairlead.system import entrained
+from fairlead.system.active import entrained
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import sympy
 from fairlead.component.registry import known_types
 from fairlead.component.trace import trace
 from fairlead.component.values import variant_of
-from fairlead.system import layout
+from fairlead.kernels import layout
 from fairlead.testing.rig import Rig
 from fairlead.testing.samples import families, sample
 

@@ -25,7 +25,7 @@ from fairlead.analysis.timed_run import Timed
 from fairlead.analysis.weights import by_weight
 from fairlead.cli import app
 from fairlead.errors import UsageError
-from fairlead.system.structure import Structure
+from fairlead.kernels.structure import Structure
 
 LIBRARY = '''
     class Direct(Component):

@@ -11,7 +11,7 @@ from fairlead.describe.page import describe
 from fairlead.errors import ModelError, UsageError
 from tests.reference.crank import Follower, crank
 
-WEIGHT = 1e-2  # of a position, in accuracies (system/tolerances.py)
+WEIGHT = 1e-2  # of a position, in accuracies (system/numbering/tolerances.py)
 RADIUS, ROD, MOMENT, MASS = 0.05, 0.2, 0.02, 1.5
 FREE = """
     components:

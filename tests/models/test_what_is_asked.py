@@ -5,7 +5,7 @@ import pytest
 
 import fairlead
 from fairlead.integrate import Run
-from fairlead.system.asking import call
+from fairlead.system.compiled.asking import call
 
 MODELS = {"winch_drive": "*.torque", "single_bend": "line.core[3].tension", "torsion": "*.slip", "sandwich": "*"}
 

@@ -15,12 +15,12 @@ import fairlead
 from fairlead.component.alike import agree
 from fairlead.component.parameters import make
 from fairlead.errors import ModelError
+from fairlead.kernels import layout
 from fairlead.netlist.files import bundled_models
 from fairlead.netlist.load import load
 from fairlead.quantities import NUMBER
-from fairlead.system import layout
-from fairlead.system.context import ADDRESSES
-from fairlead.system.working import CHANGED
+from fairlead.system.arrays.working import CHANGED
+from fairlead.system.compiled.context import ADDRESSES
 
 SEED, SAMPLE = 20261123, 3
 LONG = {"long_deployment", "long_route", "guidance_route", "guidance_route_electric", "guidance_route_ideal",

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fairlead.system.asking import call
+from fairlead.system.compiled.asking import call
 
 MASSES = {"a": 1.0, "b": 2.0, "c": 3.0, "d": 4.0}
 STIFFNESS = {"ab": 100.0, "bc": 200.0, "cd": 300.0}

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, integrate, parts
-from fairlead.system import entrained
-from fairlead.system.answers import answers, laws
-from fairlead.system.asking import call, guards_at
-from fairlead.system.entrained import nothing_entrained
+from fairlead.system.active import entrained
+from fairlead.system.active.answers import answers, laws
+from fairlead.system.active.entrained import nothing_entrained
+from fairlead.system.compiled.asking import call, guards_at
 from tests.models.test_carried import CLASSES, CONTROLLED, SCENE
 
 PAIR = """

@@ -16,8 +16,8 @@ from fairlead.components.route.tow import SeaDrag
 from fairlead.component import Carries, Component, Law, Parameter, Table, Translational, Zones, zone
 from fairlead.component.trace import TraceError, trace
 from fairlead.describe.specimen import specimen
-from fairlead.system.dependence import sums
-from fairlead.system.kernel_text import KernelText
+from fairlead.kernels.dependence import sums
+from fairlead.kernels.text import KernelText
 
 
 @functools.cache

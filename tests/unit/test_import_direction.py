@@ -26,12 +26,14 @@ ALLOWED = {
     "component": {"errors", "quantities", "netlist"},
     "components": {"errors", "quantities", "component"},
     "flatten": {"brief", "errors", "quantities", "netlist", "component", "components"},
-    "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "native", "patterns"},
-    "describe": {"errors", "quantities", "component", "flatten", "system"},
+    "kernels": {"component", "native"},
+    "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "kernels", "native",
+               "patterns"},
+    "describe": {"errors", "quantities", "component", "flatten", "kernels", "system"},
     "integrate": {"errors", "native", "processor"},
     "results": {"brief", "errors", "quantities", "patterns"},
-    "analysis": {"arguments", "brief", "errors", "quantities", "netlist", "component", "flatten", "system", "results",
-                 "patterns", "sealed"},
+    "analysis": {"arguments", "brief", "errors", "quantities", "netlist", "component", "flatten", "kernels", "system",
+                 "results", "patterns", "sealed"},
     "choice": set(),
     "brief": set(),
     "arguments": {"errors", "quantities"},
@@ -134,20 +136,31 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
     assert not wrong, "\n".join(wrong)
 
 
-ROOMS_OF_STUDIES = ("cases", "sweeps", "pictures")
-"""Each imports only those before it."""
+ROOMS_OF = {
+    "system": ("numbering", "arrays", "assembly", "driver", "compiled", "start", "active", "compile", "refresh"),
+    "studies": ("cases", "sweeps", "pictures"),
+}
+"""Stage -> its rooms and the files beside them; each imports only those before it."""
 
 
-def test_rooms_of_studies_import_only_those_before_them() -> None:
+@pytest.mark.parametrize("name", sorted(ROOMS_OF))
+def test_rooms_of_a_stage_import_only_those_before_them(name: str) -> None:
+    rooms = ROOMS_OF[name]
     wrong = [
-        where
+        f"{where}: {room(importer)} imports {room(imported)}"
         for importer, imported, where in import_edges()
-        if stage(importer) == stage(imported) == "studies"
-        and room(importer) in ROOMS_OF_STUDIES
-        and room(imported) in ROOMS_OF_STUDIES
-        and ROOMS_OF_STUDIES.index(room(imported)) > ROOMS_OF_STUDIES.index(room(importer))
+        if stage(importer) == stage(imported) == name
+        and room(importer) in rooms
+        and room(imported) in rooms
+        and rooms.index(room(imported)) > rooms.index(room(importer))
     ]
     assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("name", ["system"])
+def test_every_file_of_a_stage_lies_in_a_room_or_has_its_place(name: str) -> None:
+    known = {*ROOMS_OF[name], ""}
+    assert not {each for each in source_files() if stage(each) == name and room(each) not in known}
 
 
 def test_only_the_command_line_is_built_on_the_command_line() -> None:

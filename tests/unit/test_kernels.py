@@ -231,7 +231,7 @@ def test_a_member_that_joins_a_family_later_does_not_change_what_the_others_depe
 
 
 def test_a_new_netlist_of_known_classes_compiles_nothing(tmp_path, monkeypatch):
-    from fairlead.system import kernels
+    from fairlead.kernels import kernel as kernels
 
     fairlead.load("belt").check()
     monkeypatch.setattr(kernels, "_build", lambda variant, *_: pytest.fail(f"{variant.label} was compiled again"))

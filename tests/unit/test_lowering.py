@@ -9,9 +9,9 @@ import random
 import numpy as np
 import pytest
 
+from fairlead.kernels.lowered_values import INTRINSIC, LIBRARY, LoweringError
+from fairlead.kernels.lowering import lower
 from fairlead.native import Build, load_or_compile
-from fairlead.system.lowered_values import INTRINSIC, LIBRARY, LoweringError
-from fairlead.system.lowering import lower
 
 KINDS = ("int", "I8", "F8", "F8")
 HEAD = "def f(n, whole, x, out):\n"
@@ -427,7 +427,7 @@ def test_constants_of_sympy_are_numbers_in_kernels(both):
     """Once a law with SymPy's pi ended in a traceback."""
     import sympy
 
-    from fairlead.system.kernel_text import _Printer
+    from fairlead.kernels.text import _Printer
 
     text = _Printer().doprint(sympy.pi * sympy.Symbol("x") + sympy.E)
     assert both(f"out[0] = {text.replace('x', 'x[0]')}", x=(2.0,))[1][0] == [2 * math.pi + math.e]

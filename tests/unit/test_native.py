@@ -14,8 +14,8 @@ from fairlead import native
 from fairlead.component.parameters import make
 from fairlead.component.registry import known_types
 from fairlead.component.values import variant_of
-from fairlead.system import layout
-from fairlead.system.kernels import _build
+from fairlead.kernels import layout
+from fairlead.kernels.kernel import _build
 from fairlead.testing.rig import Rig
 
 SPRING = make(known_types()["Spring"], stiffness=100.0)
@@ -164,8 +164,8 @@ with warnings.catch_warnings(record=True) as caught:
     from fairlead.component.parameters import make
     from fairlead.component.registry import load_library
     from fairlead.component.values import variant_of
-    from fairlead.system import layout
-    from fairlead.system.kernels import kernel
+    from fairlead.kernels import layout
+    from fairlead.kernels.kernel import kernel
     from fairlead.testing.rig import Rig
     values = make(load_library("mine.py").Mine)
     rig = Rig([values], [{}])

@@ -10,8 +10,8 @@ import pytest
 from fairlead import native
 from fairlead.cli import health
 from fairlead.errors import UsageError
+from fairlead.kernels.lowering import lower
 from fairlead.processor import processor
-from fairlead.system.lowering import lower
 
 INTEL = pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="names of x86-64 registers")
 WIDE = ("ymm", "zmm", "vfmadd", "vaddsd", "vmulsd")  # instructions that came after SSE2

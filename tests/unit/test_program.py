@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fairlead.system.program import Entries, plan
+from fairlead.system.assembly.program import Entries, plan
 from tests.callbacks import Called, differences
 
 STEP = 1e-6  # of values of order one: rounding and truncation of a central difference are then about 1e-10

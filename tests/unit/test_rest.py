@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fairlead.system.rest import anatomy, at_rest, leaning_on
+from fairlead.system.active.rest import anatomy, at_rest, leaning_on
 
 STACK = """
     components:

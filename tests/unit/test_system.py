@@ -9,7 +9,7 @@ import pytest
 
 import fairlead
 from fairlead.errors import ModelError
-from fairlead.system.determinacy import _unmatched
+from fairlead.system.assembly.determinacy import _unmatched
 
 PINION = """\
 schema: 1

@@ -3,7 +3,7 @@
 import pytest
 
 import fairlead
-from fairlead.system import layout
+from fairlead.kernels import layout
 
 SCENE = """
     components:

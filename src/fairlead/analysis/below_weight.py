@@ -1,11 +1,11 @@
 """Recorded signals that stay below their own error weight during a run: motion smaller than its tolerance.
 
-The engine keeps the error of an unknown below its weight (`system/tolerances.py`), so the course of one that never
-gets as large as that is not resolved. Judged are outputs that are a position, a speed or another unknown, or a sum of
-such of one unit. Of positions the way counts, of all else the largest size. Signals of one family (`line.core[*].v`)
-are judged together, by the one that is largest: where some nodes of a line move, the others may rest. What is zero
-but for rounding is at rest. At a contact that creeps while it sticks, so slow a motion is its creep, which every run
-tells by itself (`creep.py`); nodes of such contacts are left out.
+The engine keeps the error of an unknown below its weight (`system/numbering/tolerances.py`), so the course of one
+that never gets as large as that is not resolved. Judged are outputs that are a position, a speed or another unknown,
+or a sum of such of one unit. Of positions the way counts, of all else the largest size. Signals of one family
+(`line.core[*].v`) are judged together, by the one that is largest: where some nodes of a line move, the others may
+rest. What is zero but for rounding is at rest. At a contact that creeps while it sticks, so slow a motion is its
+creep, which every run tells by itself (`creep.py`); nodes of such contacts are left out.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.results.signal import family
-from fairlead.system.recording import OutputSignal
-from fairlead.system.shares import shares
-from fairlead.system.system import System
+from fairlead.system.arrays.recording import OutputSignal
+from fairlead.system.arrays.shares import shares
+from fairlead.system.compiled.system import System
 
 AT_REST = 1e-6  # of the weight; what is smaller is taken for rounding
 WANTED = 100.0  # sizes of a signal in its weight with the accuracy that is proposed

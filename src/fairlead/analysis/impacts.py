@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.system.system import Instance, System
-from fairlead.system.tolerances import Floats
+from fairlead.system.compiled.system import Instance, System
+from fairlead.system.numbering.tolerances import Floats
 
 MOST_TOLD = 20
 

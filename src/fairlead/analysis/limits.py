@@ -18,7 +18,7 @@ from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si
-from fairlead.system.recording import OutputSignal
+from fairlead.system.arrays.recording import OutputSignal
 
 SENSES = {"above": -1.0, "below": +1.0}
 

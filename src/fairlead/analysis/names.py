@@ -13,8 +13,8 @@ from fairlead.errors import Fault, ModelError
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.patterns import picked
-from fairlead.system.recording import OutputSignal
-from fairlead.system.unknowns import LEDGER
+from fairlead.system.arrays.recording import OutputSignal
+from fairlead.system.numbering.unknowns import LEDGER
 
 
 def unknown_signals(assembly: Assembly) -> list[Fault]:

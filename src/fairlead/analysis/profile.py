@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.system import layout
-from fairlead.system.blocks import Block
-from fairlead.system.system import Instance
+from fairlead.kernels import layout
+from fairlead.system.arrays.blocks import Block
+from fairlead.system.compiled.system import Instance
 
 MOST_NAMED = 8
 CALLS, BATCHES = 10, 7  # per kernel and mode; the quickest batch counts, since others share the machine

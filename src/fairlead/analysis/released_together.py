@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.system.system import System
+from fairlead.system.compiled.system import System
 
 MOST_TOLD, MOST_NAMED = 20, 10
 

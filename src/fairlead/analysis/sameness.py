@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from fairlead.system.kernels import Kernel, write_source
+from fairlead.kernels.kernel import Kernel, write_source
 
 
 def same(one: Any, other: Any) -> bool:

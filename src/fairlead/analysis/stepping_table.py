@@ -17,10 +17,10 @@ from typing import Literal, NamedTuple
 
 from fairlead.component.base import Component, Family
 from fairlead.errors import Fault, Location
+from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
-from fairlead.system.break_away import least_left
-from fairlead.system.system import System
-from fairlead.system.timed_limits import timed_limits
+from fairlead.system.active.timed_limits import timed_limits
+from fairlead.system.compiled.system import System
 
 Way = Literal["inside", "landed", "refused"]
 INSIDE: Way = "inside"

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.stepping_table import few
 from fairlead.component.declare import STRAIN
-from fairlead.system.recording import OutputSignal
-from fairlead.system.system import System
+from fairlead.system.arrays.recording import OutputSignal
+from fairlead.system.compiled.system import System
 
 MOST_NAMED = 10
 INSIDE_OUT = -1.0

@@ -50,9 +50,7 @@ def _framework() -> str:
     tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols trace values "
     tracing += "piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
-    text = "kernels kernel_text kernel_facts dependence held_pairs lowering lowered_values layout structure break_away "
-    text += "flow_rates"
-    files += [here.parent / "system" / f"{name}.py" for name in text.split()]
+    files += sorted((here.parent / "kernels").glob("*.py"))
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 

@@ -3,8 +3,8 @@
     hold(slip)             d(slip)/dt = -slip/tau          ratios of numbers and parameters: a row of M
     hold_position(gap)     0 = J a + (dJ/dt) v + c force   J = d(gap)/dx, which may move: M has nothing of it
 
-The accelerations a of a position row are unknowns of their own (`system/unknowns.py`), so the index is one and M
-stays constant; positions and speeds are brought back to gap = 0 and J v = 0 after every step
+The accelerations a of a position row are unknowns of their own (`system/numbering/unknowns.py`), so the index is one
+and M stays constant; positions and speeds are brought back to gap = 0 and J v = 0 after every step
 (`integrate/position.py`). The force acts on the ports by virtual work,  -force J,  and so does no work.
 
 c = GIVE J (1/m) J' is a compliance far below the accuracy of a result. Where others hold all that the row could move,

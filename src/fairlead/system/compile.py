@@ -2,7 +2,7 @@
 
     system = compile(flat)        kernels -> numbering -> blocks -> program -> context
 
-No symbolic work happens here: kernels are traced once per class (`kernels.py`) and come from a cache.
+No symbolic work happens here: kernels are traced once per class (`kernel.py`) and come from a cache.
 """
 
 from __future__ import annotations
@@ -16,14 +16,10 @@ from fairlead.component.values import Variant
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
-from fairlead.system.blocks import build_blocks
-from fairlead.system.build import HOLD_TIME, build
-from fairlead.system.determinacy import undetermined
-from fairlead.system.initial import starts
-from fairlead.system.kernels import Kernel, kernel
-from fairlead.system.narrowing import Narrowing
-from fairlead.system.ranks import signal_ranks
-from fairlead.system.rated_nodes import (
+from fairlead.kernels.kernel import Kernel, kernel
+from fairlead.system.active.subsystem import Subsystem
+from fairlead.system.arrays.blocks import build_blocks
+from fairlead.system.assembly.algebraic_nodes import (
     geared_groups,
     rated_groups,
     rates_read,
@@ -31,11 +27,15 @@ from fairlead.system.rated_nodes import (
     touching,
     unfit_nodes,
 )
-from fairlead.system.sizes import nominal_faults
-from fairlead.system.start_places import placed, unfit
-from fairlead.system.start_speeds import started
-from fairlead.system.system import System
-from fairlead.system.unknowns import groups_with_rate_forces, number
+from fairlead.system.assembly.determinacy import undetermined
+from fairlead.system.compiled.build import HOLD_TIME, build
+from fairlead.system.compiled.system import System
+from fairlead.system.numbering.initial import starts
+from fairlead.system.numbering.ranks import signal_ranks
+from fairlead.system.numbering.sizes import nominal_faults
+from fairlead.system.numbering.unknowns import groups_with_rate_forces, number
+from fairlead.system.start.places import placed, unfit
+from fairlead.system.start.speeds import started
 
 
 @collected_later
@@ -60,7 +60,7 @@ def compile(flat: FlatModel) -> System:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
     system = started(placed(system, initially), initially)
-    return dataclasses.replace(system, narrows=None if system.kept_positions or rated else Narrowing)
+    return dataclasses.replace(system, narrows=None if system.kept_positions or rated else Subsystem)
 
 
 def _rate(flat: FlatModel, kernels: dict[str, Kernel]) -> tuple[set[int], list[PortRef], list[Fault]]:

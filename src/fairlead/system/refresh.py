@@ -23,21 +23,21 @@ from fairlead.errors import ModelError
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.flatten.same_wiring import on_groups, unlike
-from fairlead.system import layout
-from fairlead.system.blocks import Block, Floats, Integers, Memory, Tables, parameter_of, place_of_input
-from fairlead.system.build import HOLD_TIME, build
-from fairlead.system.context import ADDRESSES
-from fairlead.system.initial import starts
-from fairlead.system.shares import rows, shares
-from fairlead.system.sizes import nominal_faults
-from fairlead.system.start_places import placed
-from fairlead.system.start_speeds import started
-from fairlead.system.switching import kinks, machine_owners, machine_zones
-from fairlead.system.system import System
-from fairlead.system.timing import first_pieces, samplers, time_places
-from fairlead.system.tolerances import scales
-from fairlead.system.unknowns import Numbering, nominal_given
-from fairlead.system.working import set_apart
+from fairlead.kernels import layout
+from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory, Tables, parameter_of, place_of_input
+from fairlead.system.arrays.shares import rows, shares
+from fairlead.system.arrays.switching import kinks, machine_owners, machine_zones
+from fairlead.system.arrays.timing import first_pieces, samplers, time_places
+from fairlead.system.arrays.working import set_apart
+from fairlead.system.compiled.build import HOLD_TIME, build
+from fairlead.system.compiled.context import ADDRESSES
+from fairlead.system.compiled.system import System
+from fairlead.system.numbering.initial import starts
+from fairlead.system.numbering.sizes import nominal_faults
+from fairlead.system.numbering.tolerances import scales
+from fairlead.system.numbering.unknowns import Numbering, nominal_given
+from fairlead.system.start.places import placed
+from fairlead.system.start.speeds import started
 
 
 @collected_later

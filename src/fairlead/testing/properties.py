@@ -20,7 +20,7 @@ from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import OWN, PORT, key
 from fairlead.component.values import parameter
-from fairlead.system import layout
+from fairlead.kernels import layout
 from fairlead.testing.rig import Rig
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 

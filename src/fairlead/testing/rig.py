@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.values import Values, parameter, polynomial, variant_of
-from fairlead.system import layout
-from fairlead.system.blocks import Tables
-from fairlead.system.kernels import kernel, plain
-from fairlead.system.structure import Structure
+from fairlead.kernels import layout
+from fairlead.kernels.kernel import kernel, plain
+from fairlead.kernels.structure import Structure
+from fairlead.system.arrays.blocks import Tables
 
 TAU = 1e-2  # s; the time constant of hold rows, any will do
 FIXED = {

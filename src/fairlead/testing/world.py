@@ -17,7 +17,7 @@ import numpy as np
 from fairlead.component.base import Declared
 from fairlead.component.keys import key
 from fairlead.component.values import Values
-from fairlead.system import layout
+from fairlead.kernels import layout
 from fairlead.testing.rig import Rig
 from fairlead.testing.samples import USUAL
 

@@ -1,0 +1,38 @@
+"""Which guards of a class share a slot: one that bounds a held force never shares one with others.
+
+A slot has one tolerance, one inertia and one role for all zones of its class. The force of a contact is looked ahead
+for by half the time that a slip is (settling.py) and taken from the equations at an instant (arrival.py); a slot that
+is a bound on a force in one zone and a slip in another would be read as a slip in both. So zones leave slots out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy
+
+from fairlead.component.trace import Traced, TracedGuard, TracedZone
+from fairlead.kernels import layout
+
+
+def bounds_what_holds(guard: TracedGuard, zone: TracedZone) -> bool:
+    """True for a guard that reads a force which holds in this zone."""
+    held = {f"own:{unknown}" for unknown in zone.holds}
+    return any(s.name in held for value in guard.values for s in value.free_symbols)
+
+
+def in_slots(traced: Traced) -> Traced:
+    """The class with its guards in slots of one role each; where a zone leaves one out, a guard that never fires."""
+    roles: list[bool] = []
+    return replace(traced, zones={name: _placed(name, zone, roles) for name, zone in traced.zones.items()})
+
+
+def _placed(name: str, zone: TracedZone, roles: list[bool]) -> TracedZone:
+    placed: list[TracedGuard] = []
+    for guard in zone.guards:
+        bounds = bounds_what_holds(guard, zone)
+        while len(placed) < len(roles) and roles[len(placed)] != bounds:
+            placed.append(TracedGuard("", name, guard.unit, [sympy.Float(layout.NOT_IN_FORCE)]))
+        roles += [bounds] * (len(placed) == len(roles))
+        placed.append(guard)
+    return replace(zone, guards=placed)

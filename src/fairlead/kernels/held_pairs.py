@@ -1,0 +1,38 @@
+"""How a contact that holds takes its force from what it holds: asked for when several of them share a load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import sympy
+
+from fairlead.component.keys import key
+from fairlead.component.trace import TracedZone, symbol
+
+
+def held_pairs(zones: Iterable[TracedZone]) -> dict[str, tuple[dict[str, float], float]]:
+    """Per unknown that holds: port -> coefficient of its speed in the slip, and the sense of its force.
+
+    Only if both are numbers, the same in every zone that holds, and the force takes from every port in
+    proportion to that coefficient, so that its power is force times slip: then it is known how several of
+    them share a load (`redundancy.py`).
+    """
+    found: dict[str, list[tuple[dict[str, float], float] | None]] = {}
+    for zone in zones:
+        for unknown, row in zone.holds.items():
+            found.setdefault(unknown, []).append(_held_pair(zone, unknown, row.rates))
+    return {u: all_[0] for u, all_ in found.items() if all_[0] is not None and all(one == all_[0] for one in all_)}
+
+
+def _held_pair(
+    zone: TracedZone, unknown: str, rates: Mapping[str, sympy.Expr]
+) -> tuple[dict[str, float], float] | None:
+    speeds = {key(speed).name: rate for speed, rate in rates.items()}
+    taken = {port: sympy.diff(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
+    taken = {port: value for port, value in taken.items() if value != 0}
+    if taken.keys() != speeds.keys() or not all(v.is_Number for v in (*taken.values(), *speeds.values())):
+        return None
+    senses = {taken[port] / speed for port, speed in speeds.items()}
+    if len(senses) != 1:
+        return None
+    return {port: float(speed) for port, speed in speeds.items()}, float(senses.pop())

@@ -1,0 +1,72 @@
+"""What a run records: outputs chosen by name, and what the callbacks must know of the choice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fairlead.component.declare import CREEP, STRAIN
+from fairlead.kernels import layout
+from fairlead.patterns import picked
+from fairlead.system.arrays.blocks import Block, Integers
+from fairlead.system.arrays.shares import shares
+from fairlead.system.arrays.shown import what_to_ask
+
+WATCHED = (CREEP, STRAIN)
+"""Roles of outputs that every run looks at, whatever is recorded."""
+
+
+@dataclass(frozen=True)
+class OutputSignal:
+    """One recordable output."""
+
+    name: str
+    unit: str
+    doc: str
+    at: int  # position among all outputs, or -1 - position in z
+    role: str = ""  # what it means to the framework, as its Output declares
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What was chosen by name; and all that is recorded: that, then the ledger, creeps and strains."""
+
+    chosen: list[OutputSignal]
+    recorded: list[OutputSignal]
+    selected: Integers
+    """Where what is recorded comes from, see layout.py."""
+    counts: Integers
+    """By mode and block: instances to ask."""
+    late: bool
+    """Whether some of it is known only after the forces."""
+
+    def tell(self, context: Integers) -> None:
+        """Write the choice into a context."""
+        context[layout.N_SELECTED] = len(self.selected)
+        context[layout.SELECTED] = self.selected.ctypes.data
+        context[layout.COUNTS] = self.counts.ctypes.data
+        context[layout.RATES_SHOWN] = int(self.late)
+
+
+def choose(
+    signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], counts: Integers
+) -> Recording:
+    """The signals whose names fit a pattern with * and ?; `counts` of the other modes are those of the System."""
+    known = {s.name: None for s in signals}
+    names = {name for pattern in patterns for name in picked(known, pattern)}
+    chosen = [s for s in signals if s.name in names]
+    hidden = [s for s in signals if (s.role in WATCHED or s.at < 0) and s.name not in names]
+    return recording(chosen, chosen + hidden, blocks, counts)
+
+
+def recording(
+    chosen: list[OutputSignal], recorded: list[OutputSignal], blocks: Sequence[Block], counts: Integers
+) -> Recording:
+    """What the callbacks must know to record this."""
+    selected = np.array([s.at for s in recorded], dtype=np.int64)
+    asked, counts = what_to_ask(blocks, shares(blocks)[0], selected), counts.copy()
+    counts[layout.OUTPUT], late = asked
+    return Recording(chosen, recorded, selected, counts, late)
+

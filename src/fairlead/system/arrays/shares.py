@@ -1,0 +1,55 @@
+"""Which part of the common vectors every block fills, and the rows that tell its kernel so."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from fairlead.kernels import layout
+from fairlead.system.arrays.blocks import Block, Floats, Memory
+
+FIRST_PARTIAL = 1  # the vector of partial derivatives begins with a constant 1
+
+
+class Share(NamedTuple):
+    """Where the numbers of a block begin: four kinds of partial derivatives in one vector, guards, outputs."""
+
+    signals: int
+    flows: int
+    ledger: int
+    mass: int
+    guards: int
+    outputs: int
+
+
+def shares(blocks: Sequence[Block]) -> tuple[list[Share], Share]:
+    """The share of every block, in order; and where the next one would begin."""
+    found = []
+    partials, guards, outputs = FIRST_PARTIAL, 0, 0
+    for block in blocks:
+        s = block.kernel.structure
+        sizes = [block.count * len(pairs) for pairs in (s.d_signals, s.d_flows, s.d_ledger, s.mass)]
+        first, second, third, fourth, partials = (partials + np.cumsum([0, *sizes])).tolist()
+        found.append(Share(first, second, third, fourth, guards, outputs))
+        guards += block.count * s.slots
+        outputs += block.count * len(s.all_outputs)
+    return found, Share(partials, partials, partials, partials, guards, outputs)
+
+
+def rows(blocks: Sequence[Block], shares_: Sequence[Share], end: Share) -> Memory:
+    """The blocks' rows (see `layout.py`), and the vectors that the blocks share."""
+    table = np.zeros((len(blocks), layout.BLOCK), dtype=np.int64)
+    for row, block, share in zip(table, blocks, shares_, strict=True):
+        arrays = (block.parameters, block.in_index, block.in_coef, block.in_offset, block.machines, block.table_base,
+                  block.sig_index, block.flow_index, block.flow_coef, block.ledger_index)  # fmt: skip
+        row[: len(arrays)] = [array.ctypes.data for array in arrays]
+        row[layout.D_SIGNALS : layout.D_SIGNALS + len(share)] = share
+        row[layout.IN_COEF_STEP :] = [_step(a) for a in (block.in_coef, block.in_offset, block.flow_coef)]
+    return {"blocks": table, "partials": np.ones(end.mass), "outputs_all": np.zeros(end.outputs)}
+
+
+def _step(table: Floats) -> int:
+    """Numbers from one instance to the next; 0 where all have the same: the kernel then reads those of the first."""
+    return 0 if bool((table == table[:1]).all()) else int(table.shape[1])

@@ -1,0 +1,150 @@
+"""Tables that lead from a fired guard to the new zone, and the names of guards, machines and zones.
+
+A machine is a position in `zones`: the zone of an instance, or the interval in force of one of its tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from fairlead.system.arrays.blocks import Block, Integers, Memory
+from fairlead.system.arrays.timing import tables
+
+NO_GUARD = (0, 0, 0)
+Named = tuple[str, str]  # name and unit
+
+
+def guards(blocks: Sequence[Block]) -> tuple[list[Named], Memory]:
+    """Name and unit of every guard slot, and the arrays that `switch` follows."""
+    place, machines = [], []
+    to: list[tuple[int, int, int]] = []
+    named: list[Named] = []
+    for block in blocks:
+        first = len(to)
+        to += _targets(block)
+        slots = _slots(block)
+        for i, instance in enumerate(block.instances):
+            zoned = len(block.kernel.structure.zones) > 1
+            for k, (name, unit) in enumerate(slots):
+                place.append((block.machines[i, 0] if zoned else -1, first, len(slots), k))
+                machines.append(block.machines[i, 0])
+                named.append((f"{instance.path} {name}", unit))
+    return named, {
+        "guard_place": np.array(place, dtype=np.int64).reshape(-1, 4),
+        "guard_to": np.array(to, dtype=np.int64).reshape(-1, 3),
+        "guard_machines": np.array(machines, dtype=np.int64),
+    }
+
+
+def _targets(block: Block) -> list[tuple[int, int, int]]:
+    """By zone and slot: the zone it leads to (-1: none), the machine, the step of a table's interval."""
+    s = block.kernel.structure
+    found: list[tuple[int, int, int]] = []
+    for zone in s.zones:
+        known = s.guards[zone]
+        found += [(g["to"], g["machine"], g["step"]) for g in known] + [NO_GUARD] * (s.slots - len(known))
+    return found
+
+
+def _slots(block: Block) -> list[Named]:
+    """Names of the guards that share a slot, in all zones, and their unit."""
+    shared = _sharing(block)
+    return [("/".join(dict.fromkeys(g["name"] for g in slot)), min(g["unit"] for g in slot)) for slot in shared]
+
+
+def _sharing(block: Block) -> list[list[dict[str, Any]]]:
+    """By slot: the guards of all zones that share it."""
+    s = block.kernel.structure
+    guards = s.guards.values()
+    return [[known[k] for known in guards if k < len(known) and known[k]["name"]] for k in range(s.slots)]
+
+
+def holds(blocks: Sequence[Block]) -> tuple[Integers, int]:
+    """(machine, zone that holds) of every hold row, and how many rows hold always."""
+    found, always = [], 0
+    for block in blocks:
+        s = block.kernel.structure
+        for zones in s.holds.values():
+            if len(s.zones) == 1:
+                always += block.count
+            else:
+                found += [(machine, s.zones.index(zone)) for machine in block.machines[:, 0] for zone in zones]
+    return np.array(found, dtype=np.int64).reshape(-1, 2), always
+
+
+def holders(blocks: Sequence[Block], n: int) -> Integers:
+    """The machine whose zone decides whether a row holds, for each of n rows; -1 where none does."""
+    holder = np.full(n, -1, dtype=np.int64)
+    for block in blocks:
+        s = block.kernel.structure
+        if len(s.zones) > 1:
+            for unknown in s.holds:
+                holder[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = block.machines[:, 0]
+    return holder
+
+
+def takes_impulse(blocks: Sequence[Block], n: int) -> Integers:
+    """For each of n rows what it takes where it holds: 0 it never holds, 1 an impulse of rounding, 2 any impulse.
+
+    3 for a relation of positions: any impulse, and it never meets what it keeps.
+    """
+    takes = np.zeros(n, dtype=np.int64)
+    for block in blocks:
+        s = block.kernel.structure
+        for unknown in s.holds:
+            most = 3 if unknown in s.positions else 2 if unknown in s.rigid else 1
+            takes[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = most
+    return takes
+
+
+def limits(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard that bounds the force of its own contact while that holds."""
+    found: list[int] = []
+    for block in blocks:
+        s = block.kernel.structure
+        slots = [max((int(g[k]["limits"]) for g in s.guards.values() if k < len(g)), default=0) for k in range(s.slots)]
+        found += slots * block.count
+    return np.array(found, dtype=np.int64)
+
+
+def kinks(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard that leads from one piece of a continuous table to the next."""
+    smooth = {table.machine for table in tables(blocks) if table.polynomial.is_continuous}
+    found: list[int] = []
+    for block in blocks:
+        slots = [{(g["to"] < 0, g["machine"]) for g in of_slot} for of_slot in _sharing(block)]
+        for row in block.machines:
+            found += [all(leads and row[machine] in smooth for leads, machine in slot) for slot in slots]
+    return np.array(found, dtype=np.int64)
+
+
+def machine_zones(blocks: Sequence[Block], count: int) -> list[Sequence[str]]:
+    """Names of the zones of every machine."""
+    names: list[Sequence[str]] = [()] * count
+    for block in blocks:
+        s = block.kernel.structure
+        if len(s.zones) > 1:
+            for machine in block.machines[:, 0]:
+                names[machine] = s.zones
+    for table in tables(blocks):
+        names[table.machine] = [f"{table.path} {piece}" for piece in range(len(table.polynomial.rows))]
+    return names
+
+
+def machine_owners(blocks: Sequence[Block], count: int) -> list[tuple[Block, int]]:
+    """Block and instance of every machine."""
+    owner = {int(machine): (block, i) for block in blocks for i, row in enumerate(block.machines) for machine in row}
+    return [owner[machine] for machine in range(count)]
+
+
+def machine_kinds(blocks: Sequence[Block], count: int) -> Integers:
+    """A number for every machine, the same for machines at the same place of instances of one class variant."""
+    numbers: dict[tuple[int, int], int] = {}
+    kinds = np.zeros(count, dtype=np.int64)
+    for block in blocks:
+        for place, machines in enumerate(block.machines.T):
+            kinds[machines[machines >= 0]] = numbers.setdefault((block.kernel.address, place), len(numbers))
+    return kinds

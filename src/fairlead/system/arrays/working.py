@@ -1,0 +1,92 @@
+"""The working memory of a System: what its callbacks write to, one array after another in one piece of memory.
+
+Every run has a piece of its own, and everything else is shared: indices, coefficients, tables, plans, code. In the
+piece there are numbers only. Addresses lie apart, in a context and rows of blocks that are made for a piece, so that a
+copy of a piece is the state of the callbacks, whatever piece it is put into.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.kernels import layout
+from fairlead.system.arrays.blocks import Block, Memory
+
+CHANGED = (
+    "z", "w", "zones", "partials", "work", "moving_base", "fixed_done", "outputs_all", "f_rest", "sample_count",
+    "sample_start",     "circle_seen", "circle_still", "circle_nodes", "circle_ratio", "guard_inertia",
+    "rated_known", "rated_root", "rated_mode",
+)  # fmt: skip
+"""Arrays that callbacks write to, by their names in `layout.py`; and the discrete variables of sampled blocks."""
+LINE = 64  # bytes: every array begins a line of the processor's cache
+Bytes = NDArray[np.uint8]
+
+
+class Place(NamedTuple):
+    """Where an array lies in the piece of memory, in bytes, and what it is."""
+
+    at: int
+    shape: tuple[int, ...]
+    kind: np.dtype[Any]
+
+    def of(self, piece: Bytes) -> NDArray[Any]:
+        """The array in a piece."""
+        length = int(np.prod(self.shape, dtype=np.int64))
+        return piece[self.at : self.at + 8 * length].view(self.kind).reshape(self.shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Working:
+    """Where every array lies that a run changes, and what it is at first unless zero."""
+
+    size: int
+    places: dict[str, Place]
+    begin: Memory
+
+    def arrays(self, piece: Bytes) -> Memory:
+        """The arrays in a piece."""
+        return {name: place.of(piece) for name, place in self.places.items()}
+
+    def new(self) -> Bytes:
+        """A piece for one run."""
+        room = np.zeros(self.size + LINE, dtype=np.uint8)
+        skip = -room.ctypes.data % LINE
+        return room[skip : skip + self.size]
+
+
+def discrete(number: int) -> str:
+    """The name of the parameters of a sampled block, of which some are its discrete variables."""
+    return f"parameters {number}"
+
+
+def set_apart(memory: Memory, blocks: list[Block], *, samples: bool) -> Working:
+    """Take what a run changes out of `memory`, and say where it lies; there its first values remain, not to be changed.
+
+    Without `samples` the discrete variables stay where they are: a part of a model samples for the whole.
+    """
+    changed = {name: memory[name] for name in CHANGED}
+    if samples:
+        changed |= {discrete(k): b.parameters for k, b in enumerate(blocks) if b.kernel.structure.period}
+    places, size = {}, 0
+    for name, array in changed.items():
+        places[name] = Place(size, array.shape, array.dtype)
+        size += -(-8 * array.size // LINE) * LINE
+        array.flags.writeable = False
+    return Working(size, places, {name: array for name, array in changed.items() if array.any()})
+
+
+def addressed(memory: Memory, own: Memory, blocks: list[Block]) -> Memory:
+    """Context and rows of blocks for the arrays `own` of a piece; the vectors to keep as long as it is used."""
+    context, rows = memory["context"].copy(), memory["blocks"]
+    for name in CHANGED:
+        context[getattr(layout, name.upper())] = own[name].ctypes.data
+    sampled = [k for k, block in enumerate(blocks) if block.kernel.structure.period]
+    if sampled:
+        rows = rows.copy()
+        rows[sampled, layout.PAR] = [blocks[k].parameters.ctypes.data for k in sampled]
+        context[layout.BLOCKS] = rows.ctypes.data
+    return {"context": context, "blocks": rows}

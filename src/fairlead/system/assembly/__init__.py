@@ -1,0 +1,7 @@
+"""The equations of the whole: how partial derivatives of kernels become df/dy and M, and whether they suffice.
+
+Given blocks and numbering.
+Does  jacobian.py and program.py plan df/dy, mass.py plans M, redundancy.py adds rows for contacts that hold in a
+      circle, algebraic_nodes.py finds nodes without inertia, determinacy.py matches equations with unknowns.
+Says  `Program`, `Pattern`, arrays for the driver; ModelError with the unknowns that nothing determines.
+"""

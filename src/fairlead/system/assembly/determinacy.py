@@ -1,0 +1,304 @@
+"""Whether the equations determine the unknowns: a matching of unknowns with equations, by structure alone.
+
+At a point with its zones frozen the rates of differential unknowns and the values of algebraic ones are to be
+found. Each needs an equation of its own that contains it: a perfect matching in the graph
+
+    differential unknown j -- row i    M_ij may be non-zero in the zones in force
+    algebraic unknown j    -- row i    df_i/dy_j may be non-zero in them
+
+The zones are those a run begins in, the first of each component. An unknown left over, with all that
+alternating paths lead to from it, is the underdetermined part (Dulmage and Mendelsohn 1958), named by its nodes.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Iterator
+
+import networkx as nx
+import numpy as np
+
+from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import INPUT, OWN, PORT, key
+from fairlead.errors import Fault, Location
+from fairlead.flatten.flat_model import FlatModel, Node
+from fairlead.system.arrays.blocks import Block
+from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.numbering.unknowns import Numbering
+
+MOST_NAMED = 4  # nodes or components in one message
+THROUGH = {"translational": "force", "rotational": "torque", "hydraulic": "pressure", "electrical": "voltage"}
+
+
+def undetermined(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> list[Fault]:
+    """Parts of the model that its equations leave open, each with its nodes and a way out."""
+    faults = [*_unknown_speeds(flat, numbering, blocks), *_floating(flat, blocks)]
+    if faults or all(unknown.differential for unknown in numbering.unknowns):
+        return faults
+    parts = _unmatched(_incidence(numbering, blocks, start=True))
+    if not parts:
+        return []
+    always = set().union(*_unmatched(_incidence(numbering, blocks, start=False)))
+    return [_open(flat, numbering, blocks, part, always=bool(part & always)) for part in parts]
+
+
+def _unknown_speeds(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> Iterator[Fault]:
+    """A node held by springs alone has a position and no speed; whoever reads its speed would read nothing."""
+    readers: dict[int, list[PortRef]] = {}
+    holders: dict[int, list[str]] = {}
+    for block in blocks:
+        s = block.kernel.structure
+        holds = any(s.zones[0] in zones for zones in s.holds.values())
+        ports = [one.name for one in map(key, s.inputs) if one.is_speed]
+        for port in (PortRef(instance.path, name) for instance in block.instances for name in ports):
+            index, _, _ = flat.place(port)
+            group = flat.groups[index]
+            if group.free and group.domain.mechanical and index not in numbering.rate:
+                readers.setdefault(flat.node_of[port], []).append(port)
+                holders.setdefault(flat.node_of[port], []).extend([port.instance] if holds else [])
+    for number, ports_ in readers.items():
+        node = flat.nodes[number]
+        if holders[number]:
+            what = f"has no mass and no law determines its {THROUGH[node.domain.name]} while {_hold(holders[number])}"
+        else:
+            what = f"has no mass and no damping, so its speed is not determined; {_and(map(str, ports_))} would read it"
+        joined = len(holders[number]) == len(node.ports) == 2
+        yield Fault(_written(flat, node), f"node {node.name} {what}.", _way_out(node, joined))
+
+
+def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
+    """Parts without any mass that hang on nothing whose motion is known: only their shape is determined."""
+    anchors = [k for k, group in enumerate(flat.groups) if not group.free or group.mass > 0]
+    if len(anchors) == len(flat.groups):
+        return
+    graph = nx.Graph()
+    graph.add_nodes_from(range(len(flat.groups)))
+    for block in blocks:
+        has, moved = block.kernel.variant.type.declaration, _depends_on_motion(block)
+        for instance in block.instances:
+            ports = (PortRef(instance.path, name) for name in has.ports)
+            joined = [flat.place(port)[0] for port in ports if port in flat.node_of]
+            nx.add_path(graph, joined)
+            anchors += joined[:1] if has.states or (len(joined) == 1 and moved) else []
+    held = set(anchors)
+    for groups in nx.connected_components(graph):
+        if not groups & held:
+            nodes = [flat.nodes[number] for k in sorted(groups) for number in flat.groups[k].nodes]
+            what = f"{_named(nodes)} hang together without any mass, and on no fixed or driven point."
+            way_out = "Join one of them to a Ground or a source of motion, or add a Mass."
+            yield Fault(_written(flat, nodes[0]), what, way_out)
+
+
+def _depends_on_motion(block: Block) -> bool:
+    """True when what a component takes in depends on its ports, or on a signal."""
+    uses = [keys for zone in block.kernel.structure.flow_inputs.values() for keys in zone.values()]
+    return any(key(one).kind in (PORT, INPUT) for keys in uses for one in keys)
+
+
+def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[int], *, always: bool) -> Fault:
+    """The fault of one underdetermined part."""
+    groups = [k for k, at in {**numbering.position, **numbering.rate}.items() if part & {at, numbering.balance[k]}]
+    nodes = [flat.nodes[number] for k in groups if not flat.groups[k].mass for number in flat.groups[k].nodes]
+    owners = dict.fromkeys(path for (path, _), at in numbering.own.items() if at in part)
+    near = dict.fromkeys([*owners, *(port.instance for node in nodes for port in node.ports)])
+    while_ = "" if always else _zones_at_start(blocks, set(near))
+    if nodes:
+        what = f"{_named(nodes)} has no mass and no law determines its {THROUGH[nodes[0].domain.name]}{while_}."
+        return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
+    if owners and owners.keys() <= _holding(blocks):
+        what = f"{_hold(owners)} in a closed circle, and {_unequal(blocks, owners)}, so how they share is not known."
+        way_out = "Leave ratios to a Gear or a Rack and write hold(b.v - a.v), or join them into one."
+        return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+    names = [f"{path}.{name}" for (path, name), at in numbering.own.items() if at in part]
+    what = f"{_and(names)}: no equation determines {'it' if len(names) == 1 else 'them'}{while_}."
+    if index := max((_index(block, owners) for block in blocks), default=1) - 1:
+        motion = ("speeds", "positions")[index - 1]
+        what = f"{what[:-1]}: what must be zero reads {motion} and not the unknown, so the index is {index + 1}, not 1."
+        way_out = (
+            "Write hold(slip) for a sum of speeds that stays zero, hold_position(gap) for a relation of positions that "
+            "does, or a stiff spring and a damper for the force."
+        )
+        return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+    way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
+    return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+
+
+def _index(block: Block, owners: Iterable[str]) -> int:
+    """Index of the equations if a law of these asks for motions alone: 2 for speeds, 3 for positions; else 1."""
+    s = block.kernel.structure
+    if not set(owners) & {instance.path for instance in block.instances}:
+        return 1
+    asked = [keys for target, keys in s.flow_inputs[s.zones[0]].items() if key(target).kind == OWN]
+    of_motion = [keys for keys in asked if keys and all(key(one).kind == PORT for one in keys)]
+    return max((2 if any(key(one).is_speed for one in keys) else 3 for keys in of_motion), default=1)
+
+
+def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
+    """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
+    wanted = set(owners)
+    cannot = [i.path for b in blocks if b.kernel.structure.holds.keys() - b.kernel.structure.pairs.keys()
+              for i in b.instances if i.path in wanted]  # fmt: skip
+    return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
+
+
+def _holding(blocks: list[Block]) -> set[str]:
+    """Components that hold in the zone they begin in."""
+    holding: set[str] = set()
+    for block in blocks:
+        s = block.kernel.structure
+        if any(s.zones[0] in zones for zones in s.holds.values()):
+            holding.update(instance.path for instance in block.instances)
+    return holding
+
+
+def _zones_at_start(blocks: list[Block], paths: set[str]) -> str:
+    """The words that say in which zones those of the components that have some begin."""
+    said = []
+    for block in blocks:
+        zones = block.kernel.structure.zones
+        said += [f"{i.path} is {zones[0]}" for i in block.instances if len(zones) > 1 and i.path in paths]
+    return f" while {_and(said)}" if said else ""
+
+
+def _written(flat: FlatModel, node: Node) -> Location:
+    """Where a connection of the node is written, else its first component."""
+    for join in flat.assembly.joins:
+        if join.ports[0] in node.ports:
+            return join.where
+    return flat.assembly.instances[node.ports[0].instance].where
+
+
+def _way_out(node: Node, joined: bool) -> str:
+    if not node.domain.mechanical:
+        return "Connect something there whose law ties it to the rest."
+    body = "a Mass" if node.domain.name == "translational" else "an Inertia"
+    if joined:
+        return f"Add {body} there, join the two contacts into one, or write friction: {{method: binding}}."
+    return f"Add {body} there, or a damper to something that moves freely."
+
+
+def _named(nodes: list[Node]) -> str:
+    names = [node.name for node in nodes[:MOST_NAMED]]
+    return f"node{'s' if len(names) > 1 else ''} {_and(names)}{' and more' if len(nodes) > MOST_NAMED else ''}"
+
+
+def _hold(paths: Iterable[str]) -> str:
+    names = list(dict.fromkeys(paths))
+    return f"{_and(names)} hold{'s' if len(names) == 1 else ''}"
+
+
+def _and(names: Iterable[str]) -> str:
+    *first, last = list(names)[: 2 * MOST_NAMED]
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> list[set[int]]:
+    """Per unknown the rows that may contain it: its rate if it is differential, else itself."""
+    n = numbering.n
+    rows_of: list[set[int]] = [{j} if u.differential else set() for j, u in enumerate(numbering.unknowns)]
+    algebraic = np.array([not u.differential for u in numbering.unknowns])
+    rated = {numbering.rate[index] for index in numbering.rated}
+    for x, v in numbering.pairs:
+        if algebraic[v]:
+            rows_of[v] |= {x, v} if v in rated else {x}
+    for index, a in numbering.accelerated.items():
+        rows_of[a] |= {a, numbering.rate[index]}
+    signals = _Signals(numbering, blocks, algebraic)
+    without = rows_without_rates(blocks, numbering)
+    for block in blocks:
+        s = block.kernel.structure
+        for zone in s.zones[:1] if start else s.zones:
+            for k, target in enumerate(s.targets):
+                for one in s.flow_inputs[zone].get(target, ()):
+                    _enter(rows_of, block, k, s.inputs.index(one), signals)
+        for unknown, j in s.mass:
+            if s.zones[0] in s.holds[unknown] or not start:
+                row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]
+                in_mass = (column < n) & ~np.isin(row, without)
+                for r, c in zip(row[in_mass].tolist(), column[in_mass].tolist(), strict=True):
+                    if not algebraic[c]:
+                        rows_of[c].add(r)
+    for pair in numbering.circles:
+        force = numbering.own[pair.path, pair.unknown]
+        sharing = {force, *(numbering.share[index] for index, _ in pair.ends if index in numbering.share)}
+        for at in sharing:
+            rows_of[at] |= sharing
+    return rows_of
+
+
+def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, signals: _Signals) -> None:
+    """Target k of every instance contains input j."""
+    n, algebraic = signals.n, signals.algebraic
+    for row, z in zip(block.flow_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
+        if row < n:
+            for column in (z,) if z < n else signals.columns(z - n):
+                if algebraic[column]:
+                    rows_of[column].add(row)
+
+
+class _Signals:
+    """Which algebraic unknowns the value of a signal depends on, through other signals too."""
+
+    def __init__(self, numbering: Numbering, blocks: list[Block], algebraic: np.ndarray) -> None:
+        self.n, self.dump, self.algebraic = numbering.n, numbering.dump, algebraic
+        self.blocks = blocks
+        self.known: dict[int, set[int]] = {}
+
+    @functools.cached_property
+    def inputs(self) -> dict[int, list[int]]:
+        """Per signal, the places in z that it reads."""
+        found: dict[int, list[int]] = {}
+        for block in self.blocks:
+            for k, j in block.kernel.structure.d_signals:
+                for signal, z in zip(block.sig_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
+                    if signal != self.dump:
+                        found.setdefault(signal - self.n, []).append(z)
+        return found
+
+    def columns(self, signal: int) -> set[int]:
+        """The unknowns a signal depends on; empty for reactions, zero and time."""
+        if signal not in self.known:
+            self.known[signal] = set()
+            for z in self.inputs.get(signal, ()):
+                self.known[signal] |= ({z} if self.algebraic[z] else set()) if z < self.n else self.columns(z - self.n)
+        return self.known[signal]
+
+
+def _unmatched(rows_of: list[set[int]]) -> list[set[int]]:
+    """Unknowns that a maximum matching leaves over, each with all that alternating paths lead to; disjoint parts."""
+    row_of = {column: column for column, rows in enumerate(rows_of) if column in rows}
+    column_of = dict(row_of)
+    parts: list[set[int]] = []
+    for column in range(len(rows_of)):
+        reached = set() if column in row_of else _augment(column, rows_of, row_of, column_of)
+        if reached:
+            joined = [part for part in parts if part & reached]
+            parts = [part for part in parts if not part & reached] + [reached.union(*joined)]
+    return parts
+
+
+def _augment(column: int, rows_of: list[set[int]], row_of: dict[int, int], column_of: dict[int, int]) -> set[int]:
+    """Match one more unknown along an alternating path (breadth first), or return the unknowns it could reach."""
+    came_from: dict[int, int] = {}  # row -> the unknown it was reached from
+    reached, queue = {column}, [column]
+    for current in queue:
+        for row in rows_of[current] - came_from.keys():
+            came_from[row] = current
+            if row not in column_of:
+                _flip(row, column, came_from, row_of, column_of)
+                return set()
+            if column_of[row] not in reached:
+                reached.add(column_of[row])
+                queue.append(column_of[row])
+    return reached
+
+
+def _flip(row: int, column: int, came_from: dict[int, int], row_of: dict[int, int], column_of: dict[int, int]) -> None:
+    """Give every unknown on the path back to `column` the row it was reached through."""
+    while True:
+        owner = came_from[row]
+        before = row_of.get(owner)
+        row_of[owner], column_of[row] = row, owner
+        if owner == column or before is None:
+            return
+        row = before

@@ -1,0 +1,114 @@
+"""All partial derivatives of the kernels, gathered as rows of the plan that makes them into df/dy.
+
+Rows of the plan are signals by rank, reactions, then the n equations; see `program.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
+from fairlead.system.arrays.shares import Share
+from fairlead.system.assembly.algebraic_nodes import add_rated_entries
+from fairlead.system.assembly.program import Entries, Program, plan
+from fairlead.system.assembly.redundancy import circle_entries
+from fairlead.system.numbering.unknowns import LEDGER, Numbering, reaction_masses
+
+
+def jacobian(
+    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, rated: Memory, more: int
+) -> Program:
+    """Plan of the assembly of df/dy and df/dt, signals eliminated.
+
+    At `more` follow the partials of the circles, then those of the nodes in `rated` (algebraic_nodes.py).
+    """
+    m = numbering.zero - numbering.n
+    entries = circle_entries(numbering, m, more)
+    partials = more + len(numbering.circles) + len(numbering.share)
+    add_rated_entries(entries, rated, m, partials)
+    for block, share in zip(blocks, shares, strict=True):
+        if block.acts:
+            _entries(block, share, numbering, entries, m)
+    _fixed_entries(flat, numbering, entries, m)
+    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials + len(rated["rated_terms"]))
+    return plan(entries, numbering.n, m, level, fixed, list(numbering.ledger.values()))
+
+
+def _fixed(blocks: Sequence[Block], shares: Sequence[Share], count: int) -> NDArray[np.bool_]:
+    """Which partial derivatives never change: those the kernels say, and the constant 1."""
+    fixed = np.zeros(count, dtype=bool)
+    fixed[0] = True
+    for block, share in zip(blocks, shares, strict=True):
+        s = block.kernel.structure
+        parts = (
+            (share.signals, s.d_signals, s.fixed_signals),
+            (share.flows, s.d_flows, s.fixed_flows),
+            (share.ledger, s.d_ledger, s.fixed_ledger),
+        )
+        for first, pairs, which in parts:
+            for e in which:
+                fixed[first + len(pairs) * np.arange(block.count) + e] = True
+    return fixed
+
+
+def _levels(blocks: Sequence[Block], numbering: Numbering, m: int) -> Integers:
+    """Level of every row: signals by rank, then the reactions, then the equations."""
+    level = np.zeros(m + numbering.n, dtype=np.int64)
+    top = 1 + max((rank for block in blocks for rank in block.ranks), default=0)
+    level[len(numbering.signals) : m], level[m:] = top, top + 1
+    for block in blocks:
+        for k in range(len(block.kernel.structure.outputs)):
+            given = block.sig_index[:, k] != numbering.dump
+            level[block.sig_index[given, k] - numbering.n] = np.array(block.ranks)[given]
+    return level
+
+
+def _entries(block: Block, share: Share, numbering: Numbering, entries: Entries, m: int) -> None:
+    """What one block adds."""
+    s, count = block.kernel.structure, np.arange(block.count)
+    kinds = (
+        (s.d_signals, share.signals, "signal"),
+        (s.d_flows, share.flows, "flow"),
+        (s.d_ledger, share.ledger, "ledger"),
+    )
+    for pairs, first, kind in kinds:
+        for e, (k, j) in enumerate(pairs):
+            row, coef = _row(block, numbering, kind, k, m)
+            used = row >= 0
+            partial = first + count * len(pairs) + e
+            entries.add(row[used], block.in_index[used, j], partial[used], (coef * block.in_coef[:, j])[used])
+
+
+def _row(block: Block, numbering: Numbering, kind: str, k: int, m: int) -> tuple[Integers, Floats]:
+    """Rows of the plan that value k of every instance goes to (-1: nowhere), and its coefficient."""
+    one = np.ones(block.count)
+    if kind == "signal":
+        z = block.sig_index[:, k]
+        return np.where(z == numbering.dump, -1, z - numbering.n), one
+    if kind == "ledger":
+        lines = [line for line in LEDGER if line in block.kernel.structure.ledger]
+        place = numbering.ledger.get(lines[k], -1)
+        return np.full(block.count, place + m if place >= 0 else -1), one
+    w = block.flow_index[:, k]
+    row = np.where(w < numbering.n, w + m, w - numbering.n + len(numbering.signals))
+    return np.where(w == numbering.w_dump, -1, row), block.flow_coef[:, k]
+
+
+def _fixed_entries(flat: FlatModel, numbering: Numbering, entries: Entries, m: int) -> None:
+    """Rows x' = v, and the inertia at prescribed nodes; their partial derivative is the constant 1."""
+    pairs = np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2)
+    entries.add(pairs[:, 0] + m, pairs[:, 1], _zeros(len(pairs)), np.ones(len(pairs)))
+    for index, a in numbering.accelerated.items():  # m v' = m a, 0 = forces - m a; (v, v): its speed is no position
+        v, inertia = numbering.rate[index], flat.groups[index].mass
+        entries.add(np.array([v, a, v]) + m, np.array([a, a, v]), _zeros(3), np.array([inertia, -inertia, 0.0]))
+    for row, mass, a in reaction_masses(flat, numbering):
+        entries.add(np.array([len(numbering.signals) + row]), np.array([a]), _zeros(1), np.array([mass]))
+
+
+def _zeros(count: int) -> NDArray[np.int64]:
+    """Position 0 among the partial derivatives, where the constant 1 is."""
+    return np.zeros(count, dtype=np.int64)

@@ -1,0 +1,109 @@
+"""Plans and arrays of a model whose blocks are laid out: the whole of it, or the part of it that moves.
+
+Nothing here knows how the blocks came about; see `compile.py` and `subsystem.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.arrays.blocks import Block, Floats, Tables
+from fairlead.system.arrays.outputs import signals, stored
+from fairlead.system.arrays.shares import rows, shares
+from fairlead.system.arrays.switching import (
+    guards,
+    holders,
+    kinks,
+    limits,
+    machine_kinds,
+    machine_owners,
+    machine_zones,
+    takes_impulse,
+)
+from fairlead.system.arrays.timing import first_pieces, samplers
+from fairlead.system.arrays.working import set_apart
+from fairlead.system.assembly.algebraic_nodes import rated_rows
+from fairlead.system.assembly.jacobian import jacobian
+from fairlead.system.assembly.mass import mass
+from fairlead.system.assembly.program import Pattern
+from fairlead.system.assembly.redundancy import guard_inertias, sharing
+from fairlead.system.compiled.context import context, working_arrays
+from fairlead.system.compiled.system import System
+from fairlead.system.driver.driver import SPREAD, callbacks
+from fairlead.system.numbering.tolerances import roundings, scales
+from fairlead.system.numbering.unknowns import Numbering
+
+HOLD_TIME = 1e-3  # s; a held contact loses a slip left over from rounding with this time constant
+
+
+def build(
+    flat: FlatModel,
+    numbering: Numbering,
+    blocks: list[Block],
+    tables: Tables,
+    machines: Sequence[str],
+    begin: Floats,
+    *,
+    whole: bool = True,
+) -> System:
+    """The System of these blocks; `machines` says whose every position in `zones` is, `begin` [n] the start.
+
+    A part of a model (not `whole`) has its weights and its samples from the whole, and no outputs of its own.
+    """
+    shared, end = shares(blocks)
+    rated = rated_rows(flat, numbering, blocks)
+    program = jacobian(flat, blocks, shared, numbering, rated, end.mass)
+    mass_pattern, memory = mass(blocks, shared, numbering)
+    slots, switches = guards(blocks)
+    memory |= switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
+    memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
+    memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
+    memory["partials"] = np.concatenate([memory["partials"], np.zeros(len(rated["rated_terms"]))])
+    memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
+    memory["context"] = context(blocks, numbering, program, memory, end.mass)
+    timed = first_pieces(blocks, memory["zones"])
+    working = set_apart(memory, blocks, samples=whole)
+    unknowns, run = numbering.unknowns, flat.assembly.netlist.run
+    return System(
+        flat=flat,
+        numbering=numbering,
+        blocks=blocks,
+        tables=tables,
+        callbacks={name: at for name, at in callbacks().address.items() if name != SPREAD},
+        initial=begin,
+        pattern=Pattern(program.starts, program.rows),
+        timed=program.timed,
+        mass_pattern=mass_pattern,
+        zones=memory["zones"],
+        differential=np.array([u.differential for u in unknowns], dtype=bool),
+        quadrature=np.array([u.kind == "ledger" for u in unknowns], dtype=bool),
+        stiff=np.array([u.kind == "state" for u in unknowns], dtype=bool),
+        accuracy=run.accuracy,
+        start=run.start,
+        scales=scales(flat, numbering, roundings([unit for _, unit in slots])) if whole else None,
+        guard_machine=memory["guard_machines"],
+        guard_inertia=memory["guard_inertia"],
+        holder=holders(blocks, numbering.n),
+        takes_impulse=takes_impulse(blocks, numbering.n),
+        limit_guard=limits(blocks),
+        kink_guard=kinks(blocks),
+        linear=all(_is_linear(block, numbering) for block in blocks),
+        machine_names=list(machines),
+        machine_kind=machine_kinds(blocks, len(machines)),
+        guard_names=[name for name, _ in slots],
+        machine_zones=machine_zones(blocks, len(machines)),
+        machine_guards=machine_owners(blocks, len(machines)),
+        signals=signals(flat, blocks, shared, numbering) if whole else [],
+        memory=memory,
+        working=working,
+        timed_tables=timed,
+    )
+
+
+def _is_linear(block: Block, numbering: Numbering) -> bool:
+    """True if flows, and outputs that something reads, are linear in the unknowns as long as the zones are frozen."""
+    read = (block.sig_index != numbering.dump).any(axis=0)
+    return block.kernel.structure.linear and not any(read[k] for k in block.kernel.structure.curved)

@@ -1,0 +1,118 @@
+"""The context: sizes, and the addresses of all arrays, in the one vector that every callback gets.
+
+What a run changes (working.py) and what it records (recording.py) has other addresses in every run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.kernels import layout
+from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory, Tables
+from fairlead.system.arrays.switching import holds
+from fairlead.system.arrays.timing import time_places
+from fairlead.system.assembly.program import Program
+from fairlead.system.numbering.unknowns import Numbering, reaction_masses
+
+# Positions of the context that hold the address of the array of that name, in lower case, in memory; there is one for
+# each name in `working.CHANGED` too.
+ADDRESSES = (
+    "TABLES", "KERNELS", "BLOCKS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS", "REACTION_A", "PROGRAM",
+    "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "HOLDS", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
+    "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
+    "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
+    "ACCELERATED", "ACCELERATED_MASS", "RATED", "RATED_JOINS", "RATED_MEMBERS", "RATED_WEIGHTS", "RATED_TERMS",
+)  # fmt: skip
+# Positions that hold how many rows an array has.
+COUNTED = {
+    "N_REACTIONS": "reaction_mass", "N_BLOCKS": "kernels", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
+    "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
+    "N_HOLDS": "holds", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
+    "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
+    "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
+    "N_RATED": "rated", "N_RATED_JOINS": "rated_joins", "N_RATED_TERMS": "rated_terms",
+}  # fmt: skip
+
+
+def working_arrays(
+    flat: FlatModel, blocks: Sequence[Block], numbering: Numbering, tables: Tables, machines: int, program: Program
+) -> Memory:
+    """What the driver reads and writes, beside what belongs to the mass matrix, guards, samples and outputs."""
+    reactions = reaction_masses(flat, numbering)
+    return {
+        "z": np.zeros(numbering.dump + 1 + numbering.resting), "w": np.zeros(numbering.w_dump + 1),
+        "f_rest": np.zeros(numbering.w_dump + 1),
+        "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
+        "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
+        "counts": _counts(blocks), "schedule": _schedule(blocks, numbering),
+        "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2),
+        "inverse_mass": _inverse_mass(flat, numbering),
+        "accelerated": np.array([(numbering.rate[k], a) for k, a in numbering.accelerated.items()],
+                                dtype=np.int64).reshape(-1, 2),
+        "accelerated_mass": np.array([flat.groups[k].mass for k in numbering.accelerated], dtype=float),
+        "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
+        "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
+        "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),
+        "program": program.steps, "program_coef": program.coef, "fixed": program.fixed,
+        "fixed_coef": program.fixed_coef, "moving": program.moving, "moving_base": np.zeros(len(program.moving)),
+        "fixed_done": np.zeros(1, dtype=np.int64),
+        "holds": holds(blocks)[0], "time_place": time_places(blocks),
+    }  # fmt: skip
+
+
+def context(
+    blocks: Sequence[Block], numbering: Numbering, program: Program, memory: Memory, circle_at: int
+) -> Integers:
+    """The vector itself, in the order of `layout.py`."""
+    sizes = {name: len(memory[array]) for name, array in COUNTED.items()} | {
+        "N": numbering.n, "N_SIGNALS": len(numbering.signals), "N_JACOBIAN": len(program.rows),
+        "N_WORK": program.length, "N_PROGRAM_FORCES": program.forces[0],
+        "N_MOVING_FORCES": program.forces[1], "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
+        "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
+        "CIRCLE_AT": circle_at, "RATED_AT": circle_at + len(numbering.circles) + len(numbering.share),
+        "REACTIONS_READ": int(bool(len(memory["circle_pairs"])) or any(_reads_reactions(b, numbering) for b in blocks)),
+        "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),
+    }  # fmt: skip
+    vector = np.zeros(layout.CONTEXT, dtype=np.int64)
+    for name, value in sizes.items():
+        vector[getattr(layout, name)] = value
+    for name in ADDRESSES:
+        vector[getattr(layout, name)] = memory[name.lower()].ctypes.data
+    return vector
+
+
+def _reads_reactions(block: Block, numbering: Numbering) -> bool:
+    return bool(((block.in_index >= numbering.first_reaction) & (block.in_index < numbering.zero)).any())
+
+
+def _inverse_mass(flat: FlatModel, numbering: Numbering) -> Floats:
+    """1/M of the rows with mass, else 0."""
+    inverse = np.zeros(numbering.n)
+    for index, row in numbering.rate.items():
+        if flat.groups[index].mass > 0:
+            inverse[row] = 1 / flat.groups[index].mass
+    return inverse
+
+
+def _counts(blocks: Sequence[Block]) -> Integers:
+    """How many instances of every block to ask, by mode; none whose kernel has no answer. Outputs: see `shown.py`."""
+    counts = np.zeros((layout.MODES, len(blocks)), dtype=np.int64)
+    for k, block in enumerate(blocks):
+        for mode in block.kernel.structure.modes:
+            if mode != layout.OUTPUT and (block.acts or mode == layout.GUARD):
+                counts[mode, k] = block.count
+    return counts
+
+
+def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:
+    """Calls that compute signals: runs of equal rank inside every block that gives any, by rank."""
+    calls = []
+    for place, block in enumerate(blocks):
+        if not block.sig_index.size or (block.sig_index == numbering.dump).all():
+            continue
+        ranks = np.array(block.ranks)
+        calls += [(rank, place, *np.searchsorted(ranks, [rank, rank + 1])) for rank in np.unique(ranks)]
+    return np.array([call[1:] for call in sorted(calls)], dtype=np.int64).reshape(-1, 3)

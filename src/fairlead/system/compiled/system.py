@@ -1,0 +1,352 @@
+"""The compiled model: everything an engine asks for, by the shape of `integrate.problem.Problem`.
+
+    System      compiled once: structure, plans, code; frozen, and shared by all runs and threads
+    Instance    a System in one run: working memory of its own, weights, what is recorded
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.kernels import layout
+from fairlead.kernels.break_away import least_left
+from fairlead.kernels.structure import Structure
+from fairlead.system.arrays.blocks import Block, Memory, Tables
+from fairlead.system.arrays.plain_python import CalledController, Known, called_controllers
+from fairlead.system.arrays.recording import OutputSignal, Recording, choose
+from fairlead.system.arrays.timing import PlacedTable
+from fairlead.system.arrays.working import Bytes, Working, addressed, discrete
+from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.assembly.program import Pattern
+from fairlead.system.numbering.tolerances import Scales, Weights
+from fairlead.system.numbering.unknowns import Numbering
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
+EVERYTHING = ("*",)
+
+
+class Asked(Protocol):
+    """What a run says of itself, see `integrate.problem.Run`; None: as the netlist says."""
+
+    @property
+    def accuracy(self) -> float | None:
+        """Relative accuracy."""
+
+    @property
+    def start(self) -> float:
+        """Time of the start, s."""
+
+    @property
+    def record(self) -> Sequence[str] | None:
+        """Names of what to record, with * and ?; None: everything."""
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """A model as flat arrays and addresses of compiled callbacks; nothing in it is changed by a run."""
+
+    flat: FlatModel
+    numbering: Numbering
+    blocks: list[Block]
+    tables: Tables
+    callbacks: dict[str, int]
+    initial: Floats
+    pattern: Pattern
+    timed: NDArray[np.bool_]  # rows of f that depend on time
+    mass_pattern: Pattern
+    zones: Integers  # at the start, but for what is given in time
+    differential: NDArray[np.bool_]
+    quadrature: NDArray[np.bool_]
+    stiff: NDArray[np.bool_]  # states inside components, as a bristle: some follow what drives them within a step
+    accuracy: float  # of a run that does not say
+    start: float  # likewise, s
+    scales: Scales | None  # None for a part, whose weights are those of the whole
+    guard_machine: Integers
+    guard_inertia: Floats  # at the start
+    holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
+    takes_impulse: Integers  # per row: 0 it never holds, 1 it takes no impulse but rounding, 2 it takes any
+    limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
+    kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
+    linear: bool  # f is linear in the unknowns as long as the zones are frozen
+    machine_names: Sequence[str]
+    machine_kind: Integers  # per machine: equal for the same place in instances of one class variant
+    guard_names: Sequence[str]
+    machine_zones: list[Sequence[str]]
+    machine_guards: list[Any]  # per machine: the block and the instance it belongs to
+    signals: list[OutputSignal]
+    memory: Memory = field(repr=False)  # arrays that code reads; those that a run changes as they are at first
+    working: Working = field(repr=False)
+    timed_tables: list[PlacedTable] = field(repr=False)  # what is given in time
+    narrows: Callable[[Any], Any] | None = field(default=None, repr=False)  # see subsystem.py; None for a part
+
+    @property
+    def n(self) -> int:
+        """How many unknowns."""
+        return len(self.initial)
+
+    @property
+    def n_guards(self) -> int:
+        """How many guard slots."""
+        return len(self.guard_machine)
+
+    @property
+    def room(self) -> int:
+        """Bytes that a run changes."""
+        return self.working.size
+
+    @property
+    def unknown_names(self) -> list[str]:
+        """Names of the unknowns, in order."""
+        return [unknown.name for unknown in self.numbering.unknowns]
+
+    @property
+    def beyond_row(self) -> Integers:
+        """Machines of contacts that may close a circle: a switch changes more than their own row."""
+        machines = np.unique(self.memory["circle_pairs"][:, 5])
+        return machines[machines >= 0]
+
+    @property
+    def share_rows(self) -> Integers:
+        """Rows that say how contacts in circles share what they hold."""
+        return np.array(list(self.numbering.share.values()), dtype=np.int64)
+
+    def zone_names(self, machine: int) -> Sequence[str]:
+        """Names of the zones of one machine."""
+        return self.machine_zones[machine]
+
+    def guard_name(self, guard: int, machine: int, before: int) -> str:
+        """Name of the guard that fired, given the zone it left."""
+        if guard < 0:
+            return "time"
+        first = int(self.memory["guard_machines"][guard])
+        slot = int(self.memory["guard_place"][guard, 3])
+        block, _ = self.machine_guards[first]
+        s = block.kernel.structure
+        zone = s.zones[before] if machine == first and len(s.zones) > 1 and before < len(s.zones) else None
+        named = s.guards[zone] if zone else next((g for g in s.guards.values() if slot < len(g)), [])
+        return named[slot]["name"] if slot < len(named) else ""
+
+    @property
+    def gauge(self) -> NDArray[np.bool_]:
+        """[n]: unknowns that only differ by what is said of one of them, which is chance: how circles share a load.
+
+        Accelerations too: the error of what they move counts, not their own.
+        """
+        return np.array([unknown.kind in ("share", "acceleration") for unknown in self.numbering.unknowns], dtype=bool)
+
+    @property
+    def uneven(self) -> list[str]:
+        """Contacts that hold between a node with inertia and one without, by name."""
+        in_mass = np.zeros(self.n, dtype=bool)
+        in_mass[self.mass_pattern.rows] = True
+        return sorted({self.machine_names[m] for m in self.holder[(self.holder >= 0) & ~in_mass]})
+
+    @property
+    def undeclared(self) -> list[str]:
+        """What passes power and says nothing of its energy, by name."""
+        return [i.path for block in self.blocks if block.kernel.structure.silent for i in block.instances]
+
+    @property
+    def rigid_stops(self) -> list[str]:
+        """What is met at a place and then takes any impulse, by name."""
+        return [i.path for block in self.blocks if _meets_rigidly(block.kernel.structure) for i in block.instances]
+
+    @property
+    def kept_positions(self) -> list[str]:
+        """What keeps a relation of positions, by name."""
+        return [i.path for block in self.blocks if block.kernel.structure.positions for i in block.instances]
+
+    @functools.cached_property
+    def moves(self) -> Integers:
+        """[k, 3]: position, speed, acceleration (-1: no unknown), where relations of positions are kept; else none."""
+        accelerations = {self.numbering.rate[k]: a for k, a in self.numbering.accelerated.items()}
+        pairs = self.numbering.pairs if accelerations else []
+        rows = [(x, v, accelerations.get(v, -1)) for x, v in pairs if self.differential[v]]
+        return np.array(rows, dtype=np.int64).reshape(-1, 3)
+
+    @functools.cached_property
+    def balanced(self) -> Integers:
+        """[k, 2]: position and speed of nodes without inertia whose balances have their rates beside them."""
+        rows = [(self.numbering.position[k], self.numbering.rate[k]) for k in self.numbering.rated]
+        return np.array(rows, dtype=np.int64).reshape(-1, 2)
+
+    @property
+    def without_inertia(self) -> list[str]:
+        """Parts that hold such nodes, by name."""
+        rows, found = rows_without_rates(self.blocks, self.numbering), []
+        for block in self.blocks:
+            s = block.kernel.structure
+            for unknown in s.holds:
+                own = block.flow_index[:, s.targets.index(f"own:{unknown}")]
+                found += [i.path for i, row in zip(block.instances, own, strict=True) if row in rows]
+        return found
+
+    @functools.cached_property
+    def rebound(self) -> Floats:
+        """Coefficient of restitution of every row that takes any impulse, 0 for others."""
+        found = np.zeros(self.n)
+        for block in self.blocks:
+            s = block.kernel.structure
+            for unknown, (place, number) in s.rebounds.items():
+                rows = block.flow_index[:, s.targets.index(f"own:{unknown}")]
+                found[rows] = number if place < 0 else block.parameters[:, place]
+        return found
+
+    @property
+    def longest_step(self) -> float:
+        """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it."""
+        fastest = 0.0
+        for block in self.blocks:
+            for amplitude, omega in block.kernel.structure.sines:
+                swings = block.parameters[:, amplitude] != 0
+                fastest = max(fastest, np.abs(block.parameters[swings, omega]).max(initial=0.0))
+        return math.pi / (4 * fastest) if fastest else math.inf
+
+    @property
+    def ledger(self) -> tuple[int, int]:
+        """The unknowns in which what is dissipated and what is supplied add up; -1 where there is no ledger."""
+        ledger = self.numbering.ledger
+        return ledger.get("dissipated", -1), ledger.get("supplied", -1)
+
+    @property
+    def least_left(self) -> float:
+        """The least share of friction that a contact is left with when it lets go; 1 where none falls with a jump."""
+        found = (
+            least_left(block.kernel.structure.shares_left, values)
+            for block in self.blocks if block.kernel.structure.shares_left
+            for values in {id(instance.values): instance.values for instance in block.instances}.values()
+        )  # fmt: skip
+        return min(found, default=1.0)
+
+    @functools.cached_property
+    def falls(self) -> Integers:
+        """By machine: 1 where friction falls with a jump as the contact lets go."""
+        fell: dict[tuple[int, int], int] = {}
+        found = np.zeros(len(self.zones), dtype=np.int64)
+        for block in self.blocks:
+            shares = block.kernel.structure.shares_left
+            for instance, machines in zip(block.instances, block.machines, strict=True) if shares else ():
+                key = id(shares), id(instance.values)
+                if key not in fell:
+                    fell[key] = int(least_left(shares, instance.values) < 1)
+                found[machines[0]] = fell[key]
+        return found
+
+    @property
+    def samples(self) -> bool:
+        """True if controllers take samples of signals."""
+        return bool(len(self.memory["sampled"]))
+
+    def recording(self, patterns: Sequence[str]) -> Recording:
+        """Choose what is recorded, by names with * and ?; the ledger and the creep of every contact are, too."""
+        return self._recording(tuple(patterns))
+
+    @functools.cached_property
+    def _recording(self) -> Callable[[tuple[str, ...]], Recording]:
+        counts = self.memory["counts"]
+        return functools.lru_cache(maxsize=8)(lambda names: choose(self.signals, names, self.blocks, counts))
+
+    def instance(self, run: Asked | None = None, piece: Bytes | None = None) -> Instance:
+        """This System for one run, with memory of its own; in `piece`, `working.size` bytes of zeros, if given."""
+        assert self.scales is not None, "a part has the weights of the whole"
+        accuracy = self.accuracy if run is None or run.accuracy is None else run.accuracy
+        names = EVERYTHING if run is None or run.record is None else run.record
+        piece = self.working.new() if piece is None else piece
+        made = begun(self, self.scales.weights(accuracy), self.recording(names), piece)
+        start = self.start if run is None else run.start
+        for table in self.timed_tables:
+            made.zones[table.machine] = table.polynomial.piece_at(start)
+        made.memory["sample_start"][0] = start
+        return made
+
+    def __str__(self) -> str:
+        unknowns = self.numbering.unknowns
+        algebraic = sum(not u.differential for u in unknowns)
+        lines = [
+            f"{self.n} unknowns, {algebraic} of them algebraic; {len(self.pattern.rows)} entries in df/dy; "
+            f"{len(self.zones)} machines with zones; {self.n_guards} guard slots; "
+            f"{len(self.blocks)} kernels",
+        ]
+        lines += [f"  kernel {b.kernel.variant.label}: {b.count} instances" for b in self.blocks]
+        lines += [f"  unknown {u.name} [{u.unit}] {'' if u.differential else 'algebraic'}".rstrip() for u in unknowns]
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True, eq=False)
+class Instance(System):
+    """A System in one run. Its callbacks change what lies in `piece`, and its controllers, and nothing else."""
+
+    of: System = field(kw_only=True, repr=False)
+    piece: Bytes = field(kw_only=True, repr=False)
+    context: int = field(kw_only=True)
+    absolute: Floats = field(kw_only=True)
+    relative: Floats = field(kw_only=True)
+    cap: Floats = field(kw_only=True)
+    guard_tolerance: Floats = field(kw_only=True)
+    record: Recording = field(kw_only=True, repr=False)
+    controllers: list[CalledController] = field(kw_only=True, repr=False)
+
+    @property
+    def recorded(self) -> list[OutputSignal]:
+        """What is recorded, in order."""
+        return self.record.recorded
+
+    @property
+    def n_outputs(self) -> int:
+        """Recorded outputs, and the stored energy at the end."""
+        return len(self.recorded) + 1
+
+    def remembered(self) -> list[Known]:
+        """Copies of what the controllers in plain Python know."""
+        return [controller.known() for controller in self.controllers]
+
+    def raise_if_failed(self) -> None:
+        """Nothing: a controller that failed is told with the run."""
+
+    def remind(self, known: list[Known]) -> None:
+        """Let the controllers go on from there."""
+        for controller, what in zip(self.controllers, known, strict=True):
+            controller.know(what)
+
+    @functools.cached_property
+    def narrowing(self) -> Any:
+        """Cuts out what moves, see subsystem.py; None for a part."""
+        return None if self.narrows is None else self.narrows(self)
+
+
+def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> Instance:
+    """An Instance that works in `piece`, which is zero, as a run begins but for time."""
+    own = system.working.arrays(piece)
+    for name, values in system.working.begin.items():
+        own[name][...] = values
+    blocks = [
+        replace(block, parameters=own[discrete(k)]) if discrete(k) in own else block
+        for k, block in enumerate(system.blocks)
+    ]
+    memory = system.memory | own | addressed(system.memory, own, blocks)
+    context = memory["context"]
+    record.tell(context)
+    controllers = called_controllers(blocks, system.numbering, memory)
+    context[layout.SAMPLE_KERNELS] = memory["sample_kernels"].ctypes.data
+    return Instance(
+        **{f.name: getattr(system, f.name) for f in fields(System)}
+        | {"blocks": blocks, "memory": memory, "zones": own["zones"], "guard_inertia": own["guard_inertia"]},
+        of=system, piece=piece, context=context.ctypes.data, absolute=weights.absolute, relative=weights.relative,
+        cap=weights.cap, guard_tolerance=weights.guard_tolerance, record=record, controllers=controllers,
+    )  # fmt: skip
+
+
+def _meets_rigidly(s: Structure) -> bool:
+    """True if a guard on a place leads to a zone that holds without a limit."""
+    rigid = {s.zones.index(zone) for unknown in s.rigid for zone in s.holds[unknown]}
+    return any(g["to"] in rigid and g["unit"] in ("m", "rad") for known in s.guards.values() for g in known)

@@ -1,0 +1,125 @@
+"""Speeds at the start that rigid rows tie together: what nobody gave follows, what contradicts is refused.
+
+A row that takes any impulse (a torque sensor, a rigid stop that touches) joins the speeds of what it holds. Where
+one of them is not given it follows from the others, row by row until nothing new follows. Where all are given and the
+row slips, an impulse would have to start the run: that is a contradiction. Friction is no such row: it slips.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+import numpy as np
+
+from fairlead.component.instantiate import PortRef
+from fairlead.errors import Fault, ModelError
+from fairlead.flatten.flat_model import FlatModel
+from fairlead.system.arrays.blocks import Block
+from fairlead.system.compiled.asking import call, mass_of
+from fairlead.system.compiled.system import Floats, Instance, System
+from fairlead.system.start.places import ratios_at
+
+RIGID = 2
+AGREES = 1e-9
+"""Share of the speeds in a row that its slip may be: numbers in a netlist are rounded."""
+LEVER = 1e-9
+"""Ratio [m, or 1] below which a motion is in its dead centre: its speed does not follow from others."""
+
+
+def started(system: System, initially: Collection[int]) -> System:
+    """The System with the speeds that follow at the start; `initially` are the unknowns that `initial` names.
+
+    Raises ModelError where speeds contradict each other.
+    """
+    begin, faults = start_speeds(system, initially)
+    if faults:
+        raise ModelError(faults)
+    return replace(system, initial=begin)
+
+
+def start_speeds(system: System, initially: Collection[int]) -> tuple[Floats, list[Fault]]:
+    """The unknowns at the start (n,) with speeds that follow, and what contradicts."""
+    if not (system.takes_impulse >= RIGID).any():
+        return system.initial, []
+    here, y = system.instance(), system.initial.copy()
+    rows, missing = _rows(here) | _moving_rows(here, y), _missing(system, initially)
+    left = dict.fromkeys(rows)
+    while left:
+        free = {k: [j for j in rows[k] if missing[j]] for k in left}
+        k = next((k for k in left if len(free[k]) <= 1), None)
+        if k is None:
+            break
+        del left[k]
+        if free[k]:
+            (j,) = free[k]
+            y[j] -= _slip(here, y)[k] / rows[k][j]
+            missing[j] = False
+    slip = _slip(here, y)
+    wrong = {k for k, row in rows.items() if k not in left and abs(slip[k]) > AGREES * _size(row, y, slip[k])}
+    return y, [fault for block in system.blocks for fault in _faults(system, block, y, wrong)]
+
+
+def _rows(here: Instance) -> dict[int, dict[int, float]]:
+    """By rigid row in force: the speeds it reads, and their coefficients in its slip."""
+    columns = np.repeat(np.arange(here.n), np.diff(here.mass_pattern.starts))
+    entries = zip(here.mass_pattern.rows.tolist(), columns.tolist(), mass_of(here).tolist(), strict=True)
+    rows: dict[int, dict[int, float]] = {}
+    for k, j, value in entries:
+        if here.takes_impulse[k] == RIGID and value != 0.0:
+            rows.setdefault(k, {})[j] = value
+    return rows
+
+
+def _moving_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
+    """The same of the rows of relations of positions, whose ratios are those at the positions in y."""
+    if not here.kept_positions:
+        return {}
+    ratios = ratios_at(here, y)
+    speeds = [here.numbering.rate[index] for index in here.numbering.accelerated]
+    of_row = {k: zip(speeds, ratios[k].tolist(), strict=True) for k in np.flatnonzero(ratios.any(axis=1)).tolist()}
+    return {k: {j: ratio for j, ratio in pairs if abs(ratio) > LEVER} for k, pairs in of_row.items()}
+
+
+def _missing(system: System, initially: Collection[int]) -> list[bool]:
+    """By unknown: True for a speed that nobody gave."""
+    missing = [False] * system.n
+    for index, v in system.numbering.rate.items():
+        missing[v] = not system.flat.groups[index].given[1] and v not in initially
+    return missing
+
+
+def _slip(here: Instance, y: Floats) -> Floats:
+    made = np.zeros(here.n)
+    call(here, "slip", here.start, y, made)
+    return -made
+
+
+def _size(row: dict[int, float], y: Floats, slip: float) -> float:
+    """The largest speed that a row adds up; that of a support is what the others leave."""
+    terms = [coef * y[j] for j, coef in row.items()]
+    return max(*map(abs, terms), abs(slip - sum(terms)))
+
+
+def _faults(system: System, block: Block, y: Floats, wrong: set[int]) -> list[Fault]:
+    """What is wrong with the instances of a block: rows in `wrong` are theirs."""
+    s, faults = block.kernel.structure, []
+    for unknown in s.rigid:
+        at = block.flow_index[:, s.targets.index(f"own:{unknown}")].tolist()
+        for instance, k in zip(block.instances, at, strict=True):
+            if k in wrong:
+                ends = " and ".join(_end(system.flat, PortRef(instance.path, port), y, system.numbering.rate)
+                                    for port in s.pairs.get(unknown, instance.type.declaration.ports))  # fmt: skip
+                kept = "relation of positions" if unknown in s.positions else "one speed"
+                what = f"{instance.path} keeps its ends at {kept}, but they start with {ends}."
+                faults.append(Fault(instance.where, what, "Give speeds that agree, or leave out all but one of them."))
+    return faults
+
+
+def _end(flat: FlatModel, ref: PortRef, y: Floats, rates: dict[int, int]) -> str:
+    index, ratio, _ = flat.place(ref)
+    unit = flat.groups[index].domain.across[-1][1]
+    who = flat.groups[index].name
+    if index not in rates:
+        return f"{ref} prescribed by {who}"
+    return f"{ref} ({who}) at {ratio * y[rates[index]]:g} {unit}"
