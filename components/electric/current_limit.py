@@ -10,7 +10,7 @@ class CurrentLimit(Component):
     constant = Parameter("N*m/A", "Torque per current.", above=0)
     most_current = Parameter("A", "Largest current.", above=0)
     current = Output("A", "Current that may flow.")
-    zones = Zones("within", "upper", "lower")
+    zones = Zones("within", "upper", "lower", forward=["upper"], backward=["lower"])
 
     @zone("within")
     def within(p, torque):
@@ -22,22 +22,12 @@ class CurrentLimit(Component):
         """No more."""
         return Law(current=p.most_current if zone == "upper" else -p.most_current)
 
-    @guard("*", to="upper", unit="N*m")
-    def exceeds(p, torque):
+    @guard("*", to="upper", unit="N*m", mirrored="exceeds_backward")
+    def exceeds(p, torque, direction):
         """Too much is asked for."""
-        return torque - p.constant * p.most_current
+        return direction * torque - p.constant * p.most_current
 
-    @guard("*", to="lower", unit="N*m")
-    def exceeds_backward(p, torque):
-        """The same the other way."""
-        return -torque - p.constant * p.most_current
-
-    @guard("upper", to="within", unit="N*m")
-    def returns(p, torque):
+    @guard("upper", to="within", unit="N*m", mirrored="returns_backward")
+    def returns(p, torque, direction):
         """Less is asked for."""
-        return p.constant * p.most_current - torque
-
-    @guard("lower", to="within", unit="N*m")
-    def returns_backward(p, torque):
-        """The same the other way."""
-        return p.constant * p.most_current + torque
+        return p.constant * p.most_current - direction * torque

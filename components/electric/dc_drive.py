@@ -23,7 +23,10 @@ class DcDrive(Component):
     flowing = State("A", "Current.")
     current, voltage = Output("A", "Current."), Output("V", "Voltage at the motor.")
     torque = Output("N*m", "Torque on the shaft.")
-    zones = Zones("in_range", "upper", "lower", "forward", "backward")
+    zones = Zones(
+        "in_range", "upper", "lower", "forward", "backward",
+        forward=["upper", "forward"], backward=["lower", "backward"],
+    )  # fmt: skip
 
     @zone("in_range", "upper", "lower", "forward", "backward")
     def driving(p, shaft, command, flowing, zone):
@@ -39,57 +42,33 @@ class DcDrive(Component):
                    torque=torque, stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
                    supplied=voltage * flowing)  # fmt: skip
 
-    @guard("in_range", "upper", to="forward", unit="A")
-    def current_rises(p, shaft, command, flowing, zone):
+    @guard("in_range", "upper", to="forward", unit="A", mirrored="current_falls")
+    def current_rises(p, shaft, command, flowing, zone, direction):
         """The current reaches its limit, and the voltage would drive it on."""
-        voltage = p.most_voltage if zone == "upper" else command
-        return flowing - p.most_current, drive(p, shaft, flowing, voltage)
+        voltage = command if zone == "in_range" else direction * p.most_voltage
+        return direction * flowing - p.most_current, direction * drive(p, shaft, flowing, voltage)
 
-    @guard("in_range", "lower", to="backward", unit="A")
-    def current_falls(p, shaft, command, flowing, zone):
-        """The same the other way."""
-        voltage = -p.most_voltage if zone == "lower" else command
-        return -flowing - p.most_current, -drive(p, shaft, flowing, voltage)
-
-    @guard("forward", to="in_range", unit="A")
-    def forward_ends(p, shaft, command, flowing):
+    @guard("forward", to="in_range", unit="A", mirrored="backward_ends")
+    def forward_ends(p, shaft, command, flowing, direction):
         """The voltage asked for would lower the current."""
-        return -drive(p, shaft, p.most_current, command), (p.most_voltage - command) / p.resistance
+        further = direction * drive(p, shaft, direction * p.most_current, command)
+        return -further, (p.most_voltage - direction * command) / p.resistance
 
-    @guard("backward", to="in_range", unit="A")
-    def backward_ends(p, shaft, command, flowing):
-        """The same the other way."""
-        return drive(p, shaft, -p.most_current, command), (p.most_voltage + command) / p.resistance
-
-    @guard("forward", to="upper", unit="A")
-    def voltage_runs_out(p, shaft, command, flowing):
+    @guard("forward", to="upper", unit="A", mirrored="voltage_runs_out_backward")
+    def voltage_runs_out(p, shaft, command, flowing, direction):
         """So would all the voltage there is."""
-        return -drive(p, shaft, p.most_current, p.most_voltage), (command - p.most_voltage) / p.resistance
+        further = direction * drive(p, shaft, direction * p.most_current, direction * p.most_voltage)
+        return -further, (direction * command - p.most_voltage) / p.resistance
 
-    @guard("backward", to="lower", unit="A")
-    def voltage_runs_out_backward(p, shaft, command, flowing):
-        """The same the other way."""
-        return drive(p, shaft, -p.most_current, -p.most_voltage), (-p.most_voltage - command) / p.resistance
-
-    @guard("in_range", "lower", to="upper", unit="V")
-    def saturates(p, command):
+    @guard("in_range", "lower", to="upper", unit="V", mirrored="saturates_backward")
+    def saturates(p, command, direction):
         """More is asked for than there is."""
-        return command - p.most_voltage
+        return direction * command - p.most_voltage
 
-    @guard("in_range", "upper", to="lower", unit="V")
-    def saturates_backward(p, command):
-        """The same the other way."""
-        return -p.most_voltage - command
-
-    @guard("upper", to="in_range", unit="V")
-    def comes_back(p, command):
+    @guard("upper", to="in_range", unit="V", mirrored="comes_back_backward")
+    def comes_back(p, command, direction):
         """Less is asked for than there is."""
-        return p.most_voltage - command
-
-    @guard("lower", to="in_range", unit="V")
-    def comes_back_backward(p, command):
-        """The same the other way."""
-        return p.most_voltage + command
+        return p.most_voltage - direction * command
 
     def fastest(p):
         """All the voltage of the supply, without current and without speed, or the current it is limited to."""

@@ -62,7 +62,7 @@ class PmMotor(PmTorque):
     most_voltage = Parameter("V", "Voltage of the supply.", default=48.0, above=0)
     flowing = State("A", "Current.")
     summed = State("A", "Integral of the current controller.")
-    zones = Zones("in_range", "upper", "lower")
+    zones = Zones("in_range", "upper", "lower", forward=["upper"], backward=["lower"])
 
     @zone("in_range", "upper", "lower")
     def driving(p, shaft, wanted, flowing, summed, zone):
@@ -77,25 +77,15 @@ class PmMotor(PmTorque):
                    stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
                    supplied=voltage * flowing)  # fmt: skip
 
-    @guard("*", to="upper", unit="V")
-    def runs_out(p, shaft, wanted, flowing, summed):
+    @guard("*", to="upper", unit="V", mirrored="runs_out_backward")
+    def runs_out(p, shaft, wanted, flowing, summed, direction):
         """The controller wants more than the supply has."""
-        return voltage_wanted(p, shaft, wanted, flowing, summed) - p.most_voltage
+        return direction * voltage_wanted(p, shaft, wanted, flowing, summed) - p.most_voltage
 
-    @guard("*", to="lower", unit="V")
-    def runs_out_backward(p, shaft, wanted, flowing, summed):
-        """The same the other way."""
-        return -voltage_wanted(p, shaft, wanted, flowing, summed) - p.most_voltage
-
-    @guard("upper", to="in_range", unit="V")
-    def comes_back(p, shaft, wanted, flowing, summed):
+    @guard("upper", to="in_range", unit="V", mirrored="comes_back_backward")
+    def comes_back(p, shaft, wanted, flowing, summed, direction):
         """The supply has enough again."""
-        return p.most_voltage - voltage_wanted(p, shaft, wanted, flowing, summed)
-
-    @guard("lower", to="in_range", unit="V")
-    def comes_back_backward(p, shaft, wanted, flowing, summed):
-        """The same the other way."""
-        return p.most_voltage + voltage_wanted(p, shaft, wanted, flowing, summed)
+        return p.most_voltage - direction * voltage_wanted(p, shaft, wanted, flowing, summed)
 
     def fastest(p):
         """All the voltage of the supply, without current and without speed."""

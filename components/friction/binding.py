@@ -146,15 +146,11 @@ class Binding(Creeping):
         creep = slip if zone == "plateau" else 0
         return opposing(slip, friction_in(p, zone, slip, grip), bound=bound, creep_rate=creep)
 
-    @guard("plateau", "ramp_forward", to="break_forward", unit="N")
-    def breaks_forward(p, a, b, grip, bound_a, bound_b, zone):
+    @guard("plateau", "ramp_forward", to="break_forward", unit="N", mirrored="breaks_backward")
+    def breaks_forward(p, a, b, grip, bound_a, bound_b, zone, direction):
         """The applied force passes stiction."""
-        return applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, +1) if p.latch == "on" else -1
-
-    @guard("plateau", "ramp_backward", to="break_backward", unit="N")
-    def breaks_backward(p, a, b, grip, bound_a, bound_b, zone):
-        """The same the other way."""
-        return -applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, -1) if p.latch == "on" else -1
+        load = direction * applied_force(p, zone, a, b, grip, bound_a, bound_b)
+        return load - grip * rest(p, direction) if p.latch == "on" else -1
 
     @guard(*BOUND, to="transit", unit="N")
     def lets_go(p, a, b, grip, bound_a, bound_b, zone):
@@ -165,40 +161,28 @@ class Binding(Creeping):
         """
         return -_spare(p, zone, a, b, grip, bound_a, bound_b, hysteresis=0) if p.latch == "off" else -1
 
-    @guard("plateau", to="ramp_forward", unit="m/s")
-    def climbs_forward(p, a, b):
+    @guard("plateau", to="ramp_forward", unit="m/s", mirrored="climbs_backward")
+    def climbs_forward(p, a, b, direction):
         """The plateau ends."""
-        return b.v - a.v - border(p, +1)
-
-    @guard("plateau", to="ramp_backward", unit="m/s")
-    def climbs_backward(p, a, b):
-        """The same the other way."""
-        return a.v - b.v - border(p, -1)
+        return direction * (b.v - a.v) - border(p, direction)
 
     @guard("ramp_forward", "ramp_backward", to="plateau", unit="m/s")
     def settles(p, a, b, direction):
         """Back on the plateau, somewhat below its end."""
         return BACK[p.cap] * border(p, direction) - direction * (b.v - a.v)
 
-    @guard("ramp_forward", "transit", "break_forward", "break_backward", to="slide_forward", unit="m/s")
-    def slides_forward(p, a, b):
+    @guard(
+        "ramp_forward", "transit", "break_forward", "break_backward", to="slide_forward", unit="m/s",
+        mirrored="slides_backward",
+    )  # fmt: skip
+    def slides_forward(p, a, b, direction):
         """Fast enough to slide."""
-        return b.v - a.v - p.v_n
+        return direction * (b.v - a.v) - p.v_n
 
-    @guard("ramp_backward", "transit", "break_forward", "break_backward", to="slide_backward", unit="m/s")
-    def slides_backward(p, a, b):
-        """The same the other way."""
-        return a.v - b.v - p.v_n
-
-    @guard("slide_forward", to="ramp_forward", unit="m/s")
-    def caught_forward(p, a, b, grip, bound_a, bound_b, zone):
+    @guard("slide_forward", to="ramp_forward", unit="m/s", mirrored="caught_backward")
+    def caught_forward(p, a, b, grip, bound_a, bound_b, zone, direction):
         """Slow, and the load is one the contact can hold."""
-        return p.v_n - (b.v - a.v), _spare(p, zone, a, b, grip, bound_a, bound_b)
-
-    @guard("slide_backward", to="ramp_backward", unit="m/s")
-    def caught_backward(p, a, b, grip, bound_a, bound_b, zone):
-        """The same the other way."""
-        return p.v_n + (b.v - a.v), _spare(p, zone, a, b, grip, bound_a, bound_b)
+        return p.v_n - direction * (b.v - a.v), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("slide_forward", "slide_backward", to="transit", unit="m/s")
     def reverses(p, a, b, grip, bound_a, bound_b, zone, direction):
@@ -213,15 +197,10 @@ class Binding(Creeping):
         slow = (border(p, +1) - slip, border(p, -1) + slip)
         return *slow, _spare(p, zone, a, b, grip, bound_a, bound_b)
 
-    @guard("transit", to="ramp_forward", unit="m/s")
-    def binds_forward(p, a, b, grip, bound_a, bound_b, zone):
+    @guard("transit", to="ramp_forward", unit="m/s", mirrored="binds_backward")
+    def binds_forward(p, a, b, grip, bound_a, bound_b, zone, direction):
         """A load the contact can hold, above the plateau."""
-        return b.v - a.v - border(p, +1), _spare(p, zone, a, b, grip, bound_a, bound_b)
-
-    @guard("transit", to="ramp_backward", unit="m/s")
-    def binds_backward(p, a, b, grip, bound_a, bound_b, zone):
-        """The same the other way."""
-        return a.v - b.v - border(p, -1), _spare(p, zone, a, b, grip, bound_a, bound_b)
+        return direction * (b.v - a.v) - border(p, direction), _spare(p, zone, a, b, grip, bound_a, bound_b)
 
     @guard("break_forward", "break_backward", to="plateau", unit="m/s")
     def gives_up(p, a, b, grip, bound_a, bound_b, zone, direction):
@@ -235,15 +214,10 @@ class Binding(Creeping):
         d = direction
         return -d * applied_force(p, zone, a, b, grip, bound_a, bound_b) - grip * rest(p, -d)
 
-    @guard("off", to="slide_forward", unit="m/s")
-    def lands_forward(p, a, b, normal):
+    @guard("off", to="slide_forward", unit="m/s", mirrored="lands_backward")
+    def lands_forward(p, a, b, normal, direction):
         """Pressed again while slipping."""
-        return normal - 2 * p.lift, b.v - a.v - p.v_n
-
-    @guard("off", to="slide_backward", unit="m/s")
-    def lands_backward(p, a, b, normal):
-        """The same the other way."""
-        return normal - 2 * p.lift, a.v - b.v - p.v_n
+        return normal - 2 * p.lift, direction * (b.v - a.v) - p.v_n
 
     @guard("off", to="transit", unit="m/s")
     def lands(p, a, b, normal):

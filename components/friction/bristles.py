@@ -50,15 +50,12 @@ class OneWay(Bristles, abstract=True):
         """Pressed again; the direction is found at once."""
         return normal - 2 * p.lift
 
-    @guard("forward", to="backward", unit="m/s")
-    def reverses_backward(p, a, b):
+    @guard("forward", to="backward", unit="m/s", mirrored="reverses_forward")
+    def reverses_backward(p, a, b, direction):
         """The slip has changed its direction."""
-        return a.v - b.v - STILL
+        return -direction * (b.v - a.v) - STILL
 
-    @guard("backward", to="forward", unit="m/s")
-    def reverses_forward(p, a, b):
-        """The same the other way."""
-        return b.v - a.v - STILL
+
 
 
 def sliding_deflection(p, speed, d):

@@ -63,15 +63,10 @@ class Elastoplastic(Bristles):
         """Pressed again."""
         return normal - 2 * p.lift
 
-    @guard("elastic", to="blend_forward", unit="m/s")
-    def yields_forward(p, a, b, z):
+    @guard("elastic", to="blend_forward", unit="m/s", mirrored="yields_backward")
+    def yields_forward(p, a, b, z, direction):
         """Loaded forward beyond the elastic part."""
-        return b.v - a.v - STILL, _beyond(p, abs(b.v - a.v), z, +1, p.elastic_share)
-
-    @guard("elastic", to="blend_backward", unit="m/s")
-    def yields_backward(p, a, b, z):
-        """The same the other way."""
-        return a.v - b.v - STILL, _beyond(p, abs(b.v - a.v), z, -1, p.elastic_share)
+        return direction * (b.v - a.v) - STILL, _beyond(p, abs(b.v - a.v), z, direction, p.elastic_share)
 
     @guard("blend_forward", "blend_backward", "forward", "backward", to="elastic", unit="m/s")
     def unloads(p, a, b, direction):
@@ -83,25 +78,17 @@ class Elastoplastic(Bristles):
         """The sliding deflection has grown away from the bristles, or they have straightened."""
         return -_beyond(p, direction * (b.v - a.v), z, direction, 0.99 * p.elastic_share)
 
-    @guard("blend_forward", to="forward", unit="1")
-    def slides_forward(p, a, b, z):
+    @guard("blend_forward", to="forward", unit="1", mirrored="slides_backward")
+    def slides_forward(p, a, b, z, direction):
         """Bent beyond the sliding deflection."""
-        return _beyond(p, b.v - a.v, z, +1, 1 + MARGIN)
+        return _beyond(p, direction * (b.v - a.v), z, direction, 1 + MARGIN)
 
-    @guard("blend_backward", to="backward", unit="1")
-    def slides_backward(p, a, b, z):
-        """The same the other way."""
-        return _beyond(p, a.v - b.v, z, -1, 1 + MARGIN)
-
-    @guard("forward", to="blend_forward", unit="1")
-    def lags_forward(p, a, b, z):
+    @guard("forward", to="blend_forward", unit="1", mirrored="lags_backward")
+    def lags_forward(p, a, b, z, direction):
         """Bent less than the sliding deflection."""
-        return -_beyond(p, b.v - a.v, z, +1, 1 - MARGIN)
+        return -_beyond(p, direction * (b.v - a.v), z, direction, 1 - MARGIN)
 
-    @guard("backward", to="blend_backward", unit="1")
-    def lags_backward(p, a, b, z):
-        """The same the other way."""
-        return -_beyond(p, a.v - b.v, z, -1, 1 - MARGIN)
+
 
 
 def _beyond(p, speed, z, d, share):

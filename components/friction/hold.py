@@ -34,45 +34,25 @@ class Hold(Rigid):
         return Law(a=-force, b=+force, force=hold(slip, within=p.stick_speed), slip=slip, friction=force,
                    creep_rate=slip, bound=1, dissipated=force * slip)  # fmt: skip
 
-    @guard("held", to="forward", unit="m/s")
-    def torn_forward(p, a, b):
+    @guard("held", to="forward", unit="m/s", mirrored="torn_backward")
+    def torn_forward(p, a, b, direction):
         """It slips from the start, or a jump of a prescribed speed tears it loose: friction gives no impulse."""
-        return b.v - a.v - p.stick_speed
+        return direction * (b.v - a.v) - p.stick_speed
 
-    @guard("held", to="backward", unit="m/s")
-    def torn_backward(p, a, b):
-        """The same the other way."""
-        return a.v - b.v - p.stick_speed
-
-    @guard("held", to="forward", unit="N")
-    def breaks_forward(p, force, grip):
+    @guard("held", to="forward", unit="N", mirrored="breaks_backward")
+    def breaks_forward(p, force, grip, direction):
         """The force needed is more than stiction."""
-        return force - grip * mu_s(p.curve, +1)
+        return direction * force - grip * mu_s(p.curve, direction)
 
-    @guard("held", to="backward", unit="N")
-    def breaks_backward(p, force, grip):
-        """The same the other way."""
-        return -force - grip * mu_s(p.curve, -1)
-
-    @guard("forward", to="held", unit="m/s")
-    def stops_forward(p, a, b):
+    @guard("forward", to="held", unit="m/s", mirrored="stops_backward")
+    def stops_forward(p, a, b, direction):
         """The slip has come to zero."""
-        return -(b.v - a.v)
+        return -direction * (b.v - a.v)
 
-    @guard("backward", to="held", unit="m/s")
-    def stops_backward(p, a, b):
-        """The same the other way."""
-        return b.v - a.v
-
-    @guard("off", to="forward", unit="1")
-    def lands_forward(p, a, b, normal):
+    @guard("off", to="forward", unit="1", mirrored="lands_backward")
+    def lands_forward(p, a, b, normal, direction):
         """Pressed again while slipping."""
-        return (normal - 2 * p.lift) / p.lift, (b.v - a.v - p.stick_speed) / p.stick_speed
-
-    @guard("off", to="backward", unit="1")
-    def lands_backward(p, a, b, normal):
-        """The same the other way."""
-        return (normal - 2 * p.lift) / p.lift, (a.v - b.v - p.stick_speed) / p.stick_speed
+        return (normal - 2 * p.lift) / p.lift, (direction * (b.v - a.v) - p.stick_speed) / p.stick_speed
 
     @guard("off", to="held", unit="1")
     def lands_still(p, a, b, normal):

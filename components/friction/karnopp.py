@@ -44,45 +44,25 @@ class Karnopp(Rigid):
         """More is applied than stiction: friction stays at its limit until the slip leaves the band."""
         return settled(b.v - a.v, force, direction * grip * mu_s(p.curve, direction))
 
-    @guard("stuck", "breaking_forward", "breaking_backward", to="forward", unit="m/s")
-    def leaves_forward(p, a, b):
+    @guard("stuck", "breaking_forward", "breaking_backward", to="forward", unit="m/s", mirrored="leaves_backward")
+    def leaves_forward(p, a, b, direction):
         """The slip is out of the band."""
-        return b.v - a.v - p.band
+        return direction * (b.v - a.v) - p.band
 
-    @guard("stuck", "breaking_forward", "breaking_backward", to="backward", unit="m/s")
-    def leaves_backward(p, a, b):
-        """The same the other way."""
-        return a.v - b.v - p.band
-
-    @guard("stuck", to="breaking_forward", unit="N")
-    def breaks_forward(p, force, grip):
+    @guard("stuck", to="breaking_forward", unit="N", mirrored="breaks_backward")
+    def breaks_forward(p, force, grip, direction):
         """The force needed is more than stiction."""
-        return force - grip * mu_s(p.curve, +1)
+        return direction * force - grip * mu_s(p.curve, direction)
 
-    @guard("stuck", to="breaking_backward", unit="N")
-    def breaks_backward(p, force, grip):
-        """The same the other way."""
-        return -force - grip * mu_s(p.curve, -1)
-
-    @guard("breaking_forward", to="stuck", unit="m/s")
-    def gives_up_forward(p, a, b):
+    @guard("breaking_forward", to="stuck", unit="m/s", mirrored="gives_up_backward")
+    def gives_up_forward(p, a, b, direction):
         """The slip has come back to zero."""
-        return a.v - b.v
+        return -direction * (b.v - a.v)
 
-    @guard("breaking_backward", to="stuck", unit="m/s")
-    def gives_up_backward(p, a, b):
-        """The same the other way."""
-        return b.v - a.v
-
-    @guard("forward", to="stuck", unit="m/s")
-    def enters_forward(p, a, b):
+    @guard("forward", to="stuck", unit="m/s", mirrored="enters_backward")
+    def enters_forward(p, a, b, direction):
         """The slip enters the band; if the load is too much, it leaves `stuck` at once."""
-        return 0.99 * p.band - (b.v - a.v)
-
-    @guard("backward", to="stuck", unit="m/s")
-    def enters_backward(p, a, b):
-        """The same the other way."""
-        return 0.99 * p.band - (a.v - b.v)
+        return 0.99 * p.band - direction * (b.v - a.v)
 
     @guard("off", to="stuck", unit="N")
     def lands(p, normal):

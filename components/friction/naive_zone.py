@@ -32,12 +32,7 @@ class NaiveZone(Sliding):
         """Pressed again; the direction is found at once."""
         return normal - 2 * p.lift
 
-    @guard("forward", to="backward", unit="m/s")
-    def reverses_backward(p, a, b):
+    @guard("forward", to="backward", unit="m/s", mirrored="reverses_forward")
+    def reverses_backward(p, a, b, direction):
         """The slip has changed its sign."""
-        return a.v - b.v
-
-    @guard("backward", to="forward", unit="m/s")
-    def reverses_forward(p, a, b):
-        """The same the other way."""
-        return b.v - a.v
+        return -direction * (b.v - a.v)

@@ -56,12 +56,7 @@ class ResetIntegrator(Bristles):
         """The same the other way, where the coefficient from rest may be another."""
         return -z / (mu_s(p.curve, -1) / p.ratio) - 1, (a.v - b.v) / STILL - 1
 
-    @guard("forward", to="spring", unit="m/s")
-    def catches_forward(p, a, b):
+    @guard("forward", to="spring", unit="m/s", mirrored="catches_backward")
+    def catches_forward(p, a, b, direction):
         """The slip has changed its direction."""
-        return a.v - b.v - STILL
-
-    @guard("backward", to="spring", unit="m/s")
-    def catches_backward(p, a, b):
-        """The same the other way."""
-        return b.v - a.v - STILL
+        return -direction * (b.v - a.v) - STILL

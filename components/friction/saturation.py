@@ -44,25 +44,15 @@ class Saturation(Sliding, Creeping):
         """Pressed again."""
         return normal - 2 * p.lift
 
-    @guard("line", to="forward", unit="m/s")
-    def leaves_forward(p, a, b):
+    @guard("line", to="forward", unit="m/s", mirrored="leaves_backward")
+    def leaves_forward(p, a, b, direction):
         """The line ends."""
-        return b.v - a.v - p.creep
+        return direction * (b.v - a.v) - p.creep
 
-    @guard("line", to="backward", unit="m/s")
-    def leaves_backward(p, a, b):
-        """The same the other way."""
-        return a.v - b.v - p.creep
-
-    @guard("forward", to="line", unit="m/s")
-    def slows_forward(p, a, b):
+    @guard("forward", to="line", unit="m/s", mirrored="slows_backward")
+    def slows_forward(p, a, b, direction):
         """Slow again."""
-        return p.creep - (b.v - a.v)
-
-    @guard("backward", to="line", unit="m/s")
-    def slows_backward(p, a, b):
-        """The same the other way."""
-        return p.creep - (a.v - b.v)
+        return p.creep - direction * (b.v - a.v)
 
     def narrowest(p):
         """The end of the line."""

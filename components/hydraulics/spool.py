@@ -24,7 +24,7 @@ class FollowingSpool(Component):
 
     command = Input("1", "Opening asked for, -1 to 1.", signed=True)
     opening = Output("1", "Opening; positive joins supply with a and b with tank.")
-    zones = Zones("within", "open", "reversed")
+    zones = Zones("within", "open", "reversed", forward=["open"], backward=["reversed"])
 
     @zone("within")
     def within(p, command):
@@ -36,25 +36,17 @@ class FollowingSpool(Component):
         """More is not to be had."""
         return Law(opening=1 if zone == "open" else -1)
 
-    @guard("within", to="open", unit="1")
-    def opens(p, command):
+    @guard("within", to="open", unit="1", mirrored="reverses")
+    def opens(p, command, direction):
         """More than all is asked for."""
-        return command - 1
+        return direction * command - 1
 
-    @guard("within", to="reversed", unit="1")
-    def reverses(p, command):
-        """The same the other way."""
-        return -1 - command
-
-    @guard("open", to="within", unit="1")
-    def leaves_open(p, command):
+    @guard("open", to="within", unit="1", mirrored="leaves_reversed")
+    def leaves_open(p, command, direction):
         """Less than all is asked for."""
-        return 1 - command
+        return 1 - direction * command
 
-    @guard("reversed", to="within", unit="1")
-    def leaves_reversed(p, command):
-        """The same the other way."""
-        return command + 1
+
 
 
 class Spool(Component):
@@ -74,7 +66,7 @@ class Spool(Component):
     position = State("1", "Opening.", nominal=0.1)
     speed = State("1/s", "Rate of the opening.", nominal=10.0)
     opening = Output("1", "Opening; positive joins supply with a and b with tank.")
-    zones = Zones("free", "upper_stop", "lower_stop")
+    zones = Zones("free", "upper_stop", "lower_stop", forward=["upper_stop"], backward=["lower_stop"])
 
     @derived
     def omega(p):
@@ -95,22 +87,12 @@ class Spool(Component):
             force -= stiff**2 * beyond + 2 * stiff * speed
         return Law(position=speed, speed=force, opening=position)
 
-    @guard("free", to="upper_stop", unit="1")
-    def hits_upper(p, position):
+    @guard("free", to="upper_stop", unit="1", mirrored="hits_lower")
+    def hits_upper(p, position, direction):
         """Fully open."""
-        return position - 1
+        return direction * position - 1
 
-    @guard("free", to="lower_stop", unit="1")
-    def hits_lower(p, position):
-        """Fully open the other way."""
-        return -1 - position
-
-    @guard("upper_stop", to="free", unit="1")
-    def leaves_upper(p, position):
+    @guard("upper_stop", to="free", unit="1", mirrored="leaves_lower")
+    def leaves_upper(p, position, direction):
         """Back from the stop."""
-        return 1 - position
-
-    @guard("lower_stop", to="free", unit="1")
-    def leaves_lower(p, position):
-        """The same the other way."""
-        return position + 1
+        return 1 - direction * position

@@ -46,42 +46,29 @@ class ThrottledDrive(Component, abstract=True):
     load_pressure = Output("Pa", "Pressure of a over b.")
     level_a, level_b = Output("Pa", "Pressure at a."), Output("Pa", "Pressure at b.")
     loose = Output("1", "1 while oil can flow, 0 while the valve holds; friction beside it would have nothing to do.")
-    zones = Zones("forward", "backward", "closed")
+    zones = Zones("forward", "backward", "closed", forward=["forward"], backward=["backward"])
 
     @derived
     def conductance(p):
         """Flow per root of pressure drop, fully open."""
         return rated(p.rated_flow, p.rated_drop)
 
-    @guard("forward", to="backward", unit="1")
-    def crosses_down(p, opening):
+    @guard("forward", to="backward", unit="1", mirrored="crosses_up")
+    def crosses_down(p, opening, direction):
         """From one side to the other at once."""
-        return -CLOSED - opening
+        return -CLOSED - direction * opening
 
-    @guard("backward", to="forward", unit="1")
-    def crosses_up(p, opening):
-        """The same the other way."""
-        return opening - CLOSED
-
-    @guard("forward", to="closed", unit="1")
-    def closes_from_above(p, opening):
+    @guard("forward", to="closed", unit="1", mirrored="closes_from_below")
+    def closes_from_above(p, opening, direction):
         """Nearly closed."""
-        return CLOSED - opening
+        return CLOSED - direction * opening
 
-    @guard("backward", to="closed", unit="1")
-    def closes_from_below(p, opening):
-        """The same from the other side."""
-        return CLOSED + opening
-
-    @guard("closed", to="forward", unit="1")
-    def opens_forward(p, opening):
+    @guard("closed", to="forward", unit="1", mirrored="opens_backward")
+    def opens_forward(p, opening, direction):
         """Open again."""
-        return opening - 2 * CLOSED
+        return direction * opening - 2 * CLOSED
 
-    @guard("closed", to="backward", unit="1")
-    def opens_backward(p, opening):
-        """The same the other way."""
-        return -2 * CLOSED - opening
+
 
 
 def pressures(p, supply, tank, opening, zone, into, out, series=None):

@@ -51,7 +51,7 @@ class ValveLands(Component):
     leakage_conductance = Parameter("m^3/s/Pa", "Leakage of one land per pressure drop.", default=0.0, least=0)
     flow_a = Output("m^3/s", "Flow out at a.")
     flow_b = Output("m^3/s", "Flow out at b.")
-    zones = Zones("forward", "backward", "closed")
+    zones = Zones("forward", "backward", "closed", forward=["forward"], backward=["backward"])
 
     @derived
     def conductance(p):
@@ -75,35 +75,22 @@ class ValveLands(Component):
         """All four lands only leak."""
         return lands_law(p, supply, tank, a, b, (0, 0), (0, 0), 0)
 
-    @guard("forward", to="backward", unit="1")
-    def reverses(p, opening):
+    @guard("forward", to="backward", unit="1", mirrored="returns")
+    def reverses(p, opening, direction):
         """From one side to the other at once."""
-        return -SHUT - opening
+        return -SHUT - direction * opening
 
-    @guard("backward", to="forward", unit="1")
-    def returns(p, opening):
-        """The same the other way."""
-        return opening - SHUT
-
-    @guard("forward", to="closed", unit="1")
-    def closes_from_above(p, opening):
+    @guard("forward", to="closed", unit="1", mirrored="closes_from_below")
+    def closes_from_above(p, opening, direction):
         """The opening falls to nothing."""
-        return SHUT - opening
+        return SHUT - direction * opening
 
-    @guard("backward", to="closed", unit="1")
-    def closes_from_below(p, opening):
-        """The same from the other side."""
-        return opening + SHUT
-
-    @guard("closed", to="forward", unit="1")
-    def opens_forward(p, opening):
+    @guard("closed", to="forward", unit="1", mirrored="opens_backward")
+    def opens_forward(p, opening, direction):
         """It opens."""
-        return opening - 2 * SHUT
+        return direction * opening - 2 * SHUT
 
-    @guard("closed", to="backward", unit="1")
-    def opens_backward(p, opening):
-        """The same the other way."""
-        return -2 * SHUT - opening
+
 
 
 def lands_law(p, supply, tank, a, b, delivered, drawn, lost):

@@ -22,7 +22,7 @@ class Mesh(Component):
     backlash = Parameter("rad", "Angle by which b can turn while a stands still.", least=0)
     torque = Output("N*m", "Torque carried from a to b.")
     size = Output("N*m", "The same without sign.")
-    zones = Zones("gap", "drive", "reverse")
+    zones = Zones("gap", "drive", "reverse", forward=["drive"], backward=["reverse"])
 
     @zone("gap")
     def loose(p, a, b):
@@ -38,22 +38,12 @@ class Mesh(Component):
         return Law(a=d * size, b=-d * size, torque=d * size, size=size, stored=p.stiffness * deep**2 / 2,
                    dissipated=p.stiffness * p.damping * deep * rate**2)  # fmt: skip
 
-    @guard("gap", to="drive", unit="rad")
-    def meets_forward(p, a, b):
+    @guard("gap", to="drive", unit="rad", mirrored="meets_backward")
+    def meets_forward(p, a, b, direction):
         """The gap is used up."""
-        return a.angle - b.angle - p.backlash / 2
+        return direction * (a.angle - b.angle) - p.backlash / 2
 
-    @guard("gap", to="reverse", unit="rad")
-    def meets_backward(p, a, b):
-        """The same the other way."""
-        return b.angle - a.angle - p.backlash / 2
-
-    @guard("drive", to="gap", unit="rad")
-    def parts_forward(p, a, b):
+    @guard("drive", to="gap", unit="rad", mirrored="parts_backward")
+    def parts_forward(p, a, b, direction):
         """The teeth part."""
-        return p.backlash / 2 - (a.angle - b.angle)
-
-    @guard("reverse", to="gap", unit="rad")
-    def parts_backward(p, a, b):
-        """The same the other way."""
-        return p.backlash / 2 - (b.angle - a.angle)
+        return p.backlash / 2 - direction * (a.angle - b.angle)

@@ -11,7 +11,26 @@ from fairlead.component.base import LEDGER, DeclarationError
 from fairlead.errors import ModelError
 
 LAW = "def law(p, a):\n    return (0,)"
+PAIRED = (
+    "zones = Zones('off', 'on', 'no', forward=['on'], backward=['no'])\n"
+    "@zone('off', 'on', 'no')\ndef all(p, a):\n    return (0,)\n"
+)
 REFUSED = {
+    "a mirrored guard whose zones have no pair": (
+        "zones = Zones('off', 'on')\n@zone('off', 'on')\ndef all(p, a):\n    return (0,)\n"
+        "@guard('off', to='on', unit='m', mirrored='meets_no')\n"
+        "def meets(p, a, direction):\n    return direction * a.x",
+        "guard 'meets' is mirrored, and its zones are their own mirror images. Pair them: Zones(..., forward=",
+    ),
+    "a mirrored guard that does not ask for the direction": (
+        PAIRED + "@guard('off', to='on', unit='m', mirrored='meets_no')\ndef meets(p, a):\n    return a.x",
+        "guard 'meets' is mirrored, and does not ask for the direction: def meets(p, ..., direction), +1 as written",
+    ),
+    "a mirror by a name that is taken": (
+        PAIRED + "@guard('off', to='on', unit='m', mirrored='a')\n"
+        "def meets(p, a, direction):\n    return direction * a.x",
+        "guard 'meets' makes its mirror 'a', a name the class has already",
+    ),
     "a zone without a law": (
         "zones = Zones('on', 'off')\n@zone('on')\ndef on(p, a):\n    return (0,)",
         "zone 'off' has no law",

@@ -30,7 +30,8 @@ MOST_LINES = 15  # of a component in a user's file
 WALL = "wall: {type: Ground}, load: {type: Mass, mass: 1 kg}"
 ENDS = "connections: [[wall.flange, part.a], [part.b, load.flange]]\nrun: {stop: 0.1 s}\n"
 PARAMETERS = {
-    "Bungee": "stiffness: 50 N/m", "Bumper": "stiffness: 50 N/m, reach: 1 mm", "Chain": "links: 3, stiffness: 1 N/m",
+    "Bungee": "stiffness: 50 N/m", "Bumper": "stiffness: 50 N/m, reach: 1 mm", "Gap": "stiffness: 1 kN/m, play: 1 mm",
+    "Chain": "links: 3, stiffness: 1 N/m",
     "Relaxing": "stiffness: 50 N/m, damping: 5 N*s/m",
 }  # fmt: skip
 
@@ -73,7 +74,7 @@ def test_the_page_on_python_runs_from_the_top(tmp_path: pathlib.Path, monkeypatc
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("name", ["bungee.py", "bumper.py", "relaxing.py", "chain.py"])
+@pytest.mark.parametrize("name", ["bungee.py", "bumper.py", "gap.py", "relaxing.py", "chain.py"])
 def test_a_component_in_a_users_file_is_checked_described_in_the_schema_and_runs(
     name: str, tmp_path: pathlib.Path
 ) -> None:

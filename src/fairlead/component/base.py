@@ -173,7 +173,9 @@ def _collect(members: dict[str, Any]) -> Declaration:
         return {name: value for name, value in members.items() if isinstance(value, kind)}
 
     zones = next((value for value in reversed(list(members.values())) if isinstance(value, Zones)), None)
-    guards = {name: _everywhere(mark, zones or ()) for name, mark in of(Guard).items()}
+    guards: dict[str, Guard] = {}
+    for name, mark in of(Guard).items():
+        guards |= _everywhere(mark, zones or ()).pair(name, zones or Zones())
     laws: dict[str, Callable[..., Any]] = {}
     for marked in of(ZoneLaw).values():
         laws.update(dict.fromkeys(marked.zones, marked.law))
@@ -253,10 +255,30 @@ def _check_directions(cls: type[Declared]) -> None:
     pairs = f"forward={list(zones.forward)}, backward={list(zones.backward)}"
     _demand(cls, len(zones.forward) == len(zones.backward), f"{pairs} are not pairs of zones that mirror one another")
     asking = [(function, name) for name, function in cls.declaration.laws.items()]
-    asking += [(mark.function, name) for mark in cls.declaration.guards.values() for name in mark.zones]
+    one_sided = [mark for mark in cls.declaration.guards.values() if not mark.direction]
+    asking += [(mark.function, name) for mark in one_sided for name in mark.zones]
     for function, name in asking if "direction" not in cls.declaration.inputs else ():
         told = zones.direction(name) != 0 or "direction" not in inspect.signature(function).parameters
         _demand(cls, told, f"{function.__name__} asks for the direction of {name!r}, which the zones do not tell")
+    _check_mirrors(cls)
+
+
+def _check_mirrors(cls: type[Declared]) -> None:
+    """A guard told to be mirrored has a mirror that differs from it, under a name of its own."""
+    zones, members = cls.declaration.zones, _members(cls)
+    for name, mark in cls.declaration.guards.items():
+        if mark.direction != +1:
+            continue
+        pairs = 'Pair them: Zones(..., forward=["ahead"], backward=["astern"])'
+        moved = (zones.mirrored(mark.to), *map(zones.mirrored, mark.zones)) != (mark.to, *mark.zones)
+        _demand(cls, moved, f"guard {name!r} is mirrored, and its zones are their own mirror images. {pairs}")
+        taken = mark.mirrored in members
+        _demand(cls, not taken, f"guard {name!r} makes its mirror {mark.mirrored!r}, a name the class has already")
+        known = "direction" not in cls.declaration.inputs
+        _demand(cls, known, f"guard {name!r} is mirrored by `direction`, which is an input here; rename the input")
+        asks = "direction" in inspect.signature(mark.function).parameters
+        more = f"def {name}(p, ..., direction), +1 as written and -1 in its mirror"
+        _demand(cls, asks, f"guard {name!r} is mirrored, and does not ask for the direction: {more}")
 
 
 def _check_units(cls: type[Declared]) -> None:

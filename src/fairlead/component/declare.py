@@ -12,7 +12,7 @@ Sign rules, stated once:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 
@@ -208,12 +208,24 @@ class Guard:
     """A function that is negative inside `zones`; its rise through zero leads to zone `to`.
 
     A guard that returns several values is a group: it fires when all of them have risen.
+    `mirrored` names the same guard for the other direction: between the mirrored zones, by the same function, which is
+    given `direction` +1 in the guard as written and -1 in its mirror.
     """
 
     zones: tuple[str, ...]
     to: str
     unit: str
     function: Callable[..., Any]
+    mirrored: str = ""
+    direction: int = 0  # what the function is given; 0: that of the zone
+
+    def pair(self, name: str, zones: Zones) -> dict[str, Guard]:
+        """The guard by its name, and its mirror behind it when it has one."""
+        if not self.mirrored:
+            return {name: self}
+        there = tuple(zones.mirrored(one) for one in self.zones)
+        other = replace(self, zones=there, to=zones.mirrored(self.to), mirrored=name, direction=-1)
+        return {name: replace(self, direction=+1), self.mirrored: other}
 
 
 @dataclass(frozen=True)
@@ -236,12 +248,13 @@ def zone(*names: str) -> Callable[[Callable[..., Any]], Any]:
     return lambda law: ZoneLaw(names, law)
 
 
-def guard(*zones: str, to: str, unit: str) -> Callable[[Callable[..., Any]], Any]:
+def guard(*zones: str, to: str, unit: str, mirrored: str = "") -> Callable[[Callable[..., Any]], Any]:
     """Mark a function as a guard of `zones` that leads to `to`; `unit` scales its tolerance.
 
-    `guard("*", to="off", ...)` leads there from every other zone.
+    `guard("*", to="off", ...)` leads there from every other zone. `mirrored="stops_backward"` declares the guard of
+    that name as well, for the other direction; see `Guard`.
     """
-    return lambda function: Guard(zones, to, unit, function)
+    return lambda function: Guard(zones, to, unit, function, mirrored)
 
 
 def shared(function: Callable[..., Any]) -> Any:

@@ -91,7 +91,7 @@ def _wrapped(thing: Any) -> list[Any]:
     if isinstance(thing, ZoneLaw):
         return [thing.zones, thing.law]
     if isinstance(thing, Guard):
-        return [thing.zones, thing.to, thing.unit, thing.function]
+        return [thing.zones, thing.to, thing.unit, thing.function, thing.mirrored]
     if isinstance(thing, Sampled):
         return [thing.period, thing.law]
     if isinstance(thing, functools.partial):

@@ -68,6 +68,7 @@ class Wrong:
     what: str
     zone: str
     function: Callable[..., Any]
+    direction: int = 0  # what a guard with a mirror is given
 
 
 def misfits(variant: Variant, zones: Mapping[str, Any]) -> Iterator[Wrong]:
@@ -89,7 +90,7 @@ def misfits(variant: Variant, zones: Mapping[str, Any]) -> Iterator[Wrong]:
         for guard in zone.guards:
             for value in [] if guard.table else guard.values:
                 if what := misfit(value, variant):
-                    yield Wrong(what, name, has.guards[guard.name].function)
+                    yield Wrong(what, name, has.guards[guard.name].function, has.guards[guard.name].direction)
 
 
 def _called(term: str, has: Declaration) -> str:

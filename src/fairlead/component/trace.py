@@ -198,6 +198,7 @@ def _check_units(variant: Variant, has: Declaration, zones: dict[str, TracedZone
     for wrong in misfits(variant, zones):
         code = wrong.function.__code__
         given = _arguments(variant, has, wrong.zone, {})
+        given |= {"direction": wrong.direction} if wrong.direction else {}
         files = {inspect.getsourcefile(one.type) or "" for one in foreign}
         names = code.co_varnames[: code.co_argcount]
         place = line_of(wrong.function, {name: given[name] for name in names}, variant, files)
@@ -262,7 +263,7 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
             zone.ledger[line] = _power(_run(method, arguments), method)
     for label, mark in has.guards.items():
         if name in mark.zones:
-            said = _run(mark.function, arguments)
+            said = _run(mark.function, arguments | ({"direction": mark.direction} if mark.direction else {}))
             if said is None:
                 continue  # an effect that is off takes the guard with it
             values = [_expression(v, mark.function) for v in (said if isinstance(said, tuple) else (said,))]

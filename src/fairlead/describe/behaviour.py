@@ -9,6 +9,7 @@ from sympy import Expr, sympify
 
 from fairlead.component.answers import METHODS
 from fairlead.component.base import Declared
+from fairlead.component.declare import Guard
 from fairlead.component.given import Choice
 from fairlead.component.trace import Traced, TraceError, inverse_mass, symbol, trace_function
 from fairlead.describe.columns import columns, heading, wrapped
@@ -80,7 +81,13 @@ def _transitions(kind: type[Declared], traced: Traced, writing: Writing) -> Iter
     )
     used = {guard for guard, _, _ in lines}
     yield ""
-    yield from columns((n, first_line(mark.function)) for n, mark in kind.declaration.guards.items() if n in used)
+    guards = kind.declaration.guards.items()
+    yield from columns((n, _said_of(n, mark)) for n, mark in guards if n in used)
+
+
+def _said_of(name: str, mark: Guard) -> str:
+    """The sentence of a guard; of a mirror, which guard it mirrors."""
+    return f"As {mark.mirrored}, the other way." if mark.direction < 0 else first_line(mark.function)
 
 
 def _without_repeats(rows: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
