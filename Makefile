@@ -21,7 +21,7 @@ help:  ## list these commands
 	@echo "  PYTHON=/path/to/python3.12 chooses the Python that the first call installs with."
 
 demo: $(VENV)/fairlead.done  ## install, run the single bend with little and much friction, leave a page to look at
-	@echo "The first run on a machine compiles the engine once, which takes up to a minute."
+	@echo "The first run on a machine compiles the engine once, which takes half a minute."
 	$(RUN) -m fairlead run $(MODEL) --report --force --out results/$(MODEL)
 ifeq ($(MODEL),single_bend)
 	$(RUN) -m fairlead run $(MODEL) --set mu=0.6 --report --force --out results/$(MODEL)_mu_0.6

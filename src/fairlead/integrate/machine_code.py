@@ -17,7 +17,7 @@ from fairlead.processor import tell_numba
 
 ROOMS = ("memory", "linear", "point", "record", "events")
 """Rooms that the machine code of every loop is made of."""
-FILES = ("codes.py", "one_step.py", "loop.py")
+FILES = ("codes.py", "one_step.py", "loop.py", "link_once.py")
 """Files of this folder beside them."""
 
 
@@ -53,11 +53,13 @@ def _build(module: str) -> native.Build:
     import numba
 
     tell_numba()
+    from fairlead.integrate.link_once import linked_once
     from fairlead.integrate.loop import loop_of
 
     advance = loop_of(importlib.import_module(module).METHOD)
     signature = numba.int64(numba.int64, numba.int64)
-    function = numba.cfunc(signature, error_model="numpy", _nrt=False)(advance)
+    with linked_once():
+        function = numba.cfunc(signature, error_model="numpy", _nrt=False)(advance)
     return native.Build(meta={}, functions={"advance": function})
 
 
@@ -85,12 +87,14 @@ def _build_sundials() -> native.Build:
     import numba
 
     tell_numba()
-    kernels = importlib.import_module("fairlead.integrate.ida.kernels")
+    from fairlead.integrate.link_once import linked_once
 
+    kernels = importlib.import_module("fairlead.integrate.ida.kernels")
     kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
     functions = {}
-    for name, types in SUNDIALS_KERNELS.items():
-        signature = kinds[types[0]](*(kinds[letter] for letter in types[1:]))
-        make = numba.cfunc(signature, error_model="numpy", _nrt=False)
-        functions[name] = make(getattr(kernels, name))
+    with linked_once():
+        for name, types in SUNDIALS_KERNELS.items():
+            signature = kinds[types[0]](*(kinds[letter] for letter in types[1:]))
+            make = numba.cfunc(signature, error_model="numpy", _nrt=False)
+            functions[name] = make(getattr(kernels, name))
     return native.Build(meta={}, functions=functions)
