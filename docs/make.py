@@ -61,7 +61,7 @@ def page(word: str, member: Any, base: Any) -> Iterator[str]:
         yield from ("", "## Parameters of its own", "", *block("\n".join(rows)))
     yield from ("", "## Zones", "", "| from | to | when |", "|---|---|---|")
     for mark in member.declaration.guards.values():
-        if first_line(mark.function).startswith(MIRRORED):
+        if mark.direction < 0 or first_line(mark.function).startswith(MIRRORED):
             continue
         others = set(mark.zones) == set(member.declaration.zones) - {mark.to}
         start = "every other" if others else ", ".join(f"`{zone}`" for zone in mark.zones)
