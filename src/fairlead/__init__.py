@@ -11,14 +11,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from fairlead.errors import FairleadError, ModelError, RunError, RunInterrupted, RunWarning, UsageError
+from fairlead.errors import FairleadError, ModelError, RunError, RunInterrupted, RunWarning, SteppingError, UsageError
 from fairlead.simulate import Model, describe_type, json_schema, load
 
 if TYPE_CHECKING:
     from fairlead.result import Result
 
-__all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInterrupted", "RunWarning", "UsageError",
-           "describe_type", "json_schema", "load"]  # fmt: skip
+__all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInterrupted", "RunWarning",
+           "SteppingError", "UsageError", "describe_type", "json_schema", "load"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

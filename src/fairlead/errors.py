@@ -98,6 +98,16 @@ class RunError(FairleadError):
         )
 
 
+class SteppingError(FairleadError):
+    """A run that is stepped from outside and came to an end of its own: the sentence says why, `t` is when [s]."""
+
+    exit_code = 3
+
+    def __init__(self, sentence: str, t: float) -> None:
+        self.t = t
+        super().__init__(sentence)
+
+
 class RunInterrupted(RunError, KeyboardInterrupt):
     """Ctrl-C during a run: what was computed is in `result`, and whoever handles a KeyboardInterrupt handles this."""
 

@@ -113,7 +113,7 @@ class Watch:
         whole = self.steps.take(rows._replace(values=rows.values[:, : self.chosen]))
         if whole is not None:
             self._take_steps(whole)
-        self.sink.events(_named(self.system, row) for row in block.events)
+        self.sink.events(named_change(self.system, row) for row in block.events)
         if self.together is not None:
             self.together.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
@@ -196,7 +196,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
         least = least_jumps(system, recording.chosen, settings.accuracy)
         event_rows = EventRows(least) if netlist.record.every is not None else None
-        asked = _engine_settings(netlist, settings, system, patterns)
+        asked = engine_settings(netlist, settings, system, patterns)
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       Strains.of(system, recording.recorded),
@@ -226,15 +226,25 @@ def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, An
 
 def _explained(outcome: Outcome) -> Outcome:
     """A run that ended since a controller in plain Python failed, or a table has no value there, says so."""
-    for controller in outcome.problem.controllers:
+    said = failure_of(outcome.problem, outcome.status, outcome.t)
+    if not said:
+        return outcome
+    culprits = tuple(beyond_their_tables(outcome.problem)) if outcome.status == Status.NOT_FINITE else ()
+    failed = any(controller.failure is not None for controller in outcome.problem.controllers)
+    culprits = outcome.culprits if failed else culprits
+    return dataclasses.replace(outcome, status=Status.NOT_FINITE, sentence=said, culprits=culprits)
+
+
+def failure_of(problem: Any, status: Status, t: float) -> str:
+    """What the components say of the end of a run: a controller that failed, a table without a value there; or ""."""
+    for controller in problem.controllers:
         if isinstance(controller.failure, KeyboardInterrupt | SystemExit):
             raise controller.failure
         if controller.failure is not None:
-            return dataclasses.replace(outcome, status=Status.NOT_FINITE, sentence=controller.complaint)
-    if outcome.status == Status.NOT_FINITE and (beyond := beyond_their_tables(outcome.problem)):
-        said = f"t = {outcome.t:.6g} s: {few(beyond)} moved beyond the range in which its law has values."
-        return dataclasses.replace(outcome, sentence=said, culprits=tuple(beyond))
-    return outcome
+            return str(controller.complaint)
+    if status == Status.NOT_FINITE and (beyond := beyond_their_tables(problem)):
+        return f"t = {t:.6g} s: {few(beyond)} moved beyond the range in which its law has values."
+    return ""
 
 
 def _patterns(netlist: Netlist) -> list[str]:
@@ -276,7 +286,8 @@ def refused(settings: RunSettings, system: System) -> Fault | None:
     return refusal(system, settings)
 
 
-def _engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str]) -> Run:
+def engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str]) -> Run:
+    """The settings of a run as the engine takes them."""
     method = "rodas5p" if settings.method == "auto" else settings.method
     types = [instance.type for instance in system.flat.instances]
     engine = engine_of(settings, system)[0]
@@ -346,7 +357,7 @@ def _status(outcome: Outcome) -> str:
     return "finished" if outcome.ok else "failed"
 
 
-def _named(system: System, row: Any) -> tuple[float, str, str, str, str]:
+def named_change(system: System, row: Any) -> tuple[float, str, str, str, str]:
     """One zone change with names."""
     machine, before, after = int(row["machine"]), int(row["before"]), int(row["after"])
     zones = system.zone_names(machine)

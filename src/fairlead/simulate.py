@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from fairlead.netlist.includes import Sources
     from fairlead.netlist.keywords import RunKeywords
     from fairlead.netlist.netlist import Netlist
+    from fairlead.outside import Stepping
     from fairlead.result import Result
     from fairlead.statics import StaticsOfLines
     from fairlead.system.compiled.system import System
@@ -140,6 +141,7 @@ class Model:
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
         from fairlead.flatten.flatten import survey as flatten
+        from fairlead.outside import interface_faults
         from fairlead.run import engine_remarks
         from fairlead.system.compile import untraceable
 
@@ -157,7 +159,7 @@ class Model:
             self.assembly, self.flattened = _shown_in_a_line(assembly), flat
             try:
                 self.flat = laid_under_statics(flat)
-                assert self.system is not None
+                faults += interface_faults(self.netlist, self.system)
             except ModelError as error:
                 faults += error.faults
         if faults:
@@ -234,6 +236,20 @@ class Model:
         if check and not result.ok:
             raise (RunInterrupted if result.status == "interrupted" else RunError)(result)
         return result
+
+    def start(self, inputs: Iterable[str] = (), **settings: Unpack[RunKeywords]) -> Stepping:
+        """A run that is stepped from outside: `set`, `advance`, `get`, `save`, `restore` (docs/coupling.md).
+
+        What can be set: the inputs of the netlist's `interface` block, and signal inputs named by `inputs`, which are
+        connected to nothing. `settings` are those of `run`. Raises ModelError and UsageError as `run` does.
+        """
+        from fairlead.netlist.keywords import with_keywords
+        from fairlead.outside import Stepping
+
+        asked = Arguments("Model.start")
+        asked.texts("inputs", inputs, '"valve.command"')
+        asked.refuse()
+        return Stepping(self.netlist, with_keywords(self.netlist.run, settings), self.system, inputs)
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
         """A model with other values of scene parameters (`mu=0.6`) and settings (`{"pad.normal_force": "20 N"}`).

@@ -16,7 +16,7 @@ import numpy as np
 import fairlead
 from fairlead.integrate.problem import Status
 from fairlead.integrate.underway import Underway
-from fairlead.run import _engine_settings, _patterns
+from fairlead.run import _patterns, engine_settings
 from tests.invariance.plays import Play
 from tests.invariance.reordering import permuted, shuffled
 
@@ -58,7 +58,7 @@ class Try(NamedTuple):
 def tries(model: Any) -> Iterator[Try]:
     """Every trial step of a run of the model."""
     netlist, system = model.netlist, model.system
-    run = _engine_settings(netlist, netlist.run, system, _patterns(netlist))
+    run = engine_settings(netlist, netlist.run, system, _patterns(netlist))
     going = Underway(system, run, lambda _: None)
     before = dict.fromkeys((*CAUSES, "steps", "settling_passes", "located", "time_events"), 0)
     while going.served:

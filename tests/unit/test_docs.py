@@ -74,6 +74,14 @@ def test_the_page_on_python_runs_from_the_top(tmp_path: pathlib.Path, monkeypatc
     assert not list(tmp_path.iterdir())
 
 
+def test_the_page_on_coupling_runs_from_the_top(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    files("coupling", tmp_path)
+    code = [text for name, language, text in blocks("coupling") if language == "python" and not name]
+    assert len(code) == 2
+    exec("\n".join(code), {})
+
+
 @pytest.mark.parametrize("name", ["bungee.py", "bumper.py", "gap.py", "relaxing.py", "chain.py"])
 def test_a_component_in_a_users_file_is_checked_described_in_the_schema_and_runs(
     name: str, tmp_path: pathlib.Path

@@ -57,7 +57,7 @@ class Underway:
     def go_on(self, attempts: int | None = None) -> None:
         """Enter the loop for at most so many trial steps (None: some SLICE seconds), and serve what it asks for."""
         before = self.wall
-        address, most = self.scope.memory.address, attempts or self._attempts
+        address, most = self.scope.memory.address, self._attempts if attempts is None else attempts
         self.status = Status(self._timed(lambda: self._advance(address, most)))
         spent = self.wall - before
         number = self.scope.memory.number

@@ -159,6 +159,10 @@ RATED_AT = 104  # where among the partial derivatives their shares begin
 RATED_KNOWN = 105  # int64 (rated,)        1 where something holds the node, 2 where only softly, 0 where nothing does
 RATED_ROOT = 106  # int64 (rated,)         the node whose row stands for all that move with it
 RATED_MODE = 107  # float64 (rated,)       its virtual speed over that of the root
-CONTEXT = 108
+N_SET = 108  # numbers that are set from outside, see compiled/opened.py
+SET_DUE = 109  # int64 (1,)            1 once one of them was set
+SET_AT = 110  # int64 (set,)          their addresses
+SET_VALUES = 111  # float64 (set,)        what they are from the next time event on
+CONTEXT = 112
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

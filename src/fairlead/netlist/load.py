@@ -11,6 +11,7 @@ from typing import Any
 from fairlead.errors import Fault, ModelError, did_you_mean, listing, shown, without_echoes
 from fairlead.netlist.files import find
 from fairlead.netlist.includes import Sources, gather
+from fairlead.netlist.interface import Interface
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Entry, Netlist, Value
 from fairlead.netlist.overrides import override
@@ -87,9 +88,10 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
         connections=tuple(ends for ends, _ in _connections(tree) if len(ends) > 1),
         run=run,
         record=record,
+        interface=document.interface if document else Interface(),
         **blocks,
         digest=digest,
-        written={block: _block(tree, block) for block in ("run", "record")},
+        written={block: _block(tree, block) for block in ("run", "record", "interface")},
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fairlead.errors import Location
+from fairlead.netlist.interface import Interface
 from fairlead.netlist.settings import RecordSettings, RunSettings
 
 
@@ -91,6 +92,7 @@ class Netlist:
     initial: Mapping[str, Value] = field(default_factory=dict)
     nominal: Mapping[str, Value] = field(default_factory=dict)
     limits: Mapping[str, Value] = field(default_factory=dict)
+    interface: Interface = field(default_factory=Interface)
     digest: str = ""
     written: Mapping[str, Mapping[str, Value]] = field(default_factory=lambda: {"run": {}, "record": {}})
     """The blocks `run` and `record` as written, for messages about them."""

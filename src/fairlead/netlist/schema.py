@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
+from fairlead.netlist.interface import Interface
 from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
 
 Scalar = bool | int | float | str
@@ -71,5 +72,7 @@ class Document(Part):
     """How far and how exactly to run, such as run: {stop: 20 s}."""
     record: Annotated[RecordSettings, BeforeValidator(_nothing_is_empty)] = RecordSettings()
     """What to write down."""
+    interface: Annotated[Interface, BeforeValidator(_nothing_is_empty)] = Interface()
+    """What a program that steps the model from outside sets and reads."""
     limits: Block = {}
     """Bounds on signals; a run that breaks one ends with exit code 5."""

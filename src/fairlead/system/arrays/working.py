@@ -18,10 +18,11 @@ from fairlead.system.arrays.blocks import Block, Memory
 
 CHANGED = (
     "z", "w", "zones", "partials", "work", "moving_base", "fixed_done", "outputs_all", "f_rest", "sample_count",
-    "sample_start",     "circle_seen", "circle_still", "circle_nodes", "circle_ratio", "guard_inertia",
-    "rated_known", "rated_root", "rated_mode",
+    "sample_start", "set_due", "set_values", "circle_seen", "circle_still", "circle_nodes", "circle_ratio",
+    "guard_inertia", "rated_known", "rated_root", "rated_mode",
 )  # fmt: skip
-"""Arrays that callbacks write to, by their names in `layout.py`; and the discrete variables of sampled blocks."""
+"""Arrays that callbacks write to, by their names in `layout.py`; and the discrete variables of sampled blocks, and the
+inputs of blocks that are set from outside."""
 LINE = 64  # bytes: every array begins a line of the processor's cache
 Bytes = NDArray[np.uint8]
 
@@ -63,6 +64,20 @@ def discrete(number: int) -> str:
     return f"parameters {number}"
 
 
+def offsets(number: int) -> str:
+    """The name of the offsets of a block of which some inputs are set from outside."""
+    return f"offsets {number}"
+
+
+def with_more(working: Working, more: Memory) -> Working:
+    """The same with these arrays behind, or in place of arrays of other lengths."""
+    places, size = dict(working.places), working.size
+    for name, array in more.items():
+        places[name] = Place(size, array.shape, array.dtype)
+        size += -(-8 * array.size // LINE) * LINE
+    return Working(size, places, working.begin | {name: array for name, array in more.items() if array.any()})
+
+
 def set_apart(memory: Memory, blocks: list[Block], *, samples: bool) -> Working:
     """Take what a run changes out of `memory`, and say where it lies; there its first values remain, not to be changed.
 
@@ -85,8 +100,15 @@ def addressed(memory: Memory, own: Memory, blocks: list[Block]) -> Memory:
     for name in CHANGED:
         context[getattr(layout, name.upper())] = own[name].ctypes.data
     sampled = [k for k, block in enumerate(blocks) if block.kernel.structure.period]
-    if sampled:
+    set_ = [k for k in range(len(blocks)) if offsets(k) in own]
+    if sampled or set_:
         rows = rows.copy()
         rows[sampled, layout.PAR] = [blocks[k].parameters.ctypes.data for k in sampled]
         context[layout.BLOCKS] = rows.ctypes.data
-    return {"context": context, "blocks": rows}
+    for k in set_:
+        own_offset = blocks[k].in_offset
+        rows[k, [layout.IN_OFFSET, layout.IN_OFFSET_STEP]] = own_offset.ctypes.data, own_offset.shape[1]
+    at = [blocks[k].in_offset[i : i + 1, j].ctypes.data for k, i, j in memory["set_places"].tolist()]
+    addresses = np.array(at, dtype=np.int64)
+    context[layout.N_SET], context[layout.SET_AT] = len(addresses), addresses.ctypes.data
+    return {"context": context, "blocks": rows, "set_at": addresses}

@@ -31,6 +31,7 @@ from fairlead.system.assembly.mass import mass
 from fairlead.system.assembly.program import Pattern
 from fairlead.system.assembly.redundancy import guard_inertias, sharing
 from fairlead.system.compiled.context import context, working_arrays
+from fairlead.system.compiled.opened import nothing_set
 from fairlead.system.compiled.system import System
 from fairlead.system.driver.driver import SPREAD, callbacks
 from fairlead.system.numbering.tolerances import roundings, scales
@@ -61,6 +62,7 @@ def build(
     memory |= switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
     memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
+    memory |= nothing_set()
     memory["partials"] = np.concatenate([memory["partials"], np.zeros(len(rated["rated_terms"]))])
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
     memory["context"] = context(blocks, numbering, program, memory, end.mass)

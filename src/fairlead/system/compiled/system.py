@@ -23,7 +23,7 @@ from fairlead.system.arrays.blocks import Block, Memory, Tables
 from fairlead.system.arrays.plain_python import CalledController, Known, called_controllers
 from fairlead.system.arrays.recording import OutputSignal, Recording, choose
 from fairlead.system.arrays.timing import PlacedTable
-from fairlead.system.arrays.working import Bytes, Working, addressed, discrete
+from fairlead.system.arrays.working import Bytes, Working, addressed, discrete, offsets
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.assembly.program import Pattern
 from fairlead.system.numbering.tolerances import Scales, Weights
@@ -329,10 +329,7 @@ def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> 
     own = system.working.arrays(piece)
     for name, values in system.working.begin.items():
         own[name][...] = values
-    blocks = [
-        replace(block, parameters=own[discrete(k)]) if discrete(k) in own else block
-        for k, block in enumerate(system.blocks)
-    ]
+    blocks = [_own_block(block, k, own) for k, block in enumerate(system.blocks)]
     memory = system.memory | own | addressed(system.memory, own, blocks)
     context = memory["context"]
     record.tell(context)
@@ -344,6 +341,13 @@ def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> 
         of=system, piece=piece, context=context.ctypes.data, absolute=weights.absolute, relative=weights.relative,
         cap=weights.cap, guard_tolerance=weights.guard_tolerance, record=record, controllers=controllers,
     )  # fmt: skip
+
+
+def _own_block(block: Block, k: int, own: Memory) -> Block:
+    """A block with what a run changes of it."""
+    if discrete(k) in own:
+        block = replace(block, parameters=own[discrete(k)])
+    return replace(block, in_offset=own[offsets(k)]) if offsets(k) in own else block
 
 
 def _meets_rigidly(s: Structure) -> bool:

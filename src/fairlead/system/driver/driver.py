@@ -298,9 +298,14 @@ def next_time(ctx, t):
 
 
 def at_time(ctx, t, y):
-    """Move to the pieces that hold from t on, and sample what is due; all samplers read what was before."""
+    """Take what was set, move to the pieces that hold from t on, sample what is due; samplers read what was before."""
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    changed = 0
+    due, at, values = i8(ctx[SET_DUE]), i8(ctx[SET_AT]), f8(ctx[SET_VALUES])
+    changed = due[0]
+    for k in range(0, changed * ctx[N_SET]):
+        number = f8(at[k])
+        number[0] = values[k]
+    due[0] = 0
     for k in range(0, ctx[N_TIME]):
         for _ in range(0, place[3 * k + 2]):
             if tables[place[3 * k + 1] + STRIDE * zones[place[3 * k]] + RIGHT] <= t:

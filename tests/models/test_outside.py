@@ -1,0 +1,199 @@
+"""Runs that are stepped from outside: where they land, what is set, early returns, copies, ends and messages."""
+
+import numpy as np
+import pytest
+
+import fairlead
+from tests.reference.belt import StickSlipBelt
+
+FLOOR, BLOCK, WEIGHT = 5.0, 2.0, 10.0  # N of friction, kg, N
+PUSHED = """
+schema: 1
+name: pushed
+components:
+  floor: {type: Ground}
+  block: {type: Mass, mass: 2 kg}
+  pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 0.5, coulomb: 0.5}}
+  push: {type: ForceActuator}
+  command: {type: SignalInput, start: 1}
+  spare: {type: SignalInput}
+connections:
+  - [floor.flange, pad.a]
+  - [pad.b, block.flange, push.flange]
+  - [command.signal, push.force]
+run: {stop: 1 s}
+interface:
+  inputs: {pull: {of: command.value, unit: N}, other: spare.value}
+  outputs: {speed: block.v, force: {of: push.power}}
+"""
+ENGINES = ["rodas", "stepping"]
+
+
+@pytest.fixture(scope="module")
+def pushed(tmp_path_factory):
+    """A block on a floor, pushed from outside."""
+    path = tmp_path_factory.mktemp("outside") / "pushed.yaml"
+    path.write_text(PUSHED, encoding="utf-8")
+    return fairlead.load(path)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_block_moves_as_what_is_set_says(pushed, engine):
+    """At rest below the limit of 5 N; with 9 N beyond it 2 m/s^2, up to each point exactly, also past the stop."""
+    run = pushed.start(engine=engine)
+    run.set("pull", "3 N")
+    assert run.advance(0.1) == 0.1
+    assert run.get("block.x") == 0.0
+    assert run.changes == []
+    assert run.get("pad.friction") == pytest.approx(3.0, rel=1e-9)
+    run.set("pull", "0.009 kN")
+    assert run.advance("200 ms") == 0.2 == run.t
+    assert [(change.t, change.before, change.after) for change in run.changes] == [(0.1, "held", "forward")]
+    assert run.get("speed") == pytest.approx(0.2, rel=1e-9)
+    assert run.advance(3.0) == 3.0
+    assert run.get("speed") == pytest.approx(2.0 * 2.9, rel=1e-6)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_run_returns_at_a_zone_change_when_asked_to(pushed, engine):
+    """From 0.2 m/s friction of 2.5 m/s^2 stops the block after 0.08 s; without being asked the run goes past it."""
+    run = pushed.start(engine=engine)
+    run.set("pull", 9.0)
+    run.advance(0.1)
+    state = run.save()
+    run.set("pull", 0.0)
+    assert run.advance(0.5, until_change=True) == pytest.approx(0.18, abs=1e-9)
+    assert [change.component for change in run.changes] == ["pad"]
+    assert run.advance(0.5, until_change=True) == 0.5
+    assert run.changes == []
+    there = run.get("block.x")
+    assert there == pytest.approx(0.01 + 0.2**2 / (2 * FLOOR / BLOCK), rel=1e-6)
+    other = pushed.start(engine=engine)
+    other.restore(state)
+    other.set("pull", 0.0)
+    assert other.advance(0.5) == 0.5
+    assert other.get("block.x") == there
+    assert len(other.changes) == 1
+
+
+def test_what_is_set_before_the_first_step_holds_from_the_start(pushed):
+    """The start value is that of the source; what is set first is there at once, without a jump."""
+    run = pushed.start()
+    assert run.get("command.signal") == 1.0
+    assert run.get("pad.friction") == pytest.approx(1.0)
+    run = pushed.start()
+    run.set("pull", 9.0)
+    assert run.get("command.signal") == 9.0
+    assert run.advance(0.1) == 0.1
+    assert run.changes == []
+    assert run.get("speed") == pytest.approx(0.2, rel=1e-9)
+
+
+def test_two_runs_of_a_model_do_not_share_what_is_set(pushed):
+    one, two = pushed.start(), pushed.start()
+    one.set("pull", 9.0)
+    two.set("pull", -9.0)
+    one.advance(0.1), two.advance(0.1)
+    assert one.get("speed") == pytest.approx(0.2, rel=1e-9)
+    assert two.get("speed") == pytest.approx(-0.2, rel=1e-9)
+    assert pushed.run(out=None).at("block.v", 1.0) == 0.0
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_cutting_a_run_into_steps_keeps_the_stick_slip_of_the_belt(engine):
+    """Eleven breakaways and catches; ten accuracies of the largest position about the closed form."""
+    belt, oracle = fairlead.load("belt"), StickSlipBelt()
+    run, accuracy, largest = belt.start(engine=engine), 1e-6, 0.1
+    rng, t = np.random.default_rng(3), 0.0
+    while t < 4.0:
+        t = min(t + float(rng.uniform(1e-3, 0.05)), 4.0)
+        run.advance(t)
+        assert run.get("block.x") == pytest.approx(float(oracle.position(t)), abs=10 * accuracy * largest)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_saving_and_restoring_at_random_gives_the_same_run(engine):
+    """Bit for bit, after going astray each time, with inputs, contacts and sampled control."""
+    model = fairlead.load("winch_drive")
+    points = [0.004 * k for k in range(1, 26)]
+    names = [signal.name for signal in model.system.signals][::7]
+    straight, cut = model.start(engine=engine), model.start(engine=engine)
+    rng = np.random.default_rng(1)
+    for t in points:
+        straight.advance(t)
+        if rng.random() < 0.5:
+            state = cut.save()
+            cut.advance(t + float(rng.uniform(0.0, 0.01)))
+            (cut if rng.random() < 0.5 else (cut := model.start(engine=engine))).restore(state)
+        cut.advance(t)
+        assert [cut.get(name) for name in names] == [straight.get(name) for name in names]
+
+
+def test_a_run_that_fails_says_what_model_run_would(pushed):
+    """A budget that is used up, with the time; what was reached can be read, and gone back from."""
+    run = pushed.start(max_steps=3, max_step=0.01)
+    state = run.save()
+    with pytest.raises(fairlead.SteppingError, match="the budget of 3 steps is used up") as told:
+        run.advance(0.9)
+    assert told.value.t == run.t > 0
+    assert run.get("speed") == 0.0
+    run.restore(state)
+    assert run.t == 0.0
+    assert run.advance(0.01) == 0.01
+
+
+MISTAKES = {
+    "set: there is no input pul. Did you mean pull?": lambda run: run.set("pul", 1.0),
+    "set: pull = 1 m is a length, not a force": lambda run: run.set("pull", "1 m"),
+    "set: pull = nan": lambda run: run.set("pull", float("nan")),
+    "get: no signal has the name spee. Did you mean speed?": lambda run: run.get("spee"),
+    "advance: t = 0.05 s is before 0.1 s": lambda run: run.advance(0.05),
+    "advance: t = 1 m is a length": lambda run: run.advance("1 m"),
+    "restore: this state is not of a run of this model": lambda run: run.restore(None),
+}
+
+
+@pytest.mark.parametrize("said", MISTAKES)
+def test_a_call_that_cannot_be_meant_is_refused(pushed, said):
+    run = pushed.start()
+    run.advance(0.1)
+    with pytest.raises(fairlead.UsageError) as told:
+        MISTAKES[said](run)
+    assert said in str(told.value)
+
+
+def test_an_engine_whose_past_cannot_be_saved_is_refused(pushed):
+    with pytest.raises(fairlead.UsageError, match="ida keeps the past of a run in memory of SUNDIALS"):
+        pushed.start(engine="ida")
+
+
+INTERFACES = {
+    "{inputs: {pull: comand.value}}": ["comand.value is no input that is free. Did you mean command.value?"],
+    "{inputs: {pull: push.force}}": ["push.force is connected to a signal already"],
+    "{inputs: {pull: {of: command.value, unit: newtonne}}}": ["interface.inputs.pull.unit", "newtonne"],
+    "{inputs: {a: command.value, b: command.value}}": ["interface.inputs.b: command.value is a already"],
+    "{inputs: {a: nothing}, outputs: {b: block.w}}": ["interface.inputs.a", "interface.outputs.b", "block gives x, v"],
+    "{input: {a: command.value}}": ["Did you mean inputs"],
+}
+
+
+@pytest.mark.parametrize("block", INTERFACES)
+def test_an_interface_that_fits_no_signal_is_told_with_its_place(tmp_path, block):
+    path = tmp_path / "scene.yaml"
+    path.write_text(PUSHED[: PUSHED.index("interface:")] + f"interface: {block}\n", encoding="utf-8")
+    with pytest.raises(fairlead.ModelError) as told:
+        fairlead.load(path).check()
+    assert all(text in str(told.value) for text in INTERFACES[block])
+    line = 1 + PUSHED[: PUSHED.index("interface:")].count("\n")
+    assert f"scene.yaml:{line}:" in str(told.value)
+
+
+def test_inputs_may_be_named_when_a_run_is_started(tmp_path):
+    path = tmp_path / "scene.yaml"
+    path.write_text(PUSHED[: PUSHED.index("interface:")], encoding="utf-8")
+    run = fairlead.load(path).start(inputs=["command.value"])
+    assert run.inputs == ("command.value",)
+    assert run.outputs == ()
+    run.set("command.value", 9.0)
+    run.advance(0.1)
+    assert run.get("block.v") == pytest.approx(0.2, rel=1e-9)
