@@ -217,7 +217,8 @@ def _stays(p: Values, zone: str, slip: float, friction: float, normal: float, pu
     arguments = _arguments(p, zone, slip, normal, push, dict.fromkeys(has.unknowns, friction))
     for guard in has.guards.values():
         if zone in guard.zones:
-            said = _called(guard.function, arguments)
+            direction = guard.direction or arguments["direction"]
+            said = _called(guard.function, {**arguments, "direction": direction})
             if all(value > 0 for value in (said if isinstance(said, tuple) else (said,))):
                 return False
     return True

@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 
 from fairlead.errors import Fault, Location, shown
-from fairlead.netlist.limits import Meter, TooMuch
+from fairlead.netlist.limits import DEEPEST, Meter, TooMuch
 from fairlead.netlist.netlist import Value
 
 Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -236,6 +236,8 @@ class _Composer:
 
 def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
     mark = error.problem_mark or error.context_mark
+    if "maximum nesting depth" in str(error.problem):  # libyaml looks ahead of its events, and has a bound of its own
+        return Fault(_deep_place(file, text), f"nested more than {DEEPEST} levels deep")
     if mark is None:
         return Fault(Location(file), f"not YAML: {error.problem}")
     opened = error.context_mark
@@ -257,6 +259,16 @@ def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
     context = f" {error.context}" if error.context else ""
     what = f"not YAML: {error.problem}{context}"
     return Fault(place, what, _advice(line, mark.column))
+
+
+def _deep_place(file: str, text: str) -> Location:
+    """Where brackets and braces first stand deeper than allowed, counted as if none stood in a text in quotes."""
+    depth = 0
+    for index, letter in enumerate(text):
+        depth += (letter in "[{") - (letter in "]}")
+        if depth > DEEPEST:
+            return Location(file, text.count("\n", 0, index) + 1, index - text.rfind("\n", 0, index))
+    return Location(file)
 
 
 def _run_together(line: str) -> tuple[str, str] | None:
