@@ -29,6 +29,8 @@ class LinkedLate(JITCodeLibrary):
     """The code of one function, left as it was lowered until the module with all that it calls is asked for."""
 
     _whole = False
+    _final_module: Any
+    _shared_module: Any
 
     def finalize(self) -> None:
         """Nothing is added any more; nothing is linked, optimised or made native."""
