@@ -132,6 +132,7 @@ def test_anchors_and_aliases_are_bounded():
 
 
 def test_reading_stops_at_the_bound_and_not_at_the_end_of_the_text():
+    """A hundred levels: libyaml bounds depth itself, in newer releases at a thousand."""
     meter = Meter()
-    read_yaml("[" * 1_000_000, "x.yaml", meter)
+    read_yaml("[" * 100 + "1, " * 300_000, "x.yaml", meter)
     assert meter.nodes == DEEPEST + 1
