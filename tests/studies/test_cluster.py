@@ -5,7 +5,7 @@ import signal
 import socket
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -24,6 +24,7 @@ from fairlead.studies.sweeps.cluster import Cluster
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")]
 ROOT = Path(__file__).parents[2]
 TIMES = ["seconds", "loop", "host"]
+PATIENCE = 15.0  # s, for a process to end before its group is killed
 
 
 @contextmanager
@@ -34,7 +35,7 @@ def scheduler(workers, *more):
         port = free.getsockname()[1]
     address = f"tcp://127.0.0.1:{port}"
     options = ["--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
-    quiet = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    quiet = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "start_new_session": True}
     going = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", *options], **quiet)]
     command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard"]
     going += [subprocess.Popen([*command, *(more or ("--no-nanny",))], **quiet) for _ in range(workers)]
@@ -42,8 +43,17 @@ def scheduler(workers, *more):
         yield address, going
     finally:
         for one in reversed(going):
-            one.terminate()
-            one.wait()
+            end(one)
+
+
+def end(one: subprocess.Popen) -> None:
+    """End a process that leads a group: politely, then with all of its group, which a nanny's workers are in."""
+    one.terminate()
+    with suppress(subprocess.TimeoutExpired):
+        one.wait(timeout=PATIENCE)
+    with suppress(ProcessLookupError, PermissionError):  # the whole group may be gone already
+        os.killpg(one.pid, signal.SIGKILL)
+    one.wait(timeout=PATIENCE)
 
 
 def plain(frame):
@@ -68,7 +78,7 @@ def test_two_of_four_workers_are_killed_and_the_table_is_that_of_processes(tmp_p
     with scheduler(4) as (address, going):
         kill = at(40, lambda: [one.send_signal(signal.SIGKILL) for one in going[1:3]])
         made = sweep(job(square), design, tmp_path / "there", computers=lambda one: Cluster(one, address), watch=kill)
-        assert [one.wait() for one in going[1:3]] == [-9, -9]
+        assert [one.wait(timeout=PATIENCE) for one in going[1:3]] == [-9, -9]
     assert plain(made[0].frame()).equals(plain(expected))
 
 
