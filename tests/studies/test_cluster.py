@@ -1,6 +1,7 @@
 """A scheduler on this machine: its table is that of processes, also when workers die or the scheduler does."""
 
 import os
+import shlex
 import signal
 import socket
 import subprocess
@@ -28,8 +29,8 @@ PATIENCE = 15.0  # s, for a process to end before its group is killed
 
 
 @contextmanager
-def scheduler(workers, *more):
-    """A scheduler with so many worker processes: its address, and the processes."""
+def scheduler(workers, *, again=False):
+    """A scheduler with so many worker processes: its address, and the processes. `again`: dead ones are replaced."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -38,7 +39,10 @@ def scheduler(workers, *more):
     quiet = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "start_new_session": True}
     going = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", *options], **quiet)]
     command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard"]
-    going += [subprocess.Popen([*command, *(more or ("--no-nanny",))], **quiet) for _ in range(workers)]
+    command.append("--no-nanny")
+    if again:  # not by a nanny, which gives up when its worker dies before it has started
+        command = ["sh", "-c", f"while true; do {shlex.join(command)}; done"]
+    going += [subprocess.Popen(command, **quiet) for _ in range(workers)]
     try:
         yield address, going
     finally:
@@ -47,7 +51,7 @@ def scheduler(workers, *more):
 
 
 def end(one: subprocess.Popen) -> None:
-    """End a process that leads a group: politely, then with all of its group, which a nanny's workers are in."""
+    """End a process that leads a group: politely, then with all of its group."""
     one.terminate()
     with suppress(subprocess.TimeoutExpired):
         one.wait(timeout=PATIENCE)
@@ -123,7 +127,7 @@ def test_a_lost_scheduler_is_a_sentence_and_the_rest_is_computed_later(tmp_path)
 
 def test_a_case_that_kills_its_workers_is_a_row(tmp_path) -> None:
     design = Design(grid={"x": [str(k) for k in range(20)]})
-    with scheduler(1, "--nworkers", "2") as (address, _):  # under nannies, which start workers again
+    with scheduler(2, again=True) as (address, _):
         made = sweep(job(crash_at_three), design, tmp_path, computers=lambda one: Cluster(one, address))
     frame = made[0].frame()
     assert frame["case"][frame["status"] == "killed"].tolist() == [3]
@@ -137,3 +141,9 @@ def test_nobody_who_answers_is_a_sentence(tmp_path, monkeypatch) -> None:
         sweep(job(square), design, tmp_path, computers=lambda one: Cluster(one, "tcp://127.0.0.1:9"))
     with pytest.raises(UsageError, match="no such file"):
         sweep(job(square), design, tmp_path, computers=lambda one: Cluster(one, "scheduler.json"))
+
+
+def test_a_scheduler_without_workers_is_a_sentence_after_a_while(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("fairlead.studies.sweeps.cluster.NOBODY", 3.0)
+    with scheduler(0) as (address, _), pytest.raises(FairleadError, match="no worker for 3 s"):
+        sweep(job(square), Design(grid={"x": ["1"]}), tmp_path, computers=lambda one: Cluster(one, address))

@@ -138,7 +138,7 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
 
 ROOMS_OF = {
     "system": ("numbering", "arrays", "assembly", "driver", "compiled", "start", "active", "compile", "refresh"),
-    "studies": ("cases", "sweeps", "pictures"),
+    "studies": ("cases", "sweeps", "pictures", "fits"),
 }
 """Stage -> its rooms and the files beside them; each imports only those before it."""
 

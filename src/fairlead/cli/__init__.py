@@ -16,6 +16,7 @@ from fairlead.cli import (
     describe,
     doctor,
     effects,
+    fit,
     friction,
     graph,
     margins,
@@ -43,7 +44,8 @@ app = typer.Typer(
 )
 for verb in (
     check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
-    margins.margins, compare.compare, sweep.sweep, cost.cost, effects.effects, schema.schema, new.new, doctor.doctor,
+    margins.margins, compare.compare, sweep.sweep, fit.fit, cost.cost, effects.effects, schema.schema, new.new,
+    doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)
 

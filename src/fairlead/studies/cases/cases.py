@@ -10,9 +10,12 @@ import math
 import platform
 import time
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fairlead.errors import FairleadError, ModelError
 from fairlead.netlist.settings import RecordSettings
@@ -26,6 +29,8 @@ if TYPE_CHECKING:
     from fairlead.result import Result
     from fairlead.simulate import Model
 
+Floats = NDArray[np.float64]
+Take = Callable[["Result"], None]
 MOST_STRUCTURES = 4
 """Compiled structures that are kept; a sweep over words has a few, and one over sizes comes back to none."""
 
@@ -74,10 +79,13 @@ class Cases:
 
     def row(self, values: Mapping[str, Value]) -> Row:
         """Run the case of these values. What goes wrong in it is told by its status and sentence."""
+        return self._told_row(values)
+
+    def _told_row(self, values: Mapping[str, Value], also: tuple[str, ...] = (), take: Take | None = None) -> Row:
         begun = time.perf_counter()
         start = Row(self.key(values), dict(values), ERROR, host=platform.node())
         try:
-            made = self._run(start, values)
+            made = self._run(start, values, also, take)
         except ModelError as error:
             made = replace(start, status=REFUSED, sentence=_in_a_line(error))
         except FairleadError as error:
@@ -90,9 +98,22 @@ class Cases:
         """The case with everything that the netlist records, in memory or in the folder `out`. Raises ModelError."""
         return self.model.with_values(values).run(out=out, force=True, check=False)  # type: ignore[arg-type]
 
-    def _run(self, start: Row, values: Mapping[str, Value]) -> Row:
+    def curves(self, values: Mapping[str, Value], signals: Sequence[str], times: Floats) -> tuple[Row, Floats]:
+        """The row of a case, and its signals at times [s], shape (signals, times); NaN where the case has none.
+
+        Values are those along the curves of the steps. Never raises for what happens in the run.
+        """
+        found: list[Floats] = []
+
+        def take(result: Result) -> None:
+            found.append(np.array([result.at(name, times) for name in signals]))
+
+        row = self._told_row(values, tuple(signals), take)
+        return row, found[0] if found else np.full((len(signals), len(times)), math.nan)
+
+    def _run(self, start: Row, values: Mapping[str, Value], also: tuple[str, ...], take: Take | None) -> Row:
         model = self._model(values)
-        result = self._result(model)
+        result = self._result(model, also)
         run = result.run
         counters = {name: int(run[name]) for name in COUNTED}
         status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
@@ -102,6 +123,8 @@ class Cases:
                       broken=tuple(run["limits_broken"]), loop=float(run["solve_time"]))  # fmt: skip
         if not result.ok:
             return row
+        if take is not None:
+            take(result)
         return replace(row, figures={one.name: value_of(one, result) for one in self.figures})
 
     def _model(self, values: Mapping[str, Value]) -> Model:
@@ -115,8 +138,9 @@ class Cases:
             del self._structures[next(iter(self._structures))]
         return model
 
-    def _result(self, model: Model) -> Result:
-        netlist = replace(model.netlist, record=self._record(model))
+    def _result(self, model: Model, also: tuple[str, ...] = ()) -> Result:
+        record = RecordSettings.model_construct(signals=list(also), every=None, plots=[]) if also else None
+        netlist = replace(model.netlist, record=record or self._record(model))
         settings = netlist.run
         if self.max_steps is not None:
             settings = settings.model_copy(update={"max_steps": self.max_steps})

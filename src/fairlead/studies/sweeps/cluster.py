@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -30,7 +30,17 @@ TRIES = 3
 LOOK_AGAIN = 2.0
 """Seconds after which it is asked again how large the cluster is."""
 TIMEOUT = "15 s"
+NOBODY = 60.0
+"""Seconds without any worker after which a sweep ends; nannies and job queues need a while for a new one."""
+LOOK = 0.01
+"""Seconds between two looks for rows that are ready."""
+FETCH = 5.0
+"""Seconds in which rows that are ready must arrive; those of a worker that has died meanwhile never do."""
 MISSING = "A cluster needs dask.distributed.\n    Install it: pip install 'fairlead[cluster]'"
+NO_WORKERS = (
+    "The scheduler {} has had no worker for {:g} s.\n"
+    "    What was computed is in the table. Start workers (dask worker {}), and type the same to go on."
+)
 LOST = "The scheduler {} is gone.\n    What was computed is in the table. Start it again, and type the same to go on."
 
 _PARCELS: dict[str, Parcel] = {}
@@ -43,6 +53,7 @@ class Cluster:
     def __init__(self, job: Job, address: str) -> None:
         self.job, self.address = job, address
         self._client: Any = None
+        self._lost: Counter[int] = Counter()
 
     def __enter__(self) -> Cluster:
         """Connect. Raises UsageError where nobody answers or the package is missing."""
@@ -105,7 +116,20 @@ class Cluster:
                 flying.add(self._send(chunk))
             if flying.is_empty():
                 return
+            self._wait(flying)
             yield from self._landed(next(flying), again)
+
+    def _wait(self, flying: Any) -> None:
+        """Until rows are ready. Raises FairleadError when there has been no worker for long, OSError as the client."""
+        asked = seen = time.monotonic()
+        while not flying.has_ready():
+            time.sleep(LOOK)
+            now = time.monotonic()
+            if now - asked > LOOK_AGAIN:
+                asked = now
+                seen = now if self._client.nthreads() else seen
+            if now - seen > NOBODY:
+                raise FairleadError(NO_WORKERS.format(self.address, NOBODY, self.address))
 
     def _send(self, chunk: list[Case]) -> Any:
         try:
@@ -119,19 +143,22 @@ class Cluster:
         """What a task that has ended leaves: rows, or cases to try again."""
         chunk = future.chunk
         try:
-            yield from future.result()
+            yield from future.result(timeout=FETCH)
             return
         except Exception as error:  # noqa: BLE001 - of the cluster; what a case raises is a row already
             failure, died = error, type(error).__name__ == "KilledWorker"
         self._client.nthreads()  # raises OSError where the scheduler is gone
-        if not died and future.status != "error":  # its rows were on a worker that is lost
+        self._lost[chunk[0][0]] += 1
+        if not died and future.status != "error" and self._lost[chunk[0][0]] < TRIES:  # its rows were on a lost worker
+            future.cancel()
             again.append(chunk)
         elif len(chunk) > 1:
             again += [[one] for one in chunk]
         else:
             ((number, values),) = chunk
-            said = "The workers that computed it died." if died else f"{type(failure).__name__}: {failure}"
-            yield number, Row(self.job.key(values), values, KILLED if died else ERROR, said)
+            killed = died or future.status != "error"
+            said = "The workers that computed it died." if killed else f"{type(failure).__name__}: {failure}"
+            yield number, Row(self.job.key(values), values, KILLED if killed else ERROR, said)
 
 
 def compute(scene: str, chunk: Sequence[Case]) -> list[Done]:

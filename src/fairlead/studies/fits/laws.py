@@ -1,0 +1,70 @@
+"""Laws beside each other: each is fitted with every record left out in turn, and foretells that one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from fairlead.errors import FairleadError, UsageError
+from fairlead.studies.fits.fit_file import Asked, Law
+from fairlead.studies.fits.search import Error, Fitted, Told, errors, fit, prepared
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A law: by record, its errors when all records are fitted and when that one is left out, by signal."""
+
+    law: Law
+    trained: dict[str, dict[str, Error]] = field(default_factory=dict)
+    left_out: dict[str, dict[str, Error]] = field(default_factory=dict)
+    fitted: Fitted | None = None
+    sentence: str = ""
+    """Why it could not be judged; empty when it could."""
+
+
+def compare(asked: Asked, laws: Sequence[Law], told: Told | None = None) -> list[Judged]:
+    """Every law judged. Raises UsageError for a single record, ModelError for a law that the model has not."""
+    if len(asked.given.records) < 2:
+        raise UsageError("Laws are compared by leaving each record out in turn; give two records or more.")
+    ready = [(law, *prepared(asked, law)) for law in laws]  # all mistakes come before anything is fitted
+    made = []
+    for law, records, targets, _ in ready:
+        try:
+            whole = fit(asked, targets, law)
+            judged = Judged(law, fitted=whole)
+            for k, record in enumerate(records):
+                rest = fit(asked, [*targets[:k], *targets[k + 1 :]], law)
+                judged.trained[record.name] = errors(record, whole.values) or {}
+                judged.left_out[record.name] = errors(record, rest.values) or {}
+                if told is not None:
+                    told(f"{law.name}: {record.name} left out")
+        except FairleadError as error:
+            judged = Judged(law, sentence=" ".join(str(error).split()))
+        made.append(judged)
+    return made
+
+
+def preferred(judged: Sequence[Judged]) -> str:
+    """The law with the smallest left-out error, summed over records and signals as shares of the first law's."""
+    first = next((one for one in judged if not one.sentence), None)
+    if first is None:
+        return ""
+    scores = {one.law.name: _score(one, first) for one in judged if not one.sentence}
+    return min(scores, key=lambda name: scores[name])
+
+
+def better_everywhere(judged: Sequence[Judged]) -> list[str]:
+    """Laws whose left-out error is below that of the first law on every record and signal."""
+    first = judged[0]
+    return [one.law.name for one in judged[1:] if not one.sentence and not first.sentence and all(
+        one.left_out[record].get(signal, Error(float("inf"), 0)).mean < error.mean
+        for record, found in first.left_out.items() for signal, error in found.items())]  # fmt: skip
+
+
+def _score(one: Judged, first: Judged) -> float:
+    total = 0.0
+    for record, found in first.left_out.items():
+        for signal, error in found.items():
+            mine = one.left_out[record].get(signal)
+            total += mine.mean / max(error.mean, 1e-300) if mine else float("inf")
+    return total

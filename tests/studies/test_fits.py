@@ -1,0 +1,167 @@
+"""Fits of scenes with closed forms: what was put in comes out, what is not told is named, mistakes have places."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from fairlead.cli import app
+from fairlead.errors import ModelError
+from fairlead.studies.fits.features import read_feature
+from fairlead.studies.fits.fit_file import read_fit
+from fairlead.studies.fits.problem import records_of
+from fairlead.studies.fits.search import fit, prepared
+from fairlead.studies.fits.steps import difference, noise_floor, steps
+
+STIFFNESS, MASS, FRICTION, BEGIN = 400.0, 2.0, 1.2, 0.1
+SCENE = """schema: 1
+name: coasting
+parameters: {k: 400 N/m, m: 2 kg, mu: 0.12, pressed: 10 N}
+components:
+  wall: {type: Ground}
+  spring: {type: Spring, stiffness: "{k}"}
+  block: {type: Mass, mass: "{m}", position: 0.1 m, velocity: 0 m/s}
+  pad: {type: Contact, normal_force: "{pressed}", curve: "{mu}"}
+connections:
+  - [wall.flange, spring.a, pad.a]
+  - [spring.b, block.flange, pad.b]
+run: {stop: 2 s, accuracy: 1e-6}
+"""
+
+
+def coasting(times, friction=FRICTION, stiffness=STIFFNESS, mass=MASS, begin=BEGIN):
+    """Free oscillation with dry friction: half cycles of pi/w about +-F/k, each 2F/k shorter, until it sticks."""
+    w, centre = np.sqrt(stiffness / mass), friction / stiffness
+    found, peak, begun = np.empty_like(times), begin, 0.0
+    while abs(peak) > centre:
+        now = times >= begun
+        middle = np.sign(peak) * centre
+        found[now] = middle + (peak - middle) * np.cos(w * (times[now] - begun))
+        peak, begun = 2 * middle - peak, begun + np.pi / w
+    found[times >= begun] = peak
+    return found
+
+
+def write(folder, fit_text, noise=0.0, seed=0, unit="m"):
+    times = np.linspace(0, 2, 81)
+    x = coasting(times) + noise * np.random.default_rng(seed).normal(size=times.size)
+    factor = 1e3 if unit == "mm" else 1.0
+    rows = "".join(f"{t!r},{v * factor!r}\n" for t, v in zip(times.tolist(), x.tolist(), strict=True))
+    (folder / "scene.yaml").write_text(SCENE)
+    (folder / "coast.csv").write_text(f"t [s],place [{unit}]\n{rows}")
+    (folder / "fit.yaml").write_text(fit_text)
+    return folder / "fit.yaml"
+
+
+def fitted(file):
+    asked = read_fit(file)
+    return fit(asked, prepared(asked)[1])
+
+
+HEAD = "model: scene.yaml\nrecords:\n  one: {file: coast.csv, time: t, signals: {block.x: place}}\nparameters:\n"
+FREQUENCY = "  k: {start: 380 N/m, low: 200 N/m, high: 800 N/m, log: true}\n"
+DRY = "  mu: {start: 0.1, low: 0.01, high: 0.5, log: true}\n"
+
+
+def test_stiffness_and_friction_come_out_of_a_record_without_noise(tmp_path) -> None:
+    found = fitted(write(tmp_path, f"{HEAD}{FREQUENCY}{DRY}starts: 1\n", unit="mm"))
+    assert found.values["k"] == pytest.approx(STIFFNESS, rel=1e-5)  # the accuracy of the run is 1e-6
+    assert found.values["mu"] == pytest.approx(FRICTION / 10, rel=1e-4)
+    assert all(one.told for one in found.directions)
+
+
+def test_noise_widens_intervals_that_hold_the_truth(tmp_path) -> None:
+    found = fitted(write(tmp_path, f"{HEAD}{FREQUENCY}{DRY}starts: 1\n", noise=1e-3, seed=3))
+    for name, truth in (("k", STIFFNESS), ("mu", FRICTION / 10)):
+        one = found.intervals[name]
+        assert one.low < truth < one.high
+        assert one.drawn[0] < found.values[name] < one.drawn[1]
+        assert 0.5 < (one.drawn[1] - one.drawn[0]) / (one.high - one.low) < 1.5  # white noise: both say the same
+
+
+def test_friction_and_normal_force_of_one_record_are_named_as_a_pair(tmp_path) -> None:
+    pair = "  pressed: {start: 11 N, low: 2 N, high: 50 N, log: true}\n"
+    found = fitted(write(tmp_path, f"{HEAD}{FREQUENCY}{DRY}{pair}starts: 1\n", noise=1e-4))
+    untold = [one for one in found.directions if not one.told]
+    assert len(untold) == 1
+    assert "mu and pressed apart" in untold[0].sentence
+    assert [name for name, one in found.intervals.items() if one.low is None] == ["mu", "pressed"]
+    assert found.values["mu"] * found.values["pressed"] == pytest.approx(FRICTION, rel=0.05)
+
+
+def test_features_of_a_record_are_fitted_as_well(tmp_path) -> None:
+    text = f"{HEAD}{FREQUENCY}features: {{period: period(block.x)}}\nstarts: 1\n"
+    assert fitted(write(tmp_path, text)).values["k"] == pytest.approx(STIFFNESS, rel=1e-4)
+
+
+def test_a_step_weighs_noise_against_curvature() -> None:
+    chance = np.random.default_rng(0)
+
+    def rough(z):
+        return np.exp(z) + 1e-6 * chance.normal(size=50)
+
+    z, wide = np.array([0.5]), (np.array([-9.0]), np.array([9.0]))
+    noise = noise_floor(rough, z, wide)
+    assert noise == pytest.approx(1e-6, rel=0.5)
+    (one,) = steps(rough, z, wide, noise)
+    # error noise/(h sqrt 2) + h^2/6 exp: smallest at h = (3 noise/(sqrt 2 exp))^(1/3), about 0.011
+    assert 0.25 < one.size / (3 * 1e-6 / (np.sqrt(2) * np.exp(0.5))) ** (1 / 3) < 4
+    assert difference(rough, z, 0, one.size, wide).mean() == pytest.approx(np.exp(0.5), rel=1e-4)
+
+
+def test_features_have_the_values_of_known_curves() -> None:
+    times = np.linspace(0, 10, 2001)
+    curve = {"x": np.sin(2 * np.pi * times / 1.25), "v": times - 5}
+    assert read_feature("p", "period(x)").of(times, curve) == pytest.approx(1.25, rel=1e-5)
+    assert read_feature("a", "amplitude(x)").of(times, curve) == pytest.approx(1, rel=1e-4)
+    assert read_feature("b", "breakaway(x, v, 4.99)").of(times, curve) == pytest.approx(0)
+    assert read_feature("s", "at_speed(v, v, 1, 2)").of(times, curve) == pytest.approx(1.5, abs=0.01)
+
+
+def test_every_mistake_of_a_fit_comes_at_once_with_its_place(tmp_path) -> None:
+    (tmp_path / "scene.yaml").write_text(SCENE)
+    (tmp_path / "empty.csv").write_text("")
+    (tmp_path / "back.csv").write_text("t,place [m]\n0,0\n1,0\n0.5,0\n2,0\n")
+    (tmp_path / "unit.csv").write_text("t,place [in_arc]\n0,0\n1,x\n2,0\n3,0\n")
+    (tmp_path / "fit.yaml").write_text(
+        "model: scene.yaml\nrecords:\n"
+        "  a: {file: empty.csv, time: t, signals: {block.x: place}}\n"
+        "  b: {file: back.csv, time: t, signals: {block.x: plaice}}\n"
+        "  c: {file: unit.csv, time: t, signals: {block.x: place, blok.v: place}}\n"
+        "  d: {file: gone.csv, time: t, signals: {block.x: place}}\n"
+        "parameters:\n  mue: {start: 0.1, low: 0, high: 1}\n"
+    )
+    with pytest.raises(ModelError) as raised:
+        records_of(read_fit(tmp_path / "fit.yaml"))
+    told = str(raised.value)
+    for part in ("empty.csv:1:1", "is empty", "back.csv:4:1: time goes back", "plaice", "Did you mean place",
+                 "in_arc", "unit.csv:3:2", "blok.v", "block.v", "gone.csv", "mue", "Did you mean mu"):  # fmt: skip
+        assert part in told, f"{part} is missing in\n{told}"
+
+
+def test_mistakes_in_the_form_of_a_fit_file_have_places(tmp_path) -> None:
+    file = tmp_path / "fit.yaml"
+    file.write_text(
+        "model: belt\nrecords:\n  a: {file: a.csv, signals: {block.x: x}}\nparameters:\n"
+        "  m: {start: 1 kg, low: 2 kg, high: 3 kg}\n  k: {start: 1 N/m, low: 0, high: 2 s, log: true}\n"
+        "leave_out: [b]\n"
+    )
+    with pytest.raises(ModelError) as raised:
+        read_fit(file)
+    told = str(raised.value)
+    for part in (f"{file}:5:14", "not between", f"{file}:6:35", "different kinds", "no record b"):
+        assert part in told, f"{part} is missing in\n{told}"
+
+
+def test_the_command_writes_a_page_and_compares_laws_by_what_was_left_out(tmp_path) -> None:
+    second = "  two: {file: coast.csv, time: t, signals: {block.x: place}}\n"
+    file = write(tmp_path, f"{HEAD}{DRY}starts: 1\n".replace("parameters:", f"{second}parameters:"))
+    outcome = CliRunner().invoke(
+        app, ["fit", str(file), "--compare", "pad.method=hold,tanh", "--json", "--out", str(tmp_path / "made")]
+    )
+    assert outcome.exit_code == 0, outcome.output
+    told = json.loads(outcome.stdout)
+    assert told["comparison"]["preferred"] == "pad.method=hold"  # tanh creeps back where hold stays
+    assert told["parameters"]["mu"]["value"] == pytest.approx(FRICTION / 10, rel=1e-3)
+    assert (tmp_path / "made" / "fit.html").read_text().count("data:image/png") == 2
