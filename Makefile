@@ -57,8 +57,10 @@ types: $(VENV)/lint.done link-tree  ## check types with mypy
 bench: $(VENV)/bench.done  ## error, time and counters beside peers (an hour and a half; one case with BENCH="compare.py --case belt")
 	$(RUN) benchmarks/$(BENCH)
 
-docs: $(VENV)/fairlead.done  ## make the pages and figures about friction again, from the classes
+docs: $(VENV)/docs.done  ## build the site into docs/_site, with pages and figures from the classes made again
 	$(RUN) docs/make.py
+	$(RUN) -m sphinx -q -W --keep-going -b html docs docs/_site
+	@echo "Open docs/_site/index.html in a browser."
 
 pictures: $(VENV)/test.done  ## take the pictures of pages in README and docs again, with a browser
 	$(RUN) -m tests.browser
@@ -80,6 +82,7 @@ $(VENV)/fairlead.done: EXTRAS :=
 $(VENV)/test.done: EXTRAS := [test]
 $(VENV)/lint.done: EXTRAS := [lint]
 $(VENV)/bench.done: EXTRAS := [bench]
+$(VENV)/docs.done: EXTRAS := [docs]
 $(VENV)/%.done: pyproject.toml | $(VENV)/created
 	@echo "Installing fairlead$(EXTRAS) into $(VENV) (about a minute the first time) ..."
 	@$(RUN) -m pip install --quiet --disable-pip-version-check --no-compile --editable '.$(EXTRAS)' || { \

@@ -22,6 +22,8 @@ from fairlead.results.table import Table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from fairlead.report.page.inline import Animation
+
 
 class Result(results.Result):
     """One run: its signals, and what is worked out from them.
@@ -84,6 +86,15 @@ class Result(results.Result):
         from fairlead.analysis.result_tables import switches
 
         return switches(self, pattern)
+
+    def animation(self, height: int = 640) -> Animation:
+        """The moving picture of the report, for a cell of a notebook; `height` of its frame in px.
+
+        A line is drawn where the places of its nodes were recorded, other scenes with their recorded positions.
+        """
+        from fairlead.report.page.inline import Animation
+
+        return Animation.of(self, height)
 
     def plot(
         self, names: str | Iterable[str] | None = None, *, title: str = "",

@@ -337,11 +337,12 @@ def _in_order(faults: Iterable[Fault]) -> list[Fault]:
 
 
 def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
-    """Ports, parameters, zones with their guards, and equations of a component type."""
+    """Ports, parameters, zones with their guards, and equations of a component type; a notebook shows it as a page."""
     from fairlead.component.registry import known_types
     from fairlead.describe.page import describe
+    from fairlead.describe.shown import Page
 
-    return describe(name, known_types(libraries))
+    return Page(describe(name, known_types(libraries)))
 
 
 def json_schema(libraries: Iterable[str] = ()) -> dict[str, Any]:

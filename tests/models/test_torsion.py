@@ -106,3 +106,21 @@ def test_a_rope_that_wants_to_unlay_turns_a_free_end(simulate):
     ends = [result.at(name, swing).mean() for name in ("line.twist[80].turned", "line.twist[60].turned")]
     twist = (ends[0] - ends[1]) / 5.0  # per metre
     assert twist == pytest.approx(-1e-3 * 500 / 150, rel=0.05)
+
+
+def test_on_the_whole_route_twist_goes_through_a_bend_to_the_belts_and_a_rope_unlays_outboard(bundled):
+    """Sliding leaves a bend little to hold a turning line; belts do not slide, and do hold it. Outboard is free."""
+    route = bundled("guidance_route_torsion")
+    before, behind, outboard = (torque_at(route, place) for place in (1.0, 4.5, 12.0))
+    assert before == pytest.approx(behind, rel=0.02)
+    assert before > 20 * abs(outboard)
+    swing = np.linspace(12.0, 15.0, 301)
+    last = len(route.match("line.twist[*].turned")) - 1
+    ends = [route.at(f"line.twist[{k}].turned", swing).mean() for k in (last, last - 19)]
+    assert (ends[0] - ends[1]) / (19 * 0.25) == pytest.approx(-1e-3 * 300 / 150, rel=0.02)
+
+
+@pytest.mark.slow
+def test_on_the_whole_route_a_bend_with_a_friction_of_its_own_for_turning_holds_what_the_drum_winds_in(bundled):
+    route = bundled("guidance_route_torsion", {"effects.planar_slip": "off"})
+    assert torque_at(route, 1.0) > 20 * abs(torque_at(route, 4.5))

@@ -42,14 +42,14 @@ def write(results: Result | list[Result] | tuple[Result, ...], path: Path | None
     return target
 
 
-def page(runs: Sequence[Result]) -> str:
-    """The text of the page."""
+def page(runs: Sequence[Result], only: str = "") -> str:
+    """The text of the page; `only` shows one of its sections (`moving`)."""
     labels = _labels(runs)
     told = [_run(result, label) for result, label in zip(runs, labels, strict=True)]
     data = {"runs": [_data(result, label, 1 / len(runs)) for result, label in zip(runs, labels, strict=True)]}
     return str(_template().render(
         title=", ".join(dict.fromkeys(str(one.run.get("name") or one.folder.name) for one in runs)),
-        runs=told, data=_as_json(data), style=(PARTS / "page.css").read_text(encoding="utf-8"),
+        runs=told, only=only, data=_as_json(data), style=(PARTS / "page.css").read_text(encoding="utf-8"),
         library=library(), script="\n".join((PARTS / name).read_text(encoding="utf-8") for name in SCRIPTS),
     ))  # fmt: skip
 
