@@ -14,10 +14,10 @@ from collections.abc import Iterable
 import fairlead.models
 
 import fairlead
-from fairlead.analysis.choice import choose, percent, seconds
-from fairlead.analysis.cost import cost
-from fairlead.analysis.kept_runs import KeptRuns, default_folder
-from fairlead.analysis.study import Row, Study
+from fairlead.analysis.cost.choice import choose, percent, seconds
+from fairlead.analysis.cost.cost import cost
+from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
+from fairlead.analysis.cost.study import Row, Study
 from fairlead.errors import FairleadError
 
 PAGE = pathlib.Path(__file__).resolve().parents[1] / "docs" / "accuracy.md"

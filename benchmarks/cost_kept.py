@@ -21,12 +21,12 @@ from typing import Any
 from machine import machine
 
 import fairlead
-from fairlead.analysis.choice import choose, error, percent
-from fairlead.analysis.compared_outputs import outputs
-from fairlead.analysis.cost import TIGHTER, cost
-from fairlead.analysis.deviation import output_errors
-from fairlead.analysis.ladder import ACCURACIES
-from fairlead.analysis.timed_run import timed_run
+from fairlead.analysis.cost.choice import choose, error, percent
+from fairlead.analysis.cost.compared_outputs import outputs
+from fairlead.analysis.cost.cost import TIGHTER, cost
+from fairlead.analysis.cost.deviation import output_errors
+from fairlead.analysis.cost.ladder import ACCURACIES
+from fairlead.analysis.cost.timed_run import timed_run
 
 SCENES = (("single_bend", {"mu": "0.6"}), ("guidance_route", {}), ("long_route", {}))
 UNSEEN = (

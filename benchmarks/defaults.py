@@ -18,11 +18,11 @@ from dataclasses import dataclass
 import fairlead.models
 
 import fairlead
-from fairlead.analysis.choice import percent, seconds
-from fairlead.analysis.compared_outputs import outputs
-from fairlead.analysis.deviation import output_errors, worst
-from fairlead.analysis.timed_run import Timed, timed_run
-from fairlead.analysis.treatments import creep, treatment, treatment_of
+from fairlead.analysis.cost.choice import percent, seconds
+from fairlead.analysis.cost.compared_outputs import outputs
+from fairlead.analysis.cost.deviation import output_errors, worst
+from fairlead.analysis.cost.timed_run import Timed, timed_run
+from fairlead.analysis.treatments.treatments import creep, treatment, treatment_of
 
 PAGE = pathlib.Path(__file__).resolve().parents[1] / "docs" / "accuracy.md"
 PINNED = {"single_bend": {"method": "binding", "line.ruck_force": "null"}}  # the law of the paper

@@ -15,7 +15,7 @@ import tempfile
 from collections.abc import Iterator
 
 import fairlead
-from fairlead.analysis.timed_run import Timed, timed_run
+from fairlead.analysis.cost.timed_run import Timed, timed_run
 
 LIBRARY = str(pathlib.Path(__file__).with_name("idle_library.py"))
 ACCURACY, CAP = "1e-4", 600.0

@@ -25,7 +25,7 @@ from machine import machine, sentence, timed  # first: it settles the number of 
 
 import numpy as np  # isort: skip
 
-from fairlead.analysis.remedy import budget  # isort: skip
+from fairlead.analysis.record.remedy import budget  # isort: skip
 from fairlead.integrate import Outcome, Run, integrate  # isort: skip
 from fairlead.simulate import load  # isort: skip
 

@@ -42,7 +42,7 @@ def pages() -> dict[pathlib.Path, str]:
 
 def stepping() -> tuple[pathlib.Path, str]:
     """The page on the error of a step with the table of what `stepping` can do."""
-    from fairlead.analysis.stepping_table import page as table
+    from fairlead.analysis.treatments.stepping_table import page as table
 
     path = HERE / "stepping.md"
     before, rest = path.read_text(encoding="utf-8").split(TABLE_BEGINS)
@@ -157,7 +157,7 @@ def every_step(folder: pathlib.Path) -> pathlib.Path:
 
 def comparison(path: pathlib.Path) -> None:
     """Error, creep and cost of the methods on one scene, as `fairlead compare` draws it."""
-    from fairlead.analysis.compare import compare
+    from fairlead.analysis.cost.compare import compare
     from fairlead.report.compare_figure import draw
 
     methods = [m for m in known_types()["Contact"].members if m not in ("bristle", "naive_sign")]  # type: ignore[attr-defined]

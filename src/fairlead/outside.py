@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from fairlead.analysis.suggestion import suggest
+from fairlead.analysis.record.suggestion import suggest
 from fairlead.errors import Fault, Location, ModelError, SteppingError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.codes import TRY
 from fairlead.integrate.engines import engine_of

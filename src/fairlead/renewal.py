@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Protocol
 
-from fairlead.analysis.start_profile import laid_under_statics
+from fairlead.analysis.statics.start_profile import laid_under_statics
 from fairlead.component.again import again
 from fairlead.component.instantiate import Assembly
 from fairlead.component.registry import known_types

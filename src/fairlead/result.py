@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import fairlead.results as results
-from fairlead.analysis.told import remarks
+from fairlead.analysis.record.reported import remarks
 from fairlead.results.table import Table
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ class Result(results.Result):
         None where nothing is asked), t [s], signal, place [m]. What was not recorded is named under the table. Raises
         DamagedResultsError.
         """
-        from fairlead.analysis.result_tables import margins
+        from fairlead.analysis.margins.result_tables import margins
 
         return margins(self)
 
@@ -57,7 +57,7 @@ class Result(results.Result):
 
         Raises DamagedResultsError.
         """
-        from fairlead.analysis.result_tables import rucks
+        from fairlead.analysis.margins.result_tables import rucks
 
         return rucks(self)
 
@@ -67,14 +67,14 @@ class Result(results.Result):
 
         Raises DamagedResultsError.
         """
-        from fairlead.analysis.result_tables import limits
+        from fairlead.analysis.margins.result_tables import limits
 
         return limits(self)
 
     @property
     def energy(self) -> Table:
         """The ledger of the run [J]: supplied, dissipated, stored, lost in impacts by part, and what is missing."""
-        from fairlead.analysis.result_tables import energy
+        from fairlead.analysis.margins.result_tables import energy
 
         return energy(self)
 
@@ -83,7 +83,7 @@ class Result(results.Result):
 
         `pattern` picks components (`line.outer[*]`). Those that changed most come first.
         """
-        from fairlead.analysis.result_tables import switches
+        from fairlead.analysis.margins.result_tables import switches
 
         return switches(self, pattern)
 

@@ -12,23 +12,23 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.analysis.below_weight import BelowWeight
-from fairlead.analysis.counts import unreasonable
-from fairlead.analysis.creep import WorstCreep
-from fairlead.analysis.energy import Ledger, judged
-from fairlead.analysis.event_rows import EventRows, Rows
-from fairlead.analysis.extremes import Extremes
-from fairlead.analysis.friction_record import friction_record
-from fairlead.analysis.impacts import changed_starts, lost_in_impacts
-from fairlead.analysis.limits import Limits, read_limits
-from fairlead.analysis.released_together import ReleasedTogether
-from fairlead.analysis.remarks import remarks
-from fairlead.analysis.remedy import budget, remedies
-from fairlead.analysis.route_record import route_records
-from fairlead.analysis.scene_record import scene_record, zone_record
-from fairlead.analysis.step_rows import Batches, Thinning, WholeSteps, on_grid
-from fairlead.analysis.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
-from fairlead.analysis.strains import Strains
+from fairlead.analysis.record.below_weight import BelowWeight
+from fairlead.analysis.record.counts import unreasonable
+from fairlead.analysis.record.creep import WorstCreep
+from fairlead.analysis.record.energy import Ledger, judged
+from fairlead.analysis.record.event_rows import EventRows, Rows
+from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
+from fairlead.analysis.record.limits import Limits, read_limits
+from fairlead.analysis.record.released_together import ReleasedTogether
+from fairlead.analysis.record.remedy import budget, remedies
+from fairlead.analysis.record.scene_record import scene_record, zone_record
+from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
+from fairlead.analysis.record.strains import Strains
+from fairlead.analysis.remarks.remarks import remarks
+from fairlead.analysis.statics.route_record import route_records
+from fairlead.analysis.treatments.friction_record import friction_record
+from fairlead.analysis.treatments.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
 from fairlead.choice import choose
 from fairlead.component.declare import CREEP
 from fairlead.errors import Fault, ModelError, UsageError
@@ -366,6 +366,6 @@ def named_change(system: System, row: Any) -> tuple[float, str, str, str, str]:
 
 
 def _profile(outcome: Outcome, compiled: float, wall: float) -> str:
-    from fairlead.analysis.profile import Times, profile
+    from fairlead.analysis.record.profile import Times, profile
 
     return profile(outcome.problem, outcome.counters, Times(compiled, outcome.loop_wall, wall))

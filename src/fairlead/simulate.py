@@ -112,7 +112,7 @@ class Model:
     @functools.cached_property
     def flat(self) -> FlatModel:
         """Nodes, groups and links. Raises ModelError with everything that `check` would tell."""
-        from fairlead.analysis.start_profile import laid_under_statics
+        from fairlead.analysis.statics.start_profile import laid_under_statics
 
         try:
             return laid_under_statics(self.flattened)
@@ -133,10 +133,10 @@ class Model:
         A stage that finds mistakes is passed on to the next as far as it goes, so that one call tells as many
         as can be told.
         """
-        from fairlead.analysis.counts import unreasonable
-        from fairlead.analysis.names import unknown_signals
-        from fairlead.analysis.remarks import remarks
-        from fairlead.analysis.start_profile import laid_under_statics
+        from fairlead.analysis.record.counts import unreasonable
+        from fairlead.analysis.record.names import unknown_signals
+        from fairlead.analysis.remarks.remarks import remarks
+        from fairlead.analysis.statics.start_profile import laid_under_statics
         from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
@@ -185,7 +185,7 @@ class Model:
         `speed` (`"0.5 m/s"`, or a number of m/s) is taken both ways instead of what the references say. Raises
         UsageError without such a line.
         """
-        from fairlead.analysis.statics import statics
+        from fairlead.analysis.statics.solution import statics
         from fairlead.statics import Statics, StaticsOfLines
 
         asked = Arguments("Model.statics")

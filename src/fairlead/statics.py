@@ -12,8 +12,8 @@ from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-import fairlead.analysis.statics as analysis
-from fairlead.analysis.statics_record import record
+import fairlead.analysis.statics.solution as analysis
+from fairlead.analysis.remarks.statics_record import record
 from fairlead.results.table import Table
 
 if TYPE_CHECKING:

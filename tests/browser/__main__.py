@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import fairlead
-from fairlead.analysis.quasi_static import against_statics
-from fairlead.analysis.ruck import verdicts
-from fairlead.analysis.to_show import shown_besides
+from fairlead.analysis.margins.quasi_static import against_statics
+from fairlead.analysis.margins.ruck import verdicts
+from fairlead.analysis.statics.to_show import shown_besides
 from fairlead.report import page
 from tests.browser.browser import missing, opened, settled, show
 

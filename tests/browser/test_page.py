@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import fairlead
-from fairlead.analysis.to_show import shown_besides
+from fairlead.analysis.statics.to_show import shown_besides
 from fairlead.report import page
 from tests.browser.browser import complaints, missing, opened, requests, settled, show
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.analysis.effect_row import Size
+from fairlead.analysis.effects.effect_row import Size
 from fairlead.component.base import Composite
 from fairlead.component.registry import bundled
 from fairlead.component.scene import Scene, is_head

@@ -10,7 +10,7 @@ import json
 import subprocess
 from pathlib import Path
 
-from fairlead.analysis.kept_runs import key_of
+from fairlead.analysis.cost.kept_runs import key_of
 from tests.hard.attempt import Attempt
 from tests.hard.play import SCENES
 from tests.hard.registry import Row

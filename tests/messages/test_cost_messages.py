@@ -2,11 +2,11 @@
 
 import pytest
 
-from fairlead.analysis.choice import choose
-from fairlead.analysis.deviation import OutputError
-from fairlead.analysis.ladder import Equations, Rung
-from fairlead.analysis.study import Reference, Row, Study
-from fairlead.analysis.timed_run import Timed
+from fairlead.analysis.cost.choice import choose
+from fairlead.analysis.cost.deviation import OutputError
+from fairlead.analysis.cost.ladder import Equations, Rung
+from fairlead.analysis.cost.study import Reference, Row, Study
+from fairlead.analysis.cost.timed_run import Timed
 
 SCENE = Equations("", exact=True)
 

@@ -80,7 +80,7 @@ def test_an_item_that_there_is_not_is_told_with_those_that_there_are():
 
 
 def test_what_is_varied_and_compared_is_looked_at_before_anything_runs(tmp_path):
-    from fairlead.analysis.compare import compare
+    from fairlead.analysis.cost.compare import compare
 
     file = tmp_path / "scene.yaml"
     file.write_text(f"schema: 1\nname: scene{SPRING}", encoding="utf-8")

@@ -70,7 +70,7 @@ def test_bundled_models_have_no_such_remark():
     import pathlib
 
     import fairlead
-    from fairlead.analysis.unusual import unusual
+    from fairlead.analysis.remarks.unusual import unusual
 
     for file in sorted((pathlib.Path(__file__).parents[2] / "models").glob("*.yaml")):
         assert [str(one) for one in unusual(fairlead.load(file).assembly)] == []

@@ -67,7 +67,7 @@ def test_a_position_is_judged_by_its_way_and_a_force_not_at_all(force, told, sce
 
 
 def test_a_family_is_judged_by_the_member_that_moves_most():
-    from fairlead.analysis.below_weight import BelowWeight
+    from fairlead.analysis.record.below_weight import BelowWeight
 
     names = ["line.core[0].v", "line.core[1].v", "tail[0].v", "tail[1].v", "lone.v"]
     watch = BelowWeight(names, ["m/s"] * 5, np.arange(5), np.full(5, 1e-5), np.zeros(5, dtype=bool), 1e-4)

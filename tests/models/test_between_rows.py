@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from fairlead.analysis import event_rows, step_rows
-from fairlead.analysis.event_rows import Rows
-from fairlead.analysis.extremes import Extremes
+from fairlead.analysis.record import event_rows, step_rows
+from fairlead.analysis.record.event_rows import Rows
+from fairlead.analysis.record.extremes import Extremes
 from fairlead.integrate import codes
 
 SWING = """

@@ -8,17 +8,17 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
-from fairlead.analysis.boxed_runs import BoxedRuns
-from fairlead.analysis.choice import choose, front, knee
-from fairlead.analysis.cost import cost
-from fairlead.analysis.deviation import OutputError
-from fairlead.analysis.kept_runs import KeptRuns
-from fairlead.analysis.ladder import Equations, Ladder, Rung
-from fairlead.analysis.mesh_errors import MeshErrors, order_of
-from fairlead.analysis.meshes import Mesh
-from fairlead.analysis.references import References
-from fairlead.analysis.study import Reference, Row, Study
-from fairlead.analysis.timed_run import Timed
+from fairlead.analysis.cost.boxed_runs import BoxedRuns
+from fairlead.analysis.cost.choice import choose, front, knee
+from fairlead.analysis.cost.cost import cost
+from fairlead.analysis.cost.deviation import OutputError
+from fairlead.analysis.cost.kept_runs import KeptRuns
+from fairlead.analysis.cost.ladder import Equations, Ladder, Rung
+from fairlead.analysis.cost.mesh_errors import MeshErrors, order_of
+from fairlead.analysis.cost.meshes import Mesh
+from fairlead.analysis.cost.references import References
+from fairlead.analysis.cost.study import Reference, Row, Study
+from fairlead.analysis.cost.timed_run import Timed
 from fairlead.cli import app
 from fairlead.cli.cost_table import _cells
 from tests.reference.belt import StickSlipBelt
@@ -96,7 +96,7 @@ def test_a_study_goes_on_where_it_stopped(folder, study):
 
 
 def test_ctrl_c_keeps_what_was_measured(monkeypatch, folder):
-    import fairlead.analysis.boxed_runs as module
+    import fairlead.analysis.cost.boxed_runs as module
 
     def pressed(*_, **__):
         raise KeyboardInterrupt
@@ -132,7 +132,8 @@ CHAOS = """
 
 def test_a_scene_that_is_sensitive_to_everything_is_said_to_be(scene, monkeypatch):
     """Two shaken stick-slip blocks on a belt: nearby motions part, so that only statistics can be compared."""
-    monkeypatch.setattr("fairlead.analysis.references.engines_here", lambda: ["rodas"])  # the second method is rodas3p
+    # the second method is rodas3p
+    monkeypatch.setattr("fairlead.analysis.cost.references.engines_here", lambda: ["rodas"])
     path = scene(CHAOS).netlist.path
     found = cost(lambda more: fairlead.load(path, set=more), Ladder((1e-2,), ("rodas",), (), (), ()), budget=60.0,
                  signals=["one.x", "two.x"], full=True)  # fmt: skip
@@ -212,7 +213,7 @@ def references(found, monkeypatch, converges=True):
     monkeypatch.setattr(runs, "run", lambda *_: None)
     monkeypatch.setattr(made, "brief", lambda: True)
     monkeypatch.setattr(made, "converges", lambda *_: converges)
-    monkeypatch.setattr("fairlead.analysis.references.engines_here", lambda: ["rodas", "stepping", "ida"])
+    monkeypatch.setattr("fairlead.analysis.cost.references.engines_here", lambda: ["rodas", "stepping", "ida"])
     return made.of_scene(Equations(""))
 
 
@@ -241,7 +242,7 @@ def test_a_third_engine_is_not_asked_where_tight_runs_do_not_converge(monkeypatc
 
 def test_a_mesh_that_cannot_be_made_is_left_out_with_a_reason(monkeypatch):
     """Elements of five times the size do not fit the bend; the study goes on."""
-    monkeypatch.setattr("fairlead.analysis.references.engines_here", lambda: ["rodas"])
+    monkeypatch.setattr("fairlead.analysis.cost.references.engines_here", lambda: ["rodas"])
     found = cost(lambda more: fairlead.load("capstan", set={"run.stop": "20 ms", "element": "0.25 m", **more}),
                  Ladder((1e-2,), ("rodas",), (), (), (0.2,)), budget=600.0, full=True)  # fmt: skip
     assert found.rows
@@ -365,8 +366,8 @@ def test_loading_counts_in_the_budget_and_compiling_does_not(monkeypatch, takes,
     def step(*_, **__):
         clock[0] += takes
 
-    monkeypatch.setattr("fairlead.analysis.boxed_runs.timed_run", step)
-    monkeypatch.setattr("fairlead.analysis.boxed_runs.time", SimpleNamespace(perf_counter=lambda: clock[0]))
+    monkeypatch.setattr("fairlead.analysis.cost.boxed_runs.timed_run", step)
+    monkeypatch.setattr("fairlead.analysis.cost.boxed_runs.time", SimpleNamespace(perf_counter=lambda: clock[0]))
     runs = BoxedRuns(None, "", ["a.x"], (0.0, 1.0), 60.0, 1e-7, KeptRuns(None), end=160.0)
     runs._warm_up({"run.engine": "rodas"})
     assert runs.end == 160.0 + more

@@ -16,13 +16,13 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
-from fairlead.analysis.changes import changes, floors, worst_of
-from fairlead.analysis.effect_row import Row
-from fairlead.analysis.effects import effects
-from fairlead.analysis.sameness import same
-from fairlead.analysis.switches import Switch, all_off, switches
-from fairlead.analysis.timed_run import Timed
-from fairlead.analysis.weights import by_weight
+from fairlead.analysis.cost.timed_run import Timed
+from fairlead.analysis.effects.changes import changes, floors, worst_of
+from fairlead.analysis.effects.effect_row import Row
+from fairlead.analysis.effects.effects import effects
+from fairlead.analysis.effects.sameness import same
+from fairlead.analysis.effects.switches import Switch, all_off, switches
+from fairlead.analysis.effects.weights import by_weight
 from fairlead.cli import app
 from fairlead.errors import UsageError
 from fairlead.kernels.structure import Structure

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.analysis.margins import margins
+from fairlead.analysis.margins.margins import margins
 from fairlead.errors import FairleadError, UsageError
 from fairlead.report import page
 from fairlead.results import MemoryRun, Signal

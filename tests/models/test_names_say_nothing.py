@@ -9,13 +9,13 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.analysis.characteristic import characteristic
-from fairlead.analysis.fastest import motors
-from fairlead.analysis.laid_route import laid_routes
-from fairlead.analysis.meshes import meshes
-from fairlead.analysis.statics import statics
-from fairlead.analysis.statics_record import record
-from fairlead.analysis.switches import switches
-from fairlead.analysis.treatments import contacts, creep, creep_of, kinds_of_treatment
+from fairlead.analysis.cost.meshes import meshes
+from fairlead.analysis.effects.switches import switches
+from fairlead.analysis.remarks.statics_record import record
+from fairlead.analysis.statics.fastest import motors
+from fairlead.analysis.statics.laid_route import laid_routes
+from fairlead.analysis.statics.solution import statics
+from fairlead.analysis.treatments.treatments import contacts, creep, creep_of, kinds_of_treatment
 from fairlead.cli import app
 from fairlead.component.answers import METHODS
 from fairlead.integrate import Run, integrate

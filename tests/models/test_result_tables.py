@@ -7,7 +7,7 @@ import pandas
 import pytest
 
 import fairlead
-from fairlead.analysis.margins import margins
+from fairlead.analysis.margins.margins import margins
 from fairlead.errors import FairleadError, ModelError, UsageError
 
 STICK_SLIP = """

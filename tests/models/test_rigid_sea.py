@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fairlead.analysis.laid_route import laid_routes
-from fairlead.analysis.switches import switches
+from fairlead.analysis.effects.switches import switches
+from fairlead.analysis.statics.laid_route import laid_routes
 from fairlead.integrate import parts
 from tests.models.part_and_whole import on_the_grid
 from tests.reference.hanging_line import drag_per_length

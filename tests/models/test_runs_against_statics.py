@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.analysis.margins import margins
-from fairlead.analysis.quasi_static import against_statics
-from fairlead.analysis.shares import shares
+from fairlead.analysis.margins.margins import margins
+from fairlead.analysis.margins.quasi_static import against_statics
+from fairlead.analysis.statics.shares import shares
 
 ROUTES = {"guidance_route": {"run.stop": "40 s"}, "guidance_route_ideal": {}, "crustacean": {}}
 BAND = 0.02  # of physics 7b; single elements that stick and slip, and a mesh of a few elements on a bend, leave 1 %

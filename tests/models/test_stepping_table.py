@@ -2,7 +2,16 @@
 
 import pytest
 
-from fairlead.analysis.stepping_table import EVERY_SWITCH, FEW, INSIDE, LANDED, REFUSED, TABLE, handling, most_located
+from fairlead.analysis.treatments.stepping_table import (
+    EVERY_SWITCH,
+    FEW,
+    INSIDE,
+    LANDED,
+    REFUSED,
+    TABLE,
+    handling,
+    most_located,
+)
 from fairlead.errors import ModelError, UsageError
 from fairlead.integrate import Run
 from fairlead.run import engine_of

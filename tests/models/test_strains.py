@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairlead.analysis.strains import remark
+from fairlead.analysis.record.strains import remark
 
 SCENE = """
 components:

@@ -1,6 +1,6 @@
 """A class that says nothing of its energy is told so; the closure of its runs is not judged."""
 
-from fairlead.analysis.energy import unjudged
+from fairlead.analysis.record.energy import unjudged
 
 LIBRARY = '''
 class Soft(Component):

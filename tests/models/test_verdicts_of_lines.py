@@ -5,8 +5,8 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
-from fairlead.analysis.friction_record import sentence as of_friction
-from fairlead.analysis.ruck import sentence, verdicts
+from fairlead.analysis.margins.ruck import sentence, verdicts
+from fairlead.analysis.treatments.friction_record import sentence as of_friction
 from fairlead.cli import app
 
 RUCK = 160.0  # N, as the model says

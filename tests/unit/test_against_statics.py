@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fairlead.analysis.quasi_static import against_statics
-from fairlead.analysis.route_record import route_records
+from fairlead.analysis.margins.quasi_static import against_statics
+from fairlead.analysis.statics.route_record import route_records
 from fairlead.cli import app
 from fairlead.cli.summary import summary_rows
 from fairlead.results import Result, RunDirectory, Signal

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.analysis.compare import compare
-from fairlead.analysis.cost import cost
-from fairlead.analysis.effects import effects
+from fairlead.analysis.cost.compare import compare
+from fairlead.analysis.cost.cost import cost
+from fairlead.analysis.effects.effects import effects
 from fairlead.errors import FairleadError, ModelError, UsageError
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fairlead.analysis.compare import LEAST, _error
+from fairlead.analysis.cost.compare import LEAST, _error
 
 
 class Recorded(dict[str, np.ndarray]):

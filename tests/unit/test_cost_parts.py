@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead.analysis.compared_outputs import recorded, recorded_of_meshes
-from fairlead.analysis.deviation import output_errors, switching
-from fairlead.analysis.kept_runs import KeptRuns, key_of
-from fairlead.analysis.ladder import Ladder, other_equations
-from fairlead.analysis.meshes import correspondence, meshes
-from fairlead.analysis.timed_run import Timed
-from fairlead.analysis.treatments import treatment
+from fairlead.analysis.cost.compared_outputs import recorded, recorded_of_meshes
+from fairlead.analysis.cost.deviation import output_errors, switching
+from fairlead.analysis.cost.kept_runs import KeptRuns, key_of
+from fairlead.analysis.cost.ladder import Ladder, other_equations
+from fairlead.analysis.cost.meshes import correspondence, meshes
+from fairlead.analysis.cost.timed_run import Timed
+from fairlead.analysis.treatments.treatments import treatment
 from fairlead.errors import ModelError, UsageError
 from fairlead.netlist.settings_file import read_settings, write_settings
 from fairlead.results.signal import family

@@ -6,12 +6,12 @@ import random
 import numpy as np
 import pytest
 
-from fairlead.analysis.creep import WorstCreep
-from fairlead.analysis.energy import Ledger
-from fairlead.analysis.event_rows import AFTER, BEFORE, EventRows, Rows
-from fairlead.analysis.extremes import Extremes
-from fairlead.analysis.limits import Limit
-from fairlead.analysis.step_rows import Batches
+from fairlead.analysis.record.creep import WorstCreep
+from fairlead.analysis.record.energy import Ledger
+from fairlead.analysis.record.event_rows import AFTER, BEFORE, EventRows, Rows
+from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.limits import Limit
+from fairlead.analysis.record.step_rows import Batches
 
 LEAST = np.array([1e-3, 1e-3, np.inf])
 

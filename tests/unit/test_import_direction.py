@@ -138,6 +138,7 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
 
 ROOMS_OF = {
     "system": ("numbering", "arrays", "assembly", "driver", "compiled", "start", "active", "compile", "refresh"),
+    "analysis": ("characteristic", "treatments", "record", "statics", "margins", "remarks", "cost", "effects"),
     "studies": ("cases", "sweeps", "pictures", "fits"),
 }
 """Stage -> its rooms and the files beside them; each imports only those before it."""
@@ -157,7 +158,7 @@ def test_rooms_of_a_stage_import_only_those_before_them(name: str) -> None:
     assert not wrong, "\n".join(wrong)
 
 
-@pytest.mark.parametrize("name", ["system"])
+@pytest.mark.parametrize("name", ["analysis", "system"])
 def test_every_file_of_a_stage_lies_in_a_room_or_has_its_place(name: str) -> None:
     known = {*ROOMS_OF[name], ""}
     assert not {each for each in source_files() if stage(each) == name and room(each) not in known}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fairlead.analysis.margins import margins
+from fairlead.analysis.margins.margins import margins
 from fairlead.cli import app
 from fairlead.results import Result, RunDirectory, Signal
 

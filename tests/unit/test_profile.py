@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 import fairlead
-from fairlead.analysis.profile import Times, _laws, suggestion
+from fairlead.analysis.record.profile import Times, _laws, suggestion
 
 STEPPING = Times(compiling=0.1, stepping=1.0, wall=1.2)
 

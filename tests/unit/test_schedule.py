@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from fairlead.analysis.schedule import Schedule, followed, rate, scaled
+from fairlead.analysis.statics.schedule import Schedule, followed, rate, scaled
 from fairlead.component.given import Waveform
 from fairlead.component.waveforms import read_waveform
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fairlead.analysis.sliding import Piece, along, beyond
+from fairlead.analysis.statics.sliding import Piece, along, beyond
 
 
 def integrated(piece, tension, friction, run, steps=4000):

@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
-from fairlead.analysis.shares import shares
-from fairlead.analysis.statics_record import record
+from fairlead.analysis.remarks.statics_record import record
+from fairlead.analysis.statics.shares import shares
 from fairlead.cli import app
 from fairlead.errors import UsageError
 

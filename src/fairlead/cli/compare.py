@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fairlead.cli import completion
+import fairlead.cli.completion as completion
 from fairlead.cli.exit_codes import MODEL_ERROR
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import console, echo
 
 if TYPE_CHECKING:
-    from fairlead.analysis.compare import Comparison, Row
+    from fairlead.analysis.cost.compare import Comparison, Row
 
 """How the process ends when no treatment could be started."""
 
@@ -44,7 +44,7 @@ def compare(
 ) -> None:
     """Run a netlist under several treatments: error against exact hold, creep, steps, switches, time."""
     import fairlead
-    from fairlead.analysis.compare import compare as run_all
+    from fairlead.analysis.cost.compare import compare as run_all
     from fairlead.report.compare_figure import draw
 
     folder = out or pathlib.Path("results") / f"{pathlib.Path(netlist).stem}-compare"

@@ -45,7 +45,7 @@ def settings(ctx: typer.Context, incomplete: str) -> list[str]:
 
 def signals(ctx: typer.Context, incomplete: str) -> list[str]:
     """Signals of the netlist."""
-    from fairlead.analysis.names import signals_of
+    from fairlead.analysis.record.names import signals_of
     from fairlead.component.instantiate import survey
     from fairlead.component.registry import bundled
 

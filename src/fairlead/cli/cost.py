@@ -12,9 +12,9 @@ from fairlead.cli.study import Budget, Fresh, Outputs, number, say, write_record
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
-    from fairlead.analysis.choice import Choice
-    from fairlead.analysis.ladder import Ladder
-    from fairlead.analysis.study import Study
+    from fairlead.analysis.cost.choice import Choice
+    from fairlead.analysis.cost.ladder import Ladder
+    from fairlead.analysis.cost.study import Study
 
 
 def cost(
@@ -43,9 +43,9 @@ def cost(
 ) -> None:
     """What accuracy costs: error against time for accuracies, engines, treatments and elements. Ctrl-C keeps all."""
     import fairlead
-    from fairlead.analysis.choice import TARGETS, choose
-    from fairlead.analysis.cost import cost as study_cost
-    from fairlead.analysis.kept_runs import KeptRuns, default_folder
+    from fairlead.analysis.cost.choice import TARGETS, choose
+    from fairlead.analysis.cost.cost import cost as study_cost
+    from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
     from fairlead.report.cost_figure import draw
 
     fixed, aim = parse_settings(settings), number("--target", target, "1")
@@ -74,7 +74,7 @@ def cost(
 
 
 def _ladder(accuracy: str, engine: str, friction: str, creep: str, finer: str) -> "Ladder":
-    from fairlead.analysis.ladder import Ladder
+    from fairlead.analysis.cost.ladder import Ladder
 
     return Ladder(
         tuple(number("--accuracy", one, "1") for one in _words(accuracy)),

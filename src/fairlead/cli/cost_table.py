@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 from fairlead.cli.study import print_table
 
 if TYPE_CHECKING:
-    from fairlead.analysis.choice import Choice
-    from fairlead.analysis.deviation import OutputError
-    from fairlead.analysis.study import Row, Study
+    from fairlead.analysis.cost.choice import Choice
+    from fairlead.analysis.cost.deviation import OutputError
+    from fairlead.analysis.cost.study import Row, Study
 
 COLUMNS = (
     "equations", "engine", "accuracy", "numerical", "modelling", "elements", "worst output", "at end", "at worst",
@@ -36,8 +36,8 @@ def ordered(study: "Study") -> list["Row"]:
 
 
 def _cells(study: "Study", row: "Row") -> list[str]:
-    from fairlead.analysis.choice import seconds
-    from fairlead.analysis.deviation import worst
+    from fairlead.analysis.cost.choice import seconds
+    from fairlead.analysis.cost.deviation import worst
 
     rung = row.rung
     head = [rung.equations.label or "as it is", rung.engine, f"{rung.accuracy:.0e}".replace("e-0", "e-")]
@@ -56,7 +56,7 @@ def _cells(study: "Study", row: "Row") -> list[str]:
 
 def _told(study: "Study", row: "Row", errors: "list[OutputError] | None") -> str:
     """An error, or what it is below: nothing can be told below the floor."""
-    from fairlead.analysis.choice import percent
+    from fairlead.analysis.cost.choice import percent
 
     size, below = study.told(errors, row)
     return f"{'<' if below else ''}{percent(size)}"
@@ -70,7 +70,7 @@ def _switches(row: "Row") -> str:
 
 
 def _below(study: "Study") -> list[str]:
-    from fairlead.analysis.choice import front, knee, percent
+    from fairlead.analysis.cost.choice import front, knee, percent
 
     lines = []
     if not study.whole:

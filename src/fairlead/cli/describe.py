@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fairlead.cli import completion
+import fairlead.cli.completion as completion
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo
 

@@ -12,8 +12,8 @@ from fairlead.cli.study import Budget, Fresh, Outputs, number, print_table, say,
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
-    from fairlead.analysis.effect_row import Row, Size
-    from fairlead.analysis.effects import Effects
+    from fairlead.analysis.effects.effect_row import Row, Size
+    from fairlead.analysis.effects.effects import Effects
 
 COLUMNS = (
     "switched", "unknowns", "terms", "zones", "guards", "kernels", "switches", "CPU", "saved", "changes by", "as",
@@ -43,8 +43,8 @@ def effects(
 ) -> None:
     """Switch each effect of a scene: what it costs, what it changes, and what could be left out."""
     import fairlead
-    from fairlead.analysis.effects import effects as switch_all
-    from fairlead.analysis.kept_runs import KeptRuns, default_folder
+    from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
+    from fairlead.analysis.effects.effects import effects as switch_all
 
     fixed = parse_settings(settings)
     found = switch_all(
@@ -86,7 +86,7 @@ def _print(found: "Effects") -> None:
 
 
 def _cells(row: "Row") -> list[str]:
-    from fairlead.analysis.choice import percent
+    from fairlead.analysis.cost.choice import percent
 
     sizes = _sizes(row.size) if row.size is not None else [""] * 5
     if row.change is None or row.saved is None:
@@ -104,7 +104,7 @@ def _sizes(size: "Size") -> list[str]:
 
 
 def _time(value: float) -> str:
-    from fairlead.analysis.choice import seconds
+    from fairlead.analysis.cost.choice import seconds
 
     return seconds(value)
 

@@ -63,8 +63,8 @@ def contacts_of(
     if subject.startswith("{") or subject.replace(".", "", 1).isdigit():
         return {subject: _of_curve(subject, libraries, method)}, []
     import fairlead
-    from fairlead.analysis.treatments import contacts
-    from fairlead.analysis.widths import too_wide
+    from fairlead.analysis.remarks.widths import too_wide
+    from fairlead.analysis.treatments.treatments import contacts
 
     model = fairlead.load(subject, set=parse_settings(settings), libraries=libraries)
     found: dict[str, list[Any]] = {}

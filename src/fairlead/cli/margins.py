@@ -13,8 +13,8 @@ from fairlead.cli.tables import finite, number, plain_table, times, wide_console
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
-    from fairlead.analysis.limits_again import Judged
-    from fairlead.analysis.margins import LineMargins, StationMargins, Worst
+    from fairlead.analysis.margins.limits_again import Judged
+    from fairlead.analysis.margins.margins import LineMargins, StationMargins, Worst
     from fairlead.results import Result
 
 NAMES = {
@@ -32,8 +32,8 @@ def margins(
     verbose: Verbose = False,
 ) -> None:
     """Peak tensions, ruck, side-wall load and slip of a run, with time and place; 5 when a limit is broken."""
-    from fairlead.analysis.limits_again import judged
-    from fairlead.analysis.margins import margins as of_lines
+    from fairlead.analysis.margins.limits_again import judged
+    from fairlead.analysis.margins.margins import margins as of_lines
     from fairlead.results import Result
 
     result = Result.open(results.parent if results.is_file() else results)

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from fairlead.cli import completion
+import fairlead.cli.completion as completion
 from fairlead.errors import shown
 
 Netlist = Annotated[

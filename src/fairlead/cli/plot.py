@@ -92,7 +92,7 @@ def _of_sweep(place: pathlib.Path, figure: str, what: What | None, out: pathlib.
 def _result(source: str, settings: list[str], libraries: list[str]) -> tuple["Result", pathlib.Path]:
     """The run in a folder; of a model a run in memory, with what a figure may want recorded. And where figures go."""
     import fairlead
-    from fairlead.analysis.to_show import shown_besides
+    from fairlead.analysis.statics.to_show import shown_besides
     from fairlead.result import Result
 
     path = pathlib.Path(source)
@@ -125,9 +125,9 @@ def _of_model(
         given = pressed(values)
         found = characteristic(values, 1.0 if given is None else given)
         return draw(found, file, f"{names}: {found.label}")
-    from fairlead.analysis.cost import cost
-    from fairlead.analysis.kept_runs import KeptRuns, default_folder
-    from fairlead.analysis.ladder import Ladder
+    from fairlead.analysis.cost.cost import cost
+    from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
+    from fairlead.analysis.cost.ladder import Ladder
     from fairlead.report.cost_figure import draw as draw_cost
 
     study = cost(

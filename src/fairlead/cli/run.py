@@ -52,7 +52,7 @@ def run(
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
     if report:
-        from fairlead.analysis.to_show import shown_besides
+        from fairlead.analysis.statics.to_show import shown_besides
 
         shown_besides(model)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
@@ -86,8 +86,8 @@ def _compare_with_statics(model: "Model", result: "Result") -> None:
     """Put into run.json how far a line on a route is from its quasi-static tensions, and whether it rucks."""
     if not result.run.get("routes"):
         return
-    from fairlead.analysis.quasi_static import against_statics
-    from fairlead.analysis.ruck import verdicts
+    from fairlead.analysis.margins.quasi_static import against_statics
+    from fairlead.analysis.margins.ruck import verdicts
     from fairlead.results import run_file
 
     result.run["against_statics"] = against_statics(model.flat, result)
@@ -152,7 +152,7 @@ def _fewer(result: "Result") -> str:
 
 def _say_what_went_wrong(outcome: dict[str, Any]) -> None:
     """On standard error, with -q too: what `check` would remark, why a run ended early, chatter, limits broken."""
-    from fairlead.analysis.told import told
+    from fairlead.analysis.record.reported import told
 
     for kind, text in told(outcome):
         echo(f"{outcome['status'] if kind == 'end' else kind}: {text}", err=True)

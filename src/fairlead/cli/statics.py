@@ -32,7 +32,7 @@ def statics(
 ) -> None:
     """Tensions, clamp, drives and ruck margin of a line on its route, paying out, hauling and at rest; no run."""
     import fairlead
-    from fairlead.analysis.statics_record import record
+    from fairlead.analysis.remarks.statics_record import record
     from fairlead.cli.study import number as given
 
     wanted = None if speed is None else given("--speed", speed, "m/s")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairlead.cli import completion
+import fairlead.cli.completion as completion
 from fairlead.cli.terminal import console
 
 if TYPE_CHECKING:

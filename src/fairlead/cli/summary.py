@@ -25,7 +25,7 @@ def summary_table(run: Mapping[str, Any], directory: object) -> "Table":
 
 def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, str]]:
     """(what, value with unit) of each row."""
-    from fairlead.analysis.below_weight import rows_of_table
+    from fairlead.analysis.record.below_weight import rows_of_table
 
     return [
         ("end time", f"{_number(run.get('end_time'), 's')} ({run.get('status', UNKNOWN)})"),
@@ -49,14 +49,14 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
 
 def _friction(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     """How friction was treated and who chose that; nothing without a contact."""
-    from fairlead.analysis.friction_record import sentence
+    from fairlead.analysis.treatments.friction_record import sentence
 
     return [("friction", sentence(found))] if found else []
 
 
 def _ruck(found: Sequence[dict[str, Any]] | None) -> list[tuple[str, str]]:
     """The verdict on each line that is watched for rucking."""
-    from fairlead.analysis.ruck import sentence
+    from fairlead.analysis.margins.ruck import sentence
 
     return [("ruck", sentence(one)) for one in (found or ())[:MOST_NAMED]]
 

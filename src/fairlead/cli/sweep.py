@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairlead.cli import completion
+import fairlead.cli.completion as completion
 from fairlead.cli.exit_codes import INTERRUPTED, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo

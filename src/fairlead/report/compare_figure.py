@@ -10,7 +10,7 @@ from fairlead.report.figures import DOTS_PER_INCH, STYLE
 from fairlead.report.panel import COLOURS
 
 if TYPE_CHECKING:
-    from fairlead.analysis.compare import Comparison
+    from fairlead.analysis.cost.compare import Comparison
 
 PANELS = (
     ("error", "error"), ("creep", "worst creep [m/s]"), ("steps", "steps"), ("switches", "switches"),

@@ -9,12 +9,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fairlead.analysis.choice import front, knee
+from fairlead.analysis.cost.choice import front, knee
 from fairlead.report.figures import DOTS_PER_INCH, STYLE
 from fairlead.report.panel import COLOURS
 
 if TYPE_CHECKING:
-    from fairlead.analysis.study import Row, Study
+    from fairlead.analysis.cost.study import Row, Study
 
 LEAST = 1e-8  # relative; an error below it is drawn there
 MARKS = {"rodas": "o", "stepping": "s", "ida": "^"}

@@ -46,7 +46,7 @@ class Left(_Entry):
 
 
 class Station(_Entry):
-    """A place on a route, and what touches the line there (see `analysis/route_record.py`). Lengths in m."""
+    """A place on a route, and what touches the line there (see `analysis/statics/route_record.py`). Lengths in m."""
 
     name: str
     type: str

@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from fairlead.analysis.friction_record import sentence as of_friction
-from fairlead.analysis.ruck import sentence as of_ruck
-from fairlead.analysis.ruck import verdicts
-from fairlead.analysis.told import told
+from fairlead.analysis.margins.ruck import sentence as of_ruck
+from fairlead.analysis.margins.ruck import verdicts
+from fairlead.analysis.record.reported import told
+from fairlead.analysis.treatments.friction_record import sentence as of_friction
 from fairlead.report.page.zones import meaning, starts
 
 if TYPE_CHECKING:

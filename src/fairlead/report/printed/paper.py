@@ -71,7 +71,7 @@ def figure6(results: Sequence[Result], titles: Sequence[str]) -> Figure:
     """Velocities of hose and bulkhead of the node that rucks first, side by side; rucks are marked (Fig. 6)."""
     from matplotlib.figure import Figure
 
-    from fairlead.analysis.ruck import verdicts
+    from fairlead.analysis.margins.ruck import verdicts
 
     told = [verdicts(result)[0] for result in results]
     node = next((one["element"] for one in told if one["rucks"]), told[-1]["element"])

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fairlead.analysis.names import signals_of
+from fairlead.analysis.record.names import signals_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si
@@ -194,7 +194,7 @@ class _Known:
 
     def _margin(self, kind: str, given: Sequence[str]) -> dict[str, Any]:
         word = _word(kind, given, MARGINS)
-        from fairlead.analysis.route_record import route_records
+        from fairlead.analysis.statics.route_record import route_records
 
         lines = route_records(self.model.flat)
         if not lines:

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fairlead.analysis.kept_runs import bytes_of, code_digest
+from fairlead.analysis.cost.kept_runs import bytes_of, code_digest
 from fairlead.netlist.netlist import Value
 
 if TYPE_CHECKING:

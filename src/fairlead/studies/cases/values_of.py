@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.analysis.extremes import peak_of_curves
-from fairlead.analysis.step_rows import INSIDE, ORDINARY, curved_steps
+from fairlead.analysis.record.extremes import peak_of_curves
+from fairlead.analysis.record.step_rows import INSIDE, ORDINARY, curved_steps
 from fairlead.patterns import matcher
 from fairlead.result import Result
 from fairlead.studies.cases.figures import Figure
@@ -98,7 +98,7 @@ def _switches(figure: Figure, result: Result) -> float:
 
 def _margin(figure: Figure, result: Result) -> float:
     """The smallest of all lines; of slip, the farthest that one node slid in a station [m]."""
-    from fairlead.analysis.margins import margins
+    from fairlead.analysis.margins.margins import margins
 
     (word,) = figure.arguments
     lines = margins(result)

@@ -1,0 +1,139 @@
+"""The largest and the smallest value of every signal over a run, from the dense output of all steps.
+
+Looked at are all rows an engine hands over: the ends of steps, both sides of events and rows inside steps. Where the
+best of them lies in a step, or at an end of one, that has rows inside, the curve through these rows is searched; where
+steps are too short for that, a parabola through three ends. So an extreme between two rows is found, whatever is
+recorded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.analysis.record.event_rows import AFTER, BEFORE, Rows
+from fairlead.analysis.record.step_rows import Integers, curved_steps
+from fairlead.results.curves import basis
+
+POINTS = np.linspace(0.0, 1.0, 33)
+MARGIN = 0.1
+"""Steps are searched of which a row comes as near to the largest value so far, in the range of the signal so far."""
+AGREE = 0.25
+"""Share of the largest second difference by which three may differ that are of one smooth curve."""
+Floats = NDArray[np.float64]
+
+
+@dataclass
+class Extremes:
+    """Lowest and highest values of signals so far, and when."""
+
+    signals: int
+    lowest: Floats = field(init=False)
+    t_lowest: Floats = field(init=False)
+    highest: Floats = field(init=False)
+    t_highest: Floats = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Nothing seen yet."""
+        self.lowest, self.highest = np.full(self.signals, np.inf), np.full(self.signals, -np.inf)
+        self.t_lowest, self.t_highest = np.full(self.signals, np.nan), np.full(self.signals, np.nan)
+
+    def watch(self, rows: Rows) -> None:
+        """Take rows of whole steps."""
+        if not len(rows.t) or not self.signals:
+            return
+        values = rows.values[:, : self.signals]
+        steps = [which for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
+        # the lowest of a signal is the highest of its negative: both in one go, since a call costs more than a column
+        both = np.concatenate([values, -values], axis=1)
+        before = np.concatenate([self.highest, -self.lowest])
+        least = np.concatenate([self.lowest, -self.highest])
+        best, when = _highest(rows, both, steps, before, least)
+        top, bottom = best[: self.signals], best[self.signals :]
+        t_top, t_bottom = when[: self.signals], when[self.signals :]
+        higher, lower = top > self.highest, -bottom < self.lowest
+        self.highest[higher], self.t_highest[higher] = top[higher], t_top[higher]
+        self.lowest[lower], self.t_lowest[lower] = -bottom[lower], t_bottom[lower]
+
+    def plain(self, names: Sequence[str]) -> dict[str, list[float]]:
+        """For run.json: [lowest, when, highest, when] of the first signals, by name."""
+        columns = np.stack([self.lowest, self.t_lowest, self.highest, self.t_highest], axis=1)[: len(names)]
+        rows = zip(names, columns, strict=True)
+        return {name: row.tolist() for name, row in rows if np.isfinite(row).all()}
+
+
+def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, least: Floats) -> tuple[Floats, Floats]:
+    """The highest value of each signal in these rows, and when, where it may be above that of `before`."""
+    row = values.argmax(axis=0)
+    best = values[row, np.arange(len(row))]
+    if np.isnan(best).any():
+        known = np.where(np.isnan(values), -np.inf, values)
+        row = known.argmax(axis=0)
+        best = known[row, np.arange(len(row))]
+    when = rows.t[row]
+    with np.errstate(invalid="ignore"):
+        near = np.flatnonzero((best > before - MARGIN * (before - least)) | ~np.isfinite(before))
+    for which in steps:
+        for begins in (True, False):
+            step = np.searchsorted(which[:, 0], row[near], side="right") - 1
+            if not begins:  # the row is the end of a step: that one as well
+                step = np.where((step >= 0) & (which[step, 0] == row[near]), step - 1, -1)
+            inside = (step >= 0) & (row[near] <= which[step, -1])
+            at, of = step[inside], near[inside]
+            if len(of):
+                value, share = peak_of_curves(values[which[at], of[:, None]])
+                t0, t1 = rows.t[which[at, 0]], rows.t[which[at, -1]]
+                _raise_to(best, when, of, value, t0 + share * (t1 - t0))
+    of, value, t = peak_of_neighbours(rows, values, row, near)
+    _raise_to(best, when, of, value, t)
+    return best, when
+
+
+def _raise_to(best: Floats, when: Floats, of: Integers, value: Floats, t: Floats) -> None:
+    """Take values of the signals `of` that are above the best."""
+    higher = value > best[of]
+    best[of[higher]], when[of[higher]] = value[higher], t[higher]
+
+
+def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, near: Integers) -> tuple[Integers, Floats, Floats]:
+    """Of ends of short steps: the peaks of parabolas through the highest row and its neighbours; of which, and when.
+
+    Only where five rows lie on one: where their three second differences agree.
+    """
+    inner = near[(row[near] >= 2) & (row[near] + 2 < len(rows.t))]
+    at = row[inner][:, None] + np.arange(-2, 3)
+    t, sides = rows.t[at], rows.side[at]
+    gaps = t[:, 1:] - t[:, :-1]
+    plain = (gaps > 0.0).all(axis=1) & ~((sides == BEFORE) | (sides == AFTER)).any(axis=1)
+    inner, at, t, gaps = inner[plain], at[plain], t[plain], gaps[plain]
+    if not len(inner):
+        return inner, np.empty(0), np.empty(0)
+    v = values[at, inner[:, None]]
+    slopes = (v[:, 1:] - v[:, :-1]) / gaps
+    bends = (slopes[:, 1:] - slopes[:, :-1]) / (gaps[:, :-1] + gaps[:, 1:])
+    spread = bends.max(axis=1) - bends.min(axis=1)
+    agree = (spread <= AGREE * np.abs(bends).max(axis=1)) & (bends[:, 1] < 0.0)
+    inner, t, v, gaps, slopes, bend = (x[agree] for x in (inner, t, v, gaps, slopes, bends[:, 1]))
+    slope = (slopes[:, 1] * gaps[:, 2] + slopes[:, 2] * gaps[:, 1]) / (gaps[:, 1] + gaps[:, 2])
+    shift = np.clip(-slope / (2.0 * bend), -gaps[:, 1], gaps[:, 2])
+    return inner, v[:, 2] + shift * (slope + bend * shift), t[:, 2] + shift
+
+
+def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
+    """Of curves through evenly spaced values [k, n]: the highest value of each, and after which share of the way."""
+    nodes = np.linspace(0.0, 1.0, v.shape[1])
+    found = v @ basis(POINTS, nodes).T
+    place = found.argmax(axis=1)
+    middle = np.clip(place, 1, len(POINTS) - 2)
+    k = np.arange(len(v))
+    left, centre, right = found[k, middle - 1], found[k, middle], found[k, middle + 1]
+    bend = left - 2.0 * centre + right
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shift = np.where(bend < 0.0, 0.5 * (left - right) / bend, 0.0)
+    shift = np.clip(np.nan_to_num(shift), -1.0, 1.0)
+    share = np.where(place == middle, POINTS[middle] + shift * POINTS[1], POINTS[place])
+    value = np.maximum((v * basis(share, nodes)).sum(axis=1), found[k, place])
+    return value, share

@@ -1,0 +1,111 @@
+"""Limits of a netlist: which recorded signals leave the range they were given.
+
+    limits: {"line.hose[*].tension": {above: -160 N}}       the signal must stay above -160 N
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.suggestion import suggest
+from fairlead.errors import Fault, ModelError, did_you_mean, listing
+from fairlead.netlist.limits import MOST_FAULTS
+from fairlead.netlist.netlist import Value
+from fairlead.patterns import picked
+from fairlead.quantities import QuantityError, si
+from fairlead.system.arrays.recording import OutputSignal
+
+SENSES = {"above": -1.0, "below": +1.0}
+
+
+@dataclass
+class Limit:
+    """One bound on some recorded columns: sense * (value - bound) must not become positive."""
+
+    text: str
+    columns: NDArray[np.int64]
+    names: Sequence[str]
+    sense: float
+    bound: float
+    unit: str
+    pattern: str = ""
+    worst: float = -np.inf
+    nearest: tuple[str, float, float] | None = None  # (signal, value, t) of the worst
+
+    @property
+    def broken(self) -> str:
+        """The worst in a sentence, if it broke the limit."""
+        if self.nearest is None or self.worst <= 0:
+            return ""
+        name, value, t = self.nearest
+        return f"{name} = {value:.6g} {self.unit} at t = {t:.6g} s, allowed: {self.text}"
+
+    def take(self, extremes: Extremes) -> None:
+        """Take the extremes of all recorded signals."""
+        highest = self.sense > 0
+        values = (extremes.highest if highest else extremes.lowest)[self.columns]
+        times = (extremes.t_highest if highest else extremes.t_lowest)[self.columns]
+        beyond = self.sense * (values - self.bound)
+        j = int(beyond.argmax())
+        if np.isfinite(beyond[j]):
+            self.worst = float(beyond[j])
+            self.nearest = self.names[j], float(values[j]), float(times[j])
+
+
+@dataclass
+class Limits:
+    """All limits of a run."""
+
+    limits: list[Limit] = field(default_factory=list)
+
+    def take(self, extremes: Extremes) -> None:
+        """Take the extremes of all recorded signals, at the end of a run."""
+        for limit in self.limits:
+            limit.take(extremes)
+
+    def plain(self) -> list[dict[str, object]]:
+        """As `run.json` keeps them, with what came nearest so far, so that `fairlead margins` can tell it."""
+        names = ("signal", "sense", "bound", "unit", "text", "nearest")
+        told = ((one.pattern, one.sense, one.bound, one.unit, one.text, one.nearest) for one in self.limits)
+        return [dict(zip(names, each, strict=True)) for each in told]
+
+    def broken(self) -> list[str]:
+        """A sentence for every limit that was broken, at its worst."""
+        return [limit.broken for limit in self.limits if limit.broken]
+
+
+def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) -> Limits:
+    """Bind the limits of a netlist to recorded columns. Raises ModelError."""
+    found, faults = Limits(), list[Fault]()
+    column = {signal.name: k for k, signal in enumerate(recorded)}
+    for pattern, value in given.items():
+        if len(faults) > MOST_FAULTS:
+            break
+        columns = [column[name] for name in picked(column, pattern)]
+        if not columns:
+            near, way_out = suggest(pattern, [signal.name for signal in recorded])
+            faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip(), way_out))
+            continue
+        for word, bound in value.entries.items():
+            unit = recorded[columns[0]].unit
+            if word not in SENSES:
+                what = f"limits.{pattern}.{word}: a limit is above or below. {did_you_mean(word, SENSES)}"
+                faults.append(Fault(bound.named_at, what.rstrip(), f"Write {listing(SENSES)}."))
+                continue
+            try:
+                number = si(bound.plain(), unit)
+            except QuantityError as error:
+                faults.append(Fault(bound.where, f"limits.{pattern}.{word} = {error.what}.", error.allowed))
+                continue
+            names = [recorded[k].name for k in columns]
+            text = f"{word} {bound.plain()}"
+            limit = Limit(text, np.array(columns), names, SENSES[word], number, unit, pattern=pattern)
+            found.limits.append(limit)
+    if faults:
+        raise ModelError(faults)
+    return found

@@ -1,0 +1,74 @@
+"""Names of signals in a netlist that no signal has: what is recorded, plotted or limited in vain."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+
+from fairlead.analysis.record.limits import read_limits
+from fairlead.analysis.record.suggestion import suggest
+from fairlead.component.instantiate import Assembly
+from fairlead.errors import Fault, ModelError
+from fairlead.netlist.limits import MOST_FAULTS
+from fairlead.netlist.netlist import Value
+from fairlead.patterns import picked
+from fairlead.system.arrays.recording import OutputSignal
+from fairlead.system.numbering.unknowns import LEDGER
+
+
+def unknown_signals(assembly: Assembly) -> list[Fault]:
+    """Mistakes in `record` and `limits`, told from what the components declare; nothing is compiled for it."""
+    signals = signals_of(assembly)
+    names = {signal.name: None for signal in signals}
+    unknown = ((value, text) for value, text in _recorded(assembly) if not picked(names, text))
+    faults = [_no_such(value, text, [*names]) for value, text in itertools.islice(unknown, MOST_FAULTS)]
+    judged = {text: value for text, value in assembly.netlist.limits.items() if not _excused(assembly, text)}
+    try:
+        read_limits(judged, signals)
+    except ModelError as error:
+        faults += error.faults
+    return faults
+
+
+def signals_of(assembly: Assembly) -> list[OutputSignal]:
+    """All signals of a model, from what its components declare."""
+    found = [
+        OutputSignal(f"{path}.{name}", output.unit, output.doc, 0)
+        for path, instance in assembly.instances.items()
+        for name, output in instance.type.declaration.outputs.items()
+    ]
+    by_name = {signal.name: signal for signal in found}
+    outer = [(name, by_name[str(inner)]) for name, inner in assembly.aliases.items() if str(inner) in by_name]
+    found += [OutputSignal(name, signal.unit, signal.doc, 0) for name, signal in outer]
+    return found + [OutputSignal(f"energy.{line}", "J", "", 0) for line in LEDGER]
+
+
+def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
+    """The patterns under record.signals and record.plots, each with its place."""
+    block = assembly.netlist.written["record"]
+    lists = [block.get("signals")]
+    plots = block["plots"].content if "plots" in block else []
+    plots = plots if isinstance(plots, list) else []
+    lists += [plot.entries.get("signals") for plot in plots]
+    listed = [one.content for one in lists if one is not None and isinstance(one.content, list)]
+    listed.append([along for plot in plots if (along := plot.entries.get("along")) is not None])
+    for values in listed:
+        for value in values:
+            if isinstance(value.content, str) and not _excused(assembly, value.content):
+                yield value, value.content
+
+
+def _excused(assembly: Assembly, pattern: str) -> bool:
+    """True when the name may be one of a component that could not be made, or of its contacts with one."""
+    first = re.split(r"[.\[]", pattern)[0]
+    laid = [(one, two) for one, two, _ in assembly.routings if not {one, two} & assembly.stand_ins]
+    routed = {path for both in laid for path in both}
+    if first in {path.split(".")[0] for path in assembly.lines if path not in routed}:
+        return True
+    return bool(assembly.broken) and (first in assembly.broken or any(c in first for c in "*?"))
+
+
+def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:
+    near, way_out = suggest(pattern, names)
+    return Fault(value.where, f"record: no signal has the name {pattern}. {near}".rstrip(), way_out)
