@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from fairlead.errors import FairleadError, UsageError
 from fairlead.studies.fits.fit_file import Asked, Law
-from fairlead.studies.fits.search import Error, Fitted, Told, errors, fit, prepared
+from fairlead.studies.fits.search import Error, Fitted, Told, errors, fit, foretelling, prepared
 
 
 @dataclass(frozen=True)
@@ -31,11 +31,13 @@ def compare(asked: Asked, laws: Sequence[Law], told: Told | None = None) -> list
     for law, records, targets, _ in ready:
         try:
             whole = fit(asked, targets, law)
+            if told is not None:
+                told(f"{law.name}: loss {whole.loss:.6g} in {whole.runs} runs")
             judged = Judged(law, fitted=whole)
             for k, record in enumerate(records):
-                rest = fit(asked, [*targets[:k], *targets[k + 1 :]], law)
+                rest = foretelling(asked, [*targets[:k], *targets[k + 1 :]], law, whole)
                 judged.trained[record.name] = errors(record, whole.values) or {}
-                judged.left_out[record.name] = errors(record, rest.values) or {}
+                judged.left_out[record.name] = errors(record, rest) or {}
                 if told is not None:
                     told(f"{law.name}: {record.name} left out")
         except FairleadError as error:

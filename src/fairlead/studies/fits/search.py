@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,9 @@ from fairlead.studies.fits.steps import CHAOS, Step, jacobian, noise_floor, step
 Floats = NDArray[np.float64]
 Told = Callable[[str], None]
 PRECISION = 1e-8
-"""Relative change of the loss, and of parameters, at which a search ends."""
+"""Relative change of parameters at which a search ends."""
+LITTLE = 0.01
+"""Change of the sum of squares at which a search ends, in variances of the noise: 1 is one standard error."""
 MOST_TURNS = 60
 
 
@@ -80,10 +83,27 @@ def chaotic(records: list[Record], problem: Callable[[list[Target]], Problem]) -
     return found
 
 
-def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | None = None) -> Fitted:  # noqa: B008
-    """Fit the parameters to the targets. Raises FairleadError when no start gives a run that finishes."""
+def foretelling(asked: Asked, targets: list[Target], law: Law, like: Fitted) -> dict[str, float]:
+    """Values of the parameters fitted to some of the targets, from the start of the fit file, by the steps of a fit."""
+    problem = Problem((*asked.sought, *law.sought), tuple(targets))
+    sizes = [like.steps[one.name] for one in problem.sought]
+    found = _search(asked, Counted(problem), _inside(problem.start, problem.bounds), sizes)
+    return problem.values(found.x)
+
+
+def _search(asked: Asked, counted: Counted, begin: Floats, sizes: list[Step]) -> Any:
+    """One search, as scipy.optimize.least_squares tells it."""
     from scipy.optimize import least_squares
 
+    loss, bounds = asked.given.loss, counted.problem.bounds
+    count = sum(one.count for one in counted.problem.targets)
+    return least_squares(counted, begin, jac=lambda z: jacobian(counted, z, sizes, bounds), bounds=bounds,
+                         x_scale="jac", loss=loss.kind, f_scale=loss.scale, ftol=max(LITTLE / count, PRECISION),
+                         xtol=PRECISION, gtol=1e-12, max_nfev=MOST_TURNS)  # fmt: skip
+
+
+def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | None = None) -> Fitted:  # noqa: B008
+    """Fit the parameters to the targets. Raises FairleadError when no start gives a run that finishes."""
     problem, loss = Problem((*asked.sought, *law.sought), tuple(targets)), asked.given.loss
     counted, bounds = Counted(problem), problem.bounds
     inside = _inside(problem.start, bounds)
@@ -100,9 +120,7 @@ def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | No
         if number and (counted(begin) == FAR).any():
             starts.append(Start(problem.values(begin), problem.values(begin), float("inf"), "no run finishes there"))
             continue
-        one = least_squares(counted, begin, jac=lambda z: jacobian(counted, z, sizes, bounds), bounds=bounds,
-                            x_scale="jac", loss=loss.kind, f_scale=loss.scale, ftol=PRECISION, xtol=PRECISION,
-                            gtol=1e-12, max_nfev=MOST_TURNS)  # fmt: skip
+        one = _search(asked, counted, begin, sizes)
         found.append(one)
         starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
         if told is not None:
