@@ -1,7 +1,8 @@
 """Tables as a user writes them, turned into piecewise polynomials; `waveforms.py` has quantities in time.
 
 A table is a list of [x, y] pairs, a map {x: [...], y: [...], kind: linear|cubic, beyond: constant|line}, or
-{file: data.csv} with the same two words. Beyond its ends a table stays constant unless it says `line`.
+{file: data.csv} with the same two words, and columns: [time, force] where the file has more than two. Beyond its ends
+a table stays constant unless it says `line`.
 """
 
 from __future__ import annotations
@@ -72,13 +73,13 @@ def points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Pa
     words = {"kind": "linear", "beyond": "constant"}
     at: Callable[[int, int], Place] = _row
     if isinstance(value, Mapping):
-        only(value, {x_name, "y", "file", *WORDS})
+        only(value, {x_name, "y", "file", "columns", *WORDS})
         for word, allowed in WORDS.items():
             words[word] = str(value.get(word, words[word]))
             if words[word] not in allowed:
                 raise TableError(f" = {shown(words[word])} is not known", f"Allowed: {listing(allowed)}.", (word,))
         if "file" in value:
-            rows, at = _from_file(value["file"], folder)
+            rows, at = _from_file(value["file"], folder, value.get("columns"))
         else:
             rows, at = _columns(value, x_name), functools.partial(_column, (x_name, "y"))
     else:
@@ -119,8 +120,12 @@ def _columns(value: Mapping[str, Any], x_name: str) -> list[list[Any]]:
     return [list(pair) for pair in zip(x, y, strict=True)]
 
 
-def _from_file(name: Any, folder: pathlib.Path) -> tuple[list[list[Any]], Callable[[int, int], Place]]:
+def _from_file(
+    name: Any, folder: pathlib.Path, columns: Any = None
+) -> tuple[list[list[Any]], Callable[[int, int], Place]]:
     """Two columns of a CSV file inside the netlist's folder, and where each number stands.
+
+    `columns` names the two in the first row; without it the file has two.
 
     A first row in which nothing begins with a number is a header. Nothing is passed over but that, comments (#) and
     empty rows: what is not two numbers in a row is refused by the number of its row.
@@ -134,7 +139,14 @@ def _from_file(name: Any, folder: pathlib.Path) -> tuple[list[list[Any]], Callab
         raise TableError(f" = {shown(name)} cannot be read: {reason}", "", ("file",)) from error
     said = f" = {shown(name)}, row"
     found, lines, first = [], [], True
+    picked: list[int] | None = None
     for line, cells in _cells(data, said):
+        if columns is not None and picked is None:
+            picked = _picked(columns, cells, f"{said} {line}")
+            first = False
+            continue
+        if picked is not None and len(cells) > max(picked):
+            cells = [cells[k] for k in picked]
         if first and not any(NUMBER.match(cell) for cell in cells):
             first = False  # it was the header
             continue
@@ -142,6 +154,17 @@ def _from_file(name: Any, folder: pathlib.Path) -> tuple[list[list[Any]], Callab
         found.append(_pair(cells, f"{said} {line}"))
         lines.append(line)
     return found, lambda k, _: (("file",), f"{said} {lines[k]}: ")
+
+
+def _picked(columns: Any, head: list[str], said: str) -> list[int]:
+    """Where two columns stand, by the names in the first row. Raises TableError."""
+    if not isinstance(columns, list) or len(columns) != 2:
+        raise TableError(f" = {shown(columns)} is no pair", "Write columns: [time, force].", ("columns",))
+    for name in columns:
+        if name not in head:
+            what = f" = {shown(name)} is no column of it. {did_you_mean(str(name), head)}".rstrip()
+            raise TableError(what, f"{said} names {listing(head)}.", ("columns",))
+    return [head.index(name) for name in columns]
 
 
 def _cells(data: bytes, said: str) -> Iterator[tuple[int, list[str]]]:
