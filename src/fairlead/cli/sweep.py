@@ -89,8 +89,7 @@ def sweep(
     counts = {"lhs": lhs, "sobol": sobol, "monte_carlo": monte_carlo, "saltelli": saltelli, "morris": morris}
     sample = _one_sample(counts)
     if is_sweep_file(subject):
-        if grid or cases or over or sample or figure or settings or libraries:
-            raise UsageError(f"{subject} says what to sweep; write it there and not as options.")
+        _refuse_options(subject, grid, cases, over, sample, figure, settings, libraries)
         plan = read_plan(subject)
     else:
         plan = plan_of_options(
@@ -112,11 +111,14 @@ def sweep(
     frame = table.frame()
     kept = _keep(job, plan, words, frame, folder)
     record = _record(frame, plan, standing, folder, kept, limited=job.limited)
-    if as_json:
-        echo(json.dumps(record, indent=2))
-    elif not quiet:
-        _print(record, standing)
+    _print(record, standing, as_json=as_json, quiet=quiet)
     raise typer.Exit(_exit_code(record))
+
+
+def _refuse_options(subject: str, *options: Any) -> None:
+    """Refuse options beside a sweep file, which says all of this itself."""
+    if any(options):
+        raise UsageError(f"{subject} says what to sweep; write it there and not as options.")
 
 
 def _exit_code(record: dict[str, Any]) -> int:
@@ -240,7 +242,14 @@ def _record(
     }  # fmt: skip
 
 
-def _print(record: dict[str, Any], standing: "Standing") -> None:
+def _print(record: dict[str, Any], standing: "Standing", *, as_json: bool, quiet: bool) -> None:
+    if as_json:
+        echo(json.dumps(record, indent=2))
+    elif not quiet:
+        _print_sentences(record, standing)
+
+
+def _print_sentences(record: dict[str, Any], standing: "Standing") -> None:
     counts = ", ".join(f"{count} {name}" for name, count in record["cases"].items())
     reused = f", {record['reused']} were there already" if record["reused"] else ""
     took = f"{_duration(standing.seconds)} ({standing.rate:.3g} in a second)"
