@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 
 import fairlead
+from tests.compiling import compile_share
 from tests.slow import is_left
 
 Scene = Callable[..., Any]
@@ -32,6 +33,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def ctrl_c_works() -> None:
     """A shell that starts the tests in the background has Ctrl-C ignored, in them and in all they start."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def loops_are_compiled(request: pytest.FixtureRequest) -> None:
+    """Each worker compiles a loop before its first test, so that with cold caches none waits for two."""
+    compile_share(request.session)
 
 
 @pytest.fixture
