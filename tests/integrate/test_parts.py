@@ -11,7 +11,7 @@ OF_THE_PROBLEM = {
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
-    "start", "stop", "every", "least_gap", "max_step", "first_step", "step_floor", "progress_floor", "dwell",
+    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell",
     "least_theta", "fixed_step",
 }  # fmt: skip
 OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}

@@ -71,6 +71,72 @@ def test_extremes_are_those_of_the_motion_whatever_is_recorded(simulate, engine,
     assert abs(np.sin(3 * result.extremes("block.x").t_lowest)) < 0.03
 
 
+GRIDS = [None, "20 ms", "0.37 s", "5 s", "100 s"]
+BELT = """
+    components:
+      wall: {type: Ground}
+      spring: {type: Spring, stiffness: 100 N/m}
+      block: {type: Mass, mass: 1 kg, velocity: 0.2 m/s}
+      belt: {type: MotionSource, velocity: 0.2 m/s}
+      pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 1.0, coulomb: 0.6}}
+    connections:
+      - [wall.flange, spring.a]
+      - [spring.b, block.flange, pad.b]
+      - [belt.flange, pad.a]
+    run: {stop: 40 s, accuracy: 1e-6}
+    record: {signals: [block.x, block.v]}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("every", GRIDS)
+def test_the_peaks_of_short_phases_in_a_long_run_do_not_depend_on_the_grid(simulate, engine, every):
+    """A phase of slip is a hundredth of the run: x = 0.06 + 0.04 cos 10 t + 0.02 sin 10 t from 0.5 s on."""
+    result = on_the_grid(simulate, BELT, engine, every)
+    low, _, high, t_high = result.extremes("block.x")
+    amplitude, slip = np.hypot(0.04, 0.02), (2 * np.pi - 2 * np.arctan(2)) / 10
+    assert low == pytest.approx(0.0, abs=1e-9)
+    assert high == pytest.approx(0.06 + amplitude, abs=2e-7)
+    assert (t_high - 0.5) % (slip + 0.4) == pytest.approx(np.arctan(0.5) / 10, abs=2e-3)
+    assert result.extremes("block.v").lowest == pytest.approx(-10 * amplitude, abs=2e-6)
+    assert result.extremes("block.v").highest == pytest.approx(0.2, abs=2e-6)
+    phase = (40.0 - 0.5) % (slip + 0.4)  # it rides at the end
+    assert result.t[-1] == 40.0
+    assert result["block.x"][-1] == pytest.approx(0.02 + 0.2 * (phase - slip), abs=2e-5)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("every", GRIDS)
+def test_a_peak_early_in_a_long_run_is_found_on_any_grid(simulate, engine, every):
+    """A damped swing, started at 1 m/s: its first peak is in the first 0.15 s of 1000 s, and the only one so high."""
+    result = on_the_grid(simulate, """
+        components:
+          ground: {type: Ground}
+          block: {type: Mass, mass: 1 kg, velocity: 1 m/s}
+          spring: {type: Spring, stiffness: 100 N/m}
+          damper: {type: Damper, damping: 2 N*s/m}
+        connections:
+          - [ground.flange, spring.a, damper.a]
+          - [spring.b, block.flange, damper.b]
+        run: {stop: 1000 s, accuracy: 1e-5}
+        record: {signals: [block.x, block.v]}
+    """, engine, every if every != "20 ms" else "0.2 s")  # fmt: skip
+    pace = np.sqrt(99.0)
+    top, bottom = (np.arctan(pace) + np.array([0.0, np.pi])) / pace
+    low, t_low, high, t_high = result.extremes("block.x")
+    assert high == pytest.approx(np.exp(-top) * np.sin(pace * top) / pace, rel=1e-3)
+    assert low == pytest.approx(np.exp(-bottom) * np.sin(pace * bottom) / pace, rel=1e-3)
+    assert (t_high, t_low) == pytest.approx((top, bottom), abs=5e-3)
+    assert abs(result["block.x"][-1]) < 1e-4
+
+
+def on_the_grid(simulate, text, engine, every):
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    given = {} if every is None else {"record.every": every}
+    return simulate(text, **{"run.engine": engine}, **given)
+
+
 def test_a_limit_is_broken_between_two_recorded_rows(simulate, scene):
     """Rows at t = 0 and 5 s only; the speed passes 2.9 m/s meanwhile."""
     text = SWING.replace("EVERY", ", every: 5 s") + "    limits: {block.v: {below: 2.9 m/s}}\n"

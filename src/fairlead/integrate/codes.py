@@ -27,8 +27,6 @@ ORDINARY, BEFORE, AFTER = 0, 1, 2
 INSIDE, PASSED, INSIDE_PASSED, GRID = 3, 4, 5, 6
 """With `between` (rows.py): a row inside a step, on the curve through the rows of that step; an end of a step that is
 no grid point, and a row inside one; a grid point inside one."""
-MOST_BETWEEN = 1000
-"""So many rows between a run on a grid has at most, evenly spread: they cost little where steps are short."""
 PARABOLA, QUARTIC = 1, 3
 """Rows inside a step, evenly spaced, that its dense output goes through: of `stepping`, and of the other engines."""
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 import fairlead.integrate.linear.ordering as ordering
-from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_BETWEEN, MOST_PERTURBED, QUARTIC
+from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_PERTURBED, QUARTIC
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.linear.condensing import columns_of, lay_out
 from fairlead.integrate.memory.arena import BUFFERS, Memory
@@ -266,8 +266,7 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
         "adaptive": int(run.fixed_step is None),
         "on_grid": int(run.every is not None),
         "every": run.every or 0.0, "between": int(run.between),
-        "least_gap": (run.stop - run.start) / MOST_BETWEEN, "t_row": -NEVER,
-        "most_inside": QUARTIC,
+        "t_row": -NEVER, "most_inside": QUARTIC,
         "on_chatter": REACTIONS[run.on_chatter],
         "start": run.start, "t": run.start, "stop": run.stop,
         "first_step": run.first_step or 0.0,

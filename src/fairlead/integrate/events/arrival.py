@@ -75,8 +75,8 @@ def arrive(m, located):
     recorder = m.recorder
     if recorder.rows + 4 > recorder.row_capacity:
         return BUFFER_FULL
-    far = recorder.inside > 0 or run.t_piece - recorder.t_row >= recorder.least_gap
-    recorded = recorder.on_grid == 0 or (recorder.between == 1 and far)
+    on_row = run.t_piece - recorder.t_row <= 1e-12 * max(abs(run.t_piece), recorder.every)  # a point of the grid
+    recorded = recorder.on_grid == 0 or (recorder.between == 1 and not on_row)
     entered_again = point.t == run.t_piece  # for other pivots; the start of the step is gone
     at_shown = shown_end(m) if (recorded or run.crossed == 1) and not entered_again else point.at_y_piece
     if run.crossed == 1 and not entered_again:

@@ -58,7 +58,7 @@ RECORDER = Struct(
         "total_events", "grid_next", "inside", "inside_next", "rows_slip", "any_stiff", "shown_apart",
     ),
     numbers=(
-        "every", "least_gap", "t_row",
+        "every", "t_row",
     ),
     reals={
         # of an event, how far from y it is shown

@@ -112,15 +112,13 @@ def shown_end(m):
 def rows_inside(run, point, settling, recorder):
     """How many rows the piece has inside that are no grid points: those that its curve goes through, or none.
 
-    Without a grid all steps have them; with one, long steps in the middle of which an unknown is off the straight line
-    by more than its weight. A step of `stepping` in which something switched has none: it has the laws of its end.
+    Without a grid all steps have them; with one, steps in the middle of which an unknown is off the straight line by
+    more than its weight. A step of `stepping` in which something switched has none: it has the laws of its end.
     """
     if recorder.between == 0 or run.t_piece <= point.t or (recorder.most_inside == PARABOLA and settling.passes > 0):
         return 0
     if recorder.on_grid == 0:
         return recorder.most_inside
-    if run.t_piece - point.t < 2.0 * recorder.least_gap:
-        return 0
     interpolate(point, 0.5 * (run.t_piece - point.t) / run.h, point.at_y_probe)
     y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_y_probe, point.n)
     weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
