@@ -15,26 +15,27 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Collection, Iterable, Sequence
+import time
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fairlead.analysis.record.suggestion import suggest
-from fairlead.errors import Fault, Location, ModelError, SteppingError, UsageError, did_you_mean, listing, shown
+from fairlead.errors import ModelError, SteppingError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.codes import TRY
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.prepare import NEVER_LOOK
-from fairlead.integrate.problem import Block
+from fairlead.integrate.problem import Block, Status
 from fairlead.integrate.run import check
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Saved, Underway
-from fairlead.netlist.interface import Outer
+from fairlead.outer import find_inputs, find_outputs
 from fairlead.quantities import QuantityError, si
 from fairlead.run import engine_settings, failure_of, named_change, refused
 from fairlead.system.compiled.asking import call
-from fairlead.system.compiled.opened import FreeInput, free_inputs, opened
+from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
 
 if TYPE_CHECKING:
@@ -71,20 +72,22 @@ class Stepping:
         self.changes: list[Change] = []
         """Zone changes in the last `advance`, in order."""
         self._of = system
-        recorded = [signal.name for signal in system.recording(EVERYTHING).recorded]
-        self._inputs, faults = _inputs(netlist, system, inputs)
-        self._columns, more = _outputs(netlist, recorded)
+        recorded = system.recording(EVERYTHING).recorded
+        self._inputs, faults = find_inputs(netlist, system, inputs)
+        self._columns, outputs, more = find_outputs(netlist, recorded)
         if faults + more:
             raise ModelError(faults + more)
-        self.outputs = tuple(netlist.interface.outputs)
+        self.outputs = tuple(one.name for one in outputs)
         """Names of outputs of the `interface` block; every other signal can be read as well."""
+        self.variables = (*(one.seen for one in self._inputs.values()), *outputs)
+        """Inputs and outputs with unit, start value, nominal size and description."""
         if (fault := refused(settings, system)) is not None:
             raise UsageError(f"{fault.what} {fault.way_out}")
         asked = engine_settings(netlist, settings, system, list(EVERYTHING))
         if why := engine_of(asked).not_saved:
             raise UsageError(f"{why}; a run that is stepped from outside takes rodas or stepping.")
         asked = dataclasses.replace(asked, every=NO_GRID, between=False)
-        own = opened(system, [one for one, _ in self._inputs.values()])
+        own = opened(system, [one.free for one in self._inputs.values()])
         check(own, asked)
         self._going = Underway(own, asked, self._take)
         self._memory.number["narrow_at"] = NEVER_LOOK
@@ -92,6 +95,9 @@ class Stepping:
         self._memory.spread()
         self._values: np.ndarray | None = None
         self._begun = False
+        for name, one in self._inputs.items():
+            if one.seen.start is not None and one.seen.start != one.free.value:
+                self.set(name, one.seen.start)
 
     @property
     def t(self) -> float:
@@ -104,7 +110,7 @@ class Stepping:
         return tuple(self._inputs)
 
     def set(self, name: str, value: float | str) -> None:
-        """Set an input, from here on; a number in the unit outside (SI where none is given), or a text with its unit.
+        """Set an input, from here on; a number in SI, or a text with its unit.
 
         Raises UsageError for a name that is no input, and for a value that does not fit.
         """
@@ -112,9 +118,8 @@ class Stepping:
             near = did_you_mean(name, self._inputs) if isinstance(name, str) else ""
             known = f"Inputs are {listing(self._inputs)}." if self._inputs else "It has none: see docs/coupling.md."
             raise UsageError(f"set: there is no input {shown(str(name))}. {near} {known}".replace("  ", " "))
-        unit = self._inputs[name][1]
         try:
-            number = si(value, unit)
+            number = si(value, self._inputs[name].seen.unit)
         except QuantityError as error:
             raise UsageError(f"set: {name} = {error.what}. {error.allowed}") from None
         if not math.isfinite(number):
@@ -138,7 +143,7 @@ class Stepping:
         """Go on to `t` [s] and return the time reached: `t`, or with `until_change` that of a zone change before.
 
         The `stop` of the netlist is no end here. Raises SteppingError where the run fails; it stays where it got to.
-        Raises UsageError for a time before that reached.
+        Raises UsageError for a time before that reached. `max_wall` bounds every call by itself: call again to go on.
         """
         goal = self._time(t)
         self.changes = []
@@ -151,9 +156,12 @@ class Stepping:
             number["stop"] = number["start"] + 2.0 * (goal - number["start"])
         self._values = None
         self._take_over()
-        known = len(self.changes)
+        known, begun = len(self.changes), time.perf_counter()
         while self.t < goal and not (until_change and len(self.changes) > known):
             self._step(goal)
+            if self.t < goal and self._late(begun):
+                self._going.status = Status.MAX_WALL
+                raise SteppingError(*self._ended())
         return self.t
 
     def save(self) -> State:
@@ -193,6 +201,11 @@ class Stepping:
                 self._enter(0)
             self.changes = []
 
+    def _late(self, begun: float) -> bool:
+        """True beyond the budget of wall time, which every `advance` has to itself: between two the master works."""
+        most = self._going.run.max_wall
+        return most is not None and time.perf_counter() - begun > most
+
     def _take_over(self) -> None:
         """Settle on what was set."""
         while self._instance.memory["set_due"][0]:
@@ -230,64 +243,3 @@ class Stepping:
 
     def __repr__(self) -> str:
         return f"<Stepping at t = {self.t:.9g} s: inputs {listing(self._inputs) or 'none'}>"
-
-
-def interface_faults(netlist: Netlist, system: System) -> list[Fault]:
-    """Mistakes in the `interface` block: inputs that cannot be set, and outputs that nothing gives."""
-    signals = [signal.name for signal in system.signals]
-    return _inputs(netlist, system, ())[1] + _outputs(netlist, signals)[1]
-
-
-def _place(netlist: Netlist, side: str, name: str) -> Location | None:
-    """Where an entry of the `interface` block stands; of an argument of `Model.start`, that."""
-    block = netlist.written.get("interface", {}).get(side)
-    return block.entries[name].where if block is not None and name in block.entries else Location("Model.start")
-
-
-def _inputs(
-    netlist: Netlist, system: System, more: Iterable[str]
-) -> tuple[dict[str, tuple[FreeInput, str]], list[Fault]]:
-    """Inputs by outer name, with their units; and what is wrong with others."""
-    free = {name: one for one in free_inputs(system) for name in one.names}
-    given = netlist.interface.inputs | {name: Outer(of=name) for name in more}
-    faults, found, taken = [], {}, dict[tuple[int, int, int], str]()
-    for name, outer in given.items():
-        what, place = f"interface.inputs.{name}", _place(netlist, "inputs", name)
-        one = free.get(outer.of)
-        if one is None:
-            faults.append(Fault(place, *_not_free(what, outer.of, list(free), system)))
-        elif one.place in taken:
-            faults.append(Fault(place, f"{what}: {outer.of} is {taken[one.place]} already.", "Give it one name."))
-        else:
-            taken[one.place] = name
-            unit = outer.unit or one.declared.unit
-            try:
-                si(f"1 {unit}", unit if one.declared.unit == "1" else one.declared.unit)
-            except QuantityError as error:
-                faults.append(Fault(place, f"{what}.unit: {error.what}.", error.allowed))
-            found[name] = one, unit if one.declared.unit == "1" else one.declared.unit
-    return found, faults
-
-
-def _not_free(what: str, signal: str, free: Collection[str], system: System) -> tuple[str, str]:
-    """What is wrong with a signal that is no free input, and the way out."""
-    if any(str(ref) == signal for ref in system.flat.sources):
-        return f"{what}: {signal} is connected to a signal already.", "Take the connection away, or set what feeds it."
-    if not free:
-        return f"{what}: this model has no input that is free.", "Add a SignalInput, and connect its signal."
-    near = did_you_mean(signal, free)
-    return f"{what}: {shown(signal)} is no input that is free. {near}".rstrip(), f"Free inputs are {listing(free)}."
-
-
-def _outputs(netlist: Netlist, signals: Sequence[str]) -> tuple[dict[str, int], list[Fault]]:
-    """Columns by all names that can be read; and what is wrong with outputs of the netlist."""
-    faults, columns = [], {name: k for k, name in enumerate(signals)}
-    found = dict(columns)
-    for name, outer in netlist.interface.outputs.items():
-        if outer.of in columns:
-            found[name] = columns[outer.of]
-            continue
-        near, way_out = suggest(outer.of, signals)
-        what = f"interface.outputs.{name}: no signal has the name {shown(outer.of)}. {near}".rstrip()
-        faults.append(Fault(_place(netlist, "outputs", name), what, way_out))
-    return found, faults

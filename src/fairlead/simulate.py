@@ -141,7 +141,7 @@ class Model:
         from fairlead.component.registry import known_types
         from fairlead.errors import without_echoes
         from fairlead.flatten.flatten import survey as flatten
-        from fairlead.outside import interface_faults
+        from fairlead.outer import interface_faults
         from fairlead.run import engine_remarks
         from fairlead.system.compile import untraceable
 

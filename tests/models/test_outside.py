@@ -129,6 +129,76 @@ def test_saving_and_restoring_at_random_gives_the_same_run(engine):
         assert [cut.get(name) for name in names] == [straight.get(name) for name in names]
 
 
+def test_a_thousand_ways_astray_and_back_leave_no_trace(pushed):
+    """States of any age are gone back to at random, also by another run; what follows is the same bit for bit."""
+    rng, rounds, points = np.random.default_rng(7), 1000, 60
+    pulls = rng.uniform(-12.0, 12.0, points)
+
+    def forward(run, k):
+        run.set("pull", pulls[k])
+        run.advance(0.01 * (k + 1))
+        return run.get("block.x"), run.get("speed"), run.get("pad.friction"), len(run.changes)
+
+    straight, states, seen = pushed.start(), [], []
+    for k in range(points):
+        states.append(straight.save())
+        seen.append(forward(straight, k))
+    assert sum(row[-1] for row in seen) > 10
+    runs = [pushed.start(), pushed.start()]
+    for _ in range(rounds):
+        k, run = int(rng.integers(points)), runs[int(rng.integers(2))]
+        run.restore(states[k])
+        assert forward(run, k) == seen[k]
+        if rng.random() < 0.2:
+            run.set("pull", float(rng.uniform(-50.0, 50.0)))
+            run.advance(run.t + float(rng.uniform(0.0, 0.03)))
+
+
+def test_the_interface_tells_units_starts_and_sizes(tmp_path):
+    """As a master needs them; what the netlist gives as a start is pulled from the start, in place of the source's."""
+    path = tmp_path / "scene.yaml"
+    block = """interface:
+  inputs: {pull: {of: command.value, unit: N, start: 0.009 kN, nominal: 10 N, description: Force.}}
+  outputs: {speed: {of: block.v, nominal: 100 mm/s}, x: block.x}
+"""
+    path.write_text(PUSHED[: PUSHED.index("interface:")] + block, encoding="utf-8")
+    run = fairlead.load(path).start()
+    assert [tuple(one) for one in run.variables] == [
+        ("pull", "input", "command.value", "N", "Force.", pytest.approx(9.0), 10.0),
+        ("speed", "output", "block.v", "m/s", "", None, pytest.approx(0.1)),
+        ("x", "output", "block.x", "m", "", None, 1.0),
+    ]
+    assert run.get("command.signal") == pytest.approx(9.0)
+    run.advance(0.1)
+    assert run.get("speed") == pytest.approx(0.2, rel=1e-9)
+    assert fairlead.load(path).start().variables == run.variables
+
+
+def test_the_source_gives_the_start_where_the_interface_gives_none(pushed):
+    assert [(one.name, one.unit, one.start) for one in pushed.start().variables if one.causality == "input"] == [
+        ("pull", "N", 1.0),
+        ("other", "1", 0.0),
+    ]
+
+
+def test_wall_time_is_a_budget_of_every_call(pushed):
+    """A nanosecond is over after the first step; what was reached stays, and the next call goes on from there."""
+    run = pushed.start(max_wall="1 ns", max_step=0.01)
+    run.set("pull", 9.0)
+    with pytest.raises(fairlead.SteppingError, match="the budget of 1e-09 s is used up") as told:
+        run.advance(0.1)
+    first = told.value.t
+    assert 0.0 < first == run.t < 0.1
+    for _ in range(1000):
+        try:
+            assert run.advance(0.1) == 0.1
+            break
+        except fairlead.SteppingError:
+            assert run.t > first
+            first = run.t
+    assert run.get("speed") == pytest.approx(0.2, rel=1e-9)
+
+
 def test_a_run_that_fails_says_what_model_run_would(pushed):
     """A budget that is used up, with the time; what was reached can be read, and gone back from."""
     run = pushed.start(max_steps=3, max_step=0.01)
@@ -171,6 +241,13 @@ INTERFACES = {
     "{inputs: {pull: comand.value}}": ["comand.value is no input that is free. Did you mean command.value?"],
     "{inputs: {pull: push.force}}": ["push.force is connected to a signal already"],
     "{inputs: {pull: {of: command.value, unit: newtonne}}}": ["interface.inputs.pull.unit", "newtonne"],
+    "{inputs: {pull: {of: command.value, unit: kN}}}": ["interface.inputs.pull.unit: kN is 1000 of the SI unit"],
+    "{inputs: {pull: {of: command.value, unit: N, start: 1 m}}}": ["interface.inputs.pull.start: 1 m is a length"],
+    "{inputs: {pull: {of: command.value, start: .nan}}}": ["interface.inputs.pull.start"],
+    "{outputs: {b: {of: block.v, nominal: 0}}}": ["interface.outputs.b.nominal = 0 is not above zero"],
+    "{outputs: {b: {of: block.v, nominal: -1 m/s}}}": ["interface.outputs.b.nominal = -1 m/s is not above zero"],
+    "{outputs: {b: {of: block.v, unit: N}}}": ["interface.outputs.b.unit: N is no unit of a signal in m/s"],
+    "{outputs: {b: {of: block.v, start: 1 m/s}}}": ["start"],
     "{inputs: {a: command.value, b: command.value}}": ["interface.inputs.b: command.value is a already"],
     "{inputs: {a: nothing}, outputs: {b: block.w}}": ["interface.inputs.a", "interface.outputs.b", "block gives x, v"],
     "{input: {a: command.value}}": ["Did you mean inputs"],

@@ -20,6 +20,15 @@ class Outer(Strict):
     """Its unit outside, where the model has a plain number."""
     description: str = ""
     """What it is."""
+    nominal: float | str | None = None
+    """A usual size, above zero: a scale for tolerances and axes of the program outside."""
+
+
+class OuterInput(Outer):
+    """A signal that is set from outside."""
+
+    start: float | str | None = None
+    """Its value until it is set; that of the model when not given."""
 
 
 def _named(value: Any) -> Any:
@@ -27,7 +36,8 @@ def _named(value: Any) -> Any:
     return {"of": value} if isinstance(value, str) else value
 
 
-Signals = dict[OuterName, Annotated[Outer, BeforeValidator(_named)]]
+Inputs = dict[OuterName, Annotated[OuterInput, BeforeValidator(_named)]]
+Outputs = dict[OuterName, Annotated[Outer, BeforeValidator(_named)]]
 
 
 def _nothing_is_empty(value: object) -> object:
@@ -37,7 +47,7 @@ def _nothing_is_empty(value: object) -> object:
 class Interface(Strict):
     """Inputs and outputs by the names that they have outside."""
 
-    inputs: Annotated[Signals, BeforeValidator(_nothing_is_empty)] = {}
+    inputs: Annotated[Inputs, BeforeValidator(_nothing_is_empty)] = {}
     """What is set from outside, such as reference: command.value."""
-    outputs: Annotated[Signals, BeforeValidator(_nothing_is_empty)] = {}
+    outputs: Annotated[Outputs, BeforeValidator(_nothing_is_empty)] = {}
     """What is read outside, such as force: spring.tension."""

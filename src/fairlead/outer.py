@@ -1,0 +1,145 @@
+"""What a run that is stepped from outside can be set and asked: signals by their outer names, and mistakes in these.
+
+    find_inputs(netlist, system, more)     inputs of the `interface` block and those named in `Model.start`
+    find_outputs(netlist, signals)         columns of all names that can be read
+    interface_faults(netlist, system)      all mistakes in the block
+
+Numbers pass the border in SI. A unit says what a plain number of the model is; it cannot rescale.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from fairlead.analysis.record.suggestion import suggest
+from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.netlist.interface import Outer, OuterInput
+from fairlead.quantities import QuantityError, fits, parse_unit, si
+from fairlead.system.compiled.opened import FreeInput, free_inputs
+
+if TYPE_CHECKING:
+    from fairlead.netlist.netlist import Netlist
+    from fairlead.system.arrays.recording import OutputSignal
+    from fairlead.system.compiled.system import System
+
+
+class Variable(NamedTuple):
+    """An input or an output as a program outside sees it; numbers are in SI."""
+
+    name: str
+    causality: Literal["input", "output"]
+    of: str
+    """The signal inside."""
+    unit: str
+    """Its SI unit, `1` for a plain number."""
+    description: str
+    start: float | None
+    """Of an input the value until it is set; None for an output."""
+    nominal: float
+    """A usual size, above zero; 1 where the netlist gives none."""
+
+
+class Found(NamedTuple):
+    """An input that can be set."""
+
+    free: FreeInput
+    seen: Variable
+
+
+def interface_faults(netlist: Netlist, system: System) -> list[Fault]:
+    """Mistakes in the `interface` block: inputs that cannot be set, outputs that nothing gives, units, numbers."""
+    return find_inputs(netlist, system, ())[1] + find_outputs(netlist, system.signals)[2]
+
+
+def find_inputs(netlist: Netlist, system: System, more: Iterable[str]) -> tuple[dict[str, Found], list[Fault]]:
+    """Inputs by outer name; and what is wrong with others."""
+    free = {name: one for one in free_inputs(system) for name in one.names}
+    given = netlist.interface.inputs | {name: OuterInput(of=name) for name in more}
+    faults, found, taken = [], {}, dict[tuple[int, int, int], str]()
+    for name, outer in given.items():
+        what, place = f"interface.inputs.{name}", _place(netlist, "inputs", name)
+        one = free.get(outer.of)
+        if one is None:
+            faults.append(Fault(place, *_not_free(what, outer.of, list(free), system)))
+        elif one.place in taken:
+            faults.append(Fault(place, f"{what}: {outer.of} is {taken[one.place]} already.", "Give it one name."))
+        else:
+            taken[one.place] = name
+            seen, wrong = _variable(name, "input", outer, one.declared.unit, what, place)
+            faults += wrong
+            found[name] = Found(one, seen._replace(start=one.value) if seen.start is None else seen)
+    return found, faults
+
+
+def find_outputs(
+    netlist: Netlist, signals: Sequence[OutputSignal]
+) -> tuple[dict[str, int], tuple[Variable, ...], list[Fault]]:
+    """Columns by all names that can be read, outputs of the netlist, and what is wrong with these."""
+    units = {signal.name: signal.unit for signal in signals}
+    columns = {name: k for k, name in enumerate(units)}
+    found, seen, faults = dict(columns), list[Variable](), list[Fault]()
+    for name, outer in netlist.interface.outputs.items():
+        what, place = f"interface.outputs.{name}", _place(netlist, "outputs", name)
+        if outer.of not in columns:
+            near, way_out = suggest(outer.of, list(units))
+            faults.append(Fault(place, f"{what}: no signal has the name {shown(outer.of)}. {near}".rstrip(), way_out))
+            continue
+        found[name] = columns[outer.of]
+        variable, wrong = _variable(name, "output", outer, units[outer.of], what, place)
+        seen.append(variable)
+        faults += wrong
+    return found, tuple(seen), faults
+
+
+def _variable(
+    name: str, causality: Literal["input", "output"], outer: Outer, inside: str, what: str, place: Location | None
+) -> tuple[Variable, list[Fault]]:
+    """How a signal of the unit `inside` is seen, and what does not fit."""
+    unit, faults = _unit(outer.unit, inside, what, place)
+    numbers: dict[str, float] = {}
+    asked: Mapping[str, float | str | None] = {"start": getattr(outer, "start", None), "nominal": outer.nominal}
+    for key, value in asked.items():
+        if value is None:
+            continue
+        try:
+            numbers[key] = si(value, unit)
+        except QuantityError as error:
+            faults.append(Fault(place, f"{what}.{key}: {error.what}.", error.allowed))
+    if numbers.get("nominal", 1.0) <= 0:
+        given = outer.nominal if isinstance(outer.nominal, str) else f"{outer.nominal:g}"
+        faults.append(Fault(place, f"{what}.nominal = {given} is not above zero.", "Give a usual size of it."))
+    nominal = numbers.get("nominal", 1.0)
+    return Variable(name, causality, outer.of, unit, outer.description, numbers.get("start"), nominal), faults
+
+
+def _unit(given: str, inside: str, what: str, place: Location | None) -> tuple[str, list[Fault]]:
+    """The unit outside: that of the signal, or of a plain number what is given."""
+    if not given:
+        return inside, []
+    try:
+        unit, own = parse_unit(given), parse_unit(inside)
+    except QuantityError as error:
+        return inside, [Fault(place, f"{what}.unit: {error.what}.", error.allowed)]
+    if inside != "1" and not fits(unit.dimension, own.dimension):
+        return inside, [Fault(place, f"{what}.unit: {given} is no unit of a signal in {inside}.", f"Give {inside}.")]
+    if unit.factor != 1.0:
+        way_out = "Numbers are in SI outside too; a text such as '2 kN' brings its unit along."
+        return inside, [Fault(place, f"{what}.unit: {given} is {unit.factor:g} of the SI unit.", way_out)]
+    return given if inside == "1" else inside, []
+
+
+def _place(netlist: Netlist, side: str, name: str) -> Location | None:
+    """Where an entry of the `interface` block stands; of an argument of `Model.start`, that."""
+    block = netlist.written.get("interface", {}).get(side)
+    return block.entries[name].where if block is not None and name in block.entries else Location("Model.start")
+
+
+def _not_free(what: str, signal: str, free: Collection[str], system: System) -> tuple[str, str]:
+    """What is wrong with a signal that is no free input, and the way out."""
+    if any(str(ref) == signal for ref in system.flat.sources):
+        return f"{what}: {signal} is connected to a signal already.", "Take the connection away, or set what feeds it."
+    if not free:
+        return f"{what}: this model has no input that is free.", "Add a SignalInput, and connect its signal."
+    near = did_you_mean(signal, free)
+    return f"{what}: {shown(signal)} is no input that is free. {near}".rstrip(), f"Free inputs are {listing(free)}."
