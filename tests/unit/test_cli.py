@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 from fairlead.cli.summary import summary_rows
-from fairlead.errors import BudgetError, FairleadError, Fault, Location, ModelError, NumericalError
+from fairlead.errors import BudgetError, FairleadError, Fault, Location, ModelError, NumericalError, UsageError
 
 FINISHED = {
     "status": "finished",
@@ -352,6 +352,21 @@ def test_ctrl_c_while_a_verb_loads_ends_like_one_later(monkeypatch):
 
 def interrupt(*_: object, **__: object) -> None:
     raise KeyboardInterrupt
+
+
+def test_the_summary_does_not_wait_for_figures(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: Any, **__: Any) -> Any:
+        raise UsageError("no figure can be drawn")
+
+    monkeypatch.setattr("fairlead.report.figures.draw", fail)
+    model = StandIn()
+    model.netlist.record.plots = [{"signals": ["block.x"]}]
+    answer = command("run", "belt", model=model)
+    assert answer.exit_code == 2
+    assert "steps" in answer.stdout
+    assert "no figure can be drawn" in answer.stderr
+    in_one = json.loads(command("run", "belt", "--json", model=model).stdout)
+    assert in_one["error"] == "no figure can be drawn"
 
 
 def test_ctrl_c_while_figures_are_drawn_keeps_the_summary(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,6 +13,8 @@ from fairlead.cli.terminal import console, echo
 from fairlead.errors import RunWarning
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     from fairlead import Model, Result
 
 EXIT_CODES = {"finished": OK, "interrupted": INTERRUPTED, "budget": BUDGET}
@@ -58,18 +60,13 @@ def run(
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # told below the table
         result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile, check=False)
-    try:
-        _compare_with_statics(model, result)
-        written, cut_short = _write_extras(model, result, csv=csv, report=report), False
-    except KeyboardInterrupt:  # the run itself is whole, and its summary is wanted all the more
-        written, cut_short = [], True
-    if as_json:
+    cut_short = _interrupted(lambda: _compare_with_statics(model, result))
+    if not as_json:  # the run is whole, and its summary waits for no figure
+        _tell(result, quiet=quiet, profile=profile)
+    silent = as_json or quiet
+    cut_short = cut_short or _interrupted(lambda: _write_extras(model, result, csv=csv, report=report, silent=silent))
+    if as_json:  # at the end: a figure that cannot be drawn is told instead, and standard output holds one document
         echo(json.dumps({**result.run, "directory": str(result.path)}, indent=2, default=str))
-    else:
-        if not quiet:
-            _print_summary(result, written, profile=profile)
-        _say_what_went_wrong(result.run)
-        _say_what_is_kept(result, quiet)
     if cut_short:
         echo(f"interrupted while figures were drawn; the results in {result.folder} are whole", err=True)
         raise typer.Exit(INTERRUPTED)
@@ -95,31 +92,50 @@ def _compare_with_statics(model: "Model", result: "Result") -> None:
     run_file.amend(result.folder, result.run)
 
 
-def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> list[pathlib.Path]:
-    """What is made from the results: figures the netlist names, and CSV and a page when asked."""
-    written = []
+def _interrupted(work: "Callable[[], None]") -> bool:
+    """Do it; True when Ctrl-C ended it early."""
+    try:
+        work()
+    except KeyboardInterrupt:
+        return True
+    return False
+
+
+def _tell(result: "Result", *, quiet: bool, profile: bool) -> None:
+    """The closing table, and what there is to remark."""
+    if not quiet:
+        _print_summary(result, profile=profile)
+    _say_what_went_wrong(result.run)
+    _say_what_is_kept(result, quiet)
+
+
+def _write_extras(model: "Model", result: "Result", *, csv: bool, report: bool, silent: bool) -> None:
+    """Make files from the results and name them: figures the netlist names, and CSV and a page when asked."""
+    for file in _extras(model, result, csv=csv, report=report):
+        if not silent:
+            echo(f"wrote {file}")
+
+
+def _extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> "Iterator[pathlib.Path]":
     plots = model.netlist.record.plots
     if report:
         from fairlead.report import page
 
-        written.append(page.write(result))
+        yield page.write(result)
     if plots:
         from fairlead.report import figures
 
-        written += figures.draw(result, plots)
+        yield from figures.draw(result, plots)
     if csv:
-        written.append(result.folder / "series.csv")
-        result.to_csv(written[-1])
-    return written
+        result.to_csv(result.folder / "series.csv")
+        yield result.folder / "series.csv"
 
 
-def _print_summary(result: "Result", written: list[pathlib.Path], *, profile: bool) -> None:
-    """The closing table and the files made beside the results."""
+def _print_summary(result: "Result", *, profile: bool) -> None:
+    """The closing table, and the profile when asked."""
     from fairlead.cli.summary import summary_table
 
     console().print(summary_table(result.run, result.folder))
-    for file in written:
-        echo(f"wrote {file}")
     if profile:
         echo(result.run.get("profile", "no profile was kept"))
 
