@@ -24,6 +24,7 @@ html_theme = "furo"
 html_title = "fairlead"
 html_show_copyright = False
 html_show_sourcelink = False
+html_show_search_summary = False  # it fetches pages, which a browser refuses from disk
 templates_path: list[str] = []
 myst_heading_anchors = 3
 myst_enable_extensions = ["colon_fence"]

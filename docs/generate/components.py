@@ -16,7 +16,7 @@ from generate.runs import picture, wiring
 from generate.tables import fence, table
 from generate.zone_diagram import zone_diagram
 
-MOST_ZONES = 8  # in a diagram; of more, the list of transitions says it better
+MOST_ZONES = 9  # in a diagram; of more, the list of transitions says it better
 
 
 def pages(docs: Path, folder: Path) -> dict[str, str]:

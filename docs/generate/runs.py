@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import warnings
 from pathlib import Path
 
 import fairlead
@@ -18,7 +19,9 @@ def picture(netlist: Path, folder: Path, names: tuple[str, ...] = ()) -> Path:
     from fairlead.report.printed import printed
 
     mark.parent.mkdir(parents=True, exist_ok=True)
-    result = fairlead.load(netlist).run(out=None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", fairlead.RunWarning)  # some models are there to show what is remarked
+        result = fairlead.load(netlist).run(out=None)
     printed(result, "signals", target, names)
     mark.write_text(told, encoding="utf-8")
     return target

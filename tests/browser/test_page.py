@@ -144,3 +144,118 @@ def test_the_page_of_a_whole_route_stays_small_and_tells_how_soon_it_answers(bro
     memory = browser.execute_cdp_cmd("Runtime.getHeapUsage", {})
     print(f"heap: {memory['usedSize'] / 1e6:.0f} MB")
     assert memory["usedSize"] + memory.get("backingStorageSize", 0) < MOST_MEMORY
+
+
+def test_zones_and_maps_of_several_runs_are_chosen_by_the_name_of_the_run(browser, tmp_path):
+    runs = []
+    for mu in (0.35, 0.6):
+        model = fairlead.load("single_bend", set={"mu": mu})
+        shown_besides(model)
+        runs.append(model.run(out=tmp_path / str(mu), stop=3.0))
+    show(browser, page.write(runs, tmp_path / "both.html"))
+    assert settled(browser) is None
+    choose = (
+        "const list = document.getElementById(arguments[0]), done = arguments[2];"
+        "list.value = arguments[1]; list.dispatchEvent(new Event('change'));"
+        "setTimeout(() => done(list.options.length), 1500)"
+    )
+    for select, drawing in (("zone-run", "zone-chart"), ("map-run", "map-list")):
+        first = browser.find_element("id", drawing).screenshot_as_png
+        assert browser.execute_async_script(choose, select, "1") == 2
+        assert browser.find_element("id", drawing).screenshot_as_png != first
+        browser.execute_async_script(choose, select, "0")
+        assert browser.find_element("id", drawing).screenshot_as_png == first
+    assert complaints(browser) == []
+
+
+def test_a_page_with_one_run_offers_no_choice_of_runs(browser, bend):
+    show(browser, bend)
+    hidden = "return ['zone-run', 'map-run'].every(id => document.getElementById(id).closest('label').hidden)"
+    assert browser.execute_script(hidden)
+
+
+OWN = """
+from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
+
+
+class Snubber(Component):
+    \"\"\"A pad of one's own, engaged or not.\"\"\"
+
+    a, b = Translational("one"), Translational("other")
+    rate = Parameter("N/m", "Stiffness while engaged.", above=0)
+    push = Output("N", "Force.")
+    zones = Zones("aloof", "engaged")
+
+    @zone("aloof")
+    def aloof(p, a, b):
+        \"\"\"Nothing.\"\"\"
+        return Law(a=0.0, b=0.0, push=0.0)
+
+    @zone("engaged")
+    def engaged(p, a, b):
+        \"\"\"A spring.\"\"\"
+        force = p.rate * (b.x - a.x)
+        return Law(a=-force, b=+force, push=force, stored=force * (b.x - a.x) / 2)
+
+    @guard("aloof", to="engaged", unit="m")
+    def meets(p, a, b):
+        \"\"\"They meet.\"\"\"
+        return b.x - a.x
+
+    @guard("engaged", to="aloof", unit="m")
+    def parts(p, a, b):
+        \"\"\"They part.\"\"\"
+        return a.x - b.x
+"""
+SCENE = """
+schema: 1
+name: own
+components:
+  wall: {type: Ground}
+  spring: {type: Spring, stiffness: 100 N/m}
+  catch: {type: Snubber, rate: 500 N/m}
+  block: {type: Mass, mass: 1 kg, velocity: 1 m/s}
+connections: [[wall.flange, spring.a, catch.a], [spring.b, catch.b, block.flange]]
+run: {stop: 2 s}
+"""
+
+
+def test_a_class_of_ones_own_stands_in_picture_signals_and_zone_chart_without_more_work(browser, tmp_path):
+    (tmp_path / "own.py").write_text(OWN, encoding="utf-8")
+    (tmp_path / "own.yaml").write_text(SCENE, encoding="utf-8")
+    model = fairlead.load(tmp_path / "own.yaml", libraries=[str(tmp_path / "own.py")])
+    shown_besides(model)
+    show(browser, page.write(model.run(out=tmp_path / "run")))
+    assert settled(browser) is None
+    said = browser.execute_script("return document.body.innerText")
+    assert "Snubber" in browser.execute_script("return document.getElementById('scene').textContent")
+    legend = browser.execute_script("return document.getElementById('zone-legend').textContent")
+    assert "aloof" in legend
+    assert "engaged" in legend
+    names = browser.execute_script("return [...document.getElementById('names').options].map(o => o.value)")
+    assert "catch.push" in names
+    assert "catch" in browser.execute_script("return document.getElementById('zone-of').textContent")
+    assert "own" in said
+    assert complaints(browser) == []
+
+
+def test_printed_the_page_has_its_verdict_and_no_buttons_and_every_control_has_a_name(browser, bend):
+    show(browser, bend)
+    assert settled(browser) is None
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    shown = "return getComputedStyle(document.querySelector(arguments[0])).display"
+    try:
+        assert browser.execute_script(shown, "nav") == "none"
+        assert browser.execute_script(shown, ".player") == "none"
+        assert browser.execute_script(shown, "#verdict") != "none"
+        assert browser.execute_script("return getComputedStyle(document.body).color") == "rgb(0, 0, 0)"
+    finally:
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    tree = browser.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+    roles = ("button", "combobox", "slider", "checkbox", "textbox", "image", "link")
+    nameless = [one["role"]["value"] for one in tree
+                if not one.get("ignored") and one.get("role", {}).get("value") in roles
+                and not one.get("name", {}).get("value")]  # fmt: skip
+    assert nameless == []
+    headings = [one for one in tree if one.get("role", {}).get("value") == "heading" and not one.get("ignored")]
+    assert len(headings) >= 6

@@ -130,3 +130,12 @@ def test_the_figures_of_the_paper_are_made(tmp_path: Path) -> None:
     assert answer.exit_code == 0, answer.output
     names = sorted(file.name for file in tmp_path.iterdir())
     assert names == [f"figure{k}.{ending}" for k in (3, 5, 6) for ending in ("pdf", "png")]
+
+
+def test_friction_of_a_model_is_drawn_for_every_kind_of_contact(tmp_path: Path) -> None:
+    file = tmp_path / "friction.svg"
+    answer = CliRunner().invoke(app, ["plot", "single_bend", "friction", "--out", str(file)])
+    assert answer.exit_code == 0, answer.output
+    drawing = file.read_text(encoding="utf-8")
+    for kind in ("line.outer", "line.inner"):  # hose on the bend, core inside the hose
+        assert kind in drawing

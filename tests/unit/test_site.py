@@ -23,6 +23,7 @@ import fairlead
 from fairlead.cli import app
 from fairlead.component.registry import known_types
 from fairlead.describe.catalogue import innards
+from tests.browser.browser import complaints, missing, opened, requests
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -223,3 +224,23 @@ def test_the_site_keeps_what_the_cells_of_the_notebook_show(site: pathlib.Path) 
     assert "<iframe" in page
     assert "data-only" in page
     assert "<table>" in page
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(bool(missing()), reason=missing())
+def test_read_from_disk_the_site_searches_fits_narrow_windows_and_complains_of_nothing(site: pathlib.Path) -> None:
+    with opened() as browser:
+        for width in (400, 1440, 1920):
+            size = {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": width < 600}
+            browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+            for name in ("index", "generated/components/Contact", "generated/gallery", "tutorial/notebook", "api"):
+                browser.get_log("performance")
+                browser.get((site / f"{name}.html").as_uri())
+                assert browser.execute_script("return document.documentElement.scrollWidth") <= width, (name, width)
+                assert requests(browser) == [], name
+        browser.get((site / "search.html").as_uri() + "?q=ruck")
+        browser.execute_async_script("setTimeout(arguments[0], 1500)")
+        links = "return [...document.querySelectorAll('ul.search a')].map(one => one.textContent)"
+        found = browser.execute_script(links)
+        assert "RuckTrip" in found
+        assert complaints(browser) == []

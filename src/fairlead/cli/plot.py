@@ -108,7 +108,7 @@ def _result(source: str, settings: list[str], libraries: list[str]) -> tuple["Re
 def _of_model(
     source: str, what: What, settings: list[str], libraries: list[str], out: pathlib.Path | None
 ) -> pathlib.Path:
-    """Friction of the first kind of contact of a model, or what accuracy costs it."""
+    """Friction of every kind of contact of a model, or what accuracy costs it."""
     import fairlead
 
     fixed = parse_settings(settings)
@@ -118,13 +118,15 @@ def _of_model(
     if what is What.FRICTION:
         from fairlead.analysis.characteristic import characteristic
         from fairlead.cli.friction import contacts_of, pressed
-        from fairlead.report.friction_figure import draw
+        from fairlead.report.friction_figure import draw_all
 
         contacts, _ = contacts_of(source, settings, libraries, "")
-        names, values = next(iter(contacts.items()))
-        given = pressed(values)
-        found = characteristic(values, 1.0 if given is None else given)
-        return draw(found, file, f"{names}: {found.label}")
+        drawn = {}
+        for names, values in contacts.items():
+            given = pressed(values)
+            found = characteristic(values, 1.0 if given is None else given)
+            drawn[f"{names}: {found.label}"] = found
+        return draw_all(drawn, file)
     from fairlead.analysis.cost.cost import cost
     from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
     from fairlead.analysis.cost.ladder import Ladder

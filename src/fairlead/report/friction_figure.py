@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,29 +17,49 @@ if TYPE_CHECKING:
     from fairlead.analysis.characteristic import Characteristic
 
 
+MOST_KINDS = 8
+"""Of contacts in one figure; of more, the title of the last says how many are left out."""
+
+
 def draw(found: Characteristic, path: Path, title: str) -> Path:
-    """Write the figure of one contact to `path` (PNG). Returns it."""
+    """Write the figure of one contact to `path`, in the format of its ending. Returns it."""
+    return draw_all({title: found}, path)
+
+
+def draw_all(found: Mapping[str, Characteristic], path: Path) -> Path:
+    """Write a figure with a panel for each kind of contact, by title. Returns `path`."""
     import matplotlib
 
+    shown, left_out = list(found.items())[:MOST_KINDS], len(found) - MOST_KINDS
     with matplotlib.rc_context({**STYLE, "backend": "agg"}):
         from matplotlib.figure import Figure
 
-        figure = Figure(figsize=(8, 4), layout="constrained")
-        ax = figure.subplots()
-        _draw_branches(ax, found)
-        least = min((np.abs(v).min() for v, _ in found.branches.values()), default=1e-6)
-        # Creep and sliding are decades apart: linear near zero, logarithmic beyond, the same for both signs.
-        ax.set_xscale("symlog", linthresh=float(least) * 30)
-        ax.tick_params(axis="x", labelsize=7)
-        ax.set_xlabel("slip speed [m/s]")
-        ax.set_ylabel("friction [N]")
-        ax.axhline(0, color="0.7", linewidth=0.6)
-        for sign in (-1, 1):
-            ax.axhline(sign * found.breakaway, color="0.5", linewidth=0.8, linestyle=":")
-        ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=1.4)
-        figure.suptitle(title, x=0.01, horizontalalignment="left", parse_math=False)
+        figure = Figure(figsize=(8, 4 * len(shown)), layout="constrained")
+        for ax, (title, one) in zip(figure.subplots(len(shown), squeeze=False)[:, 0], shown, strict=True):
+            _panel(ax, one)
+            if len(shown) > 1:
+                ax.set_title(title, loc="left", parse_math=False)
+        more = f"; {left_out} more kinds are left out" if left_out > 0 else ""
+        if len(shown) == 1 or more:
+            title = shown[0][0] if len(shown) == 1 else f"The first {MOST_KINDS} kinds of contact{more}"
+            figure.suptitle(title, x=0.01, horizontalalignment="left", parse_math=False)
         figure.savefig(path, dpi=DOTS_PER_INCH)
     return path
+
+
+def _panel(ax: Axes, found: Characteristic) -> None:
+    """Friction over slip of one contact."""
+    _draw_branches(ax, found)
+    least = min((np.abs(v).min() for v, _ in found.branches.values()), default=1e-6)
+    # Creep and sliding are decades apart: linear near zero, logarithmic beyond, the same for both signs.
+    ax.set_xscale("symlog", linthresh=float(least) * 30)
+    ax.tick_params(axis="x", labelsize=7)
+    ax.set_xlabel("slip speed [m/s]")
+    ax.set_ylabel("friction [N]")
+    ax.axhline(0, color="0.7", linewidth=0.6)
+    for sign in (-1, 1):
+        ax.axhline(sign * found.breakaway, color="0.5", linewidth=0.8, linestyle=":")
+    ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=1.4)
 
 
 def _draw_branches(ax: Axes, found: Characteristic) -> None:

@@ -75,20 +75,38 @@ function signals(runs) {
   }
 }
 
-function zones(run) {
-  const chart = new ZoneChart(run), choices = chart.choices();
-  if (!choices.length) { $("zone-note").textContent = "Nothing in this scene has zones."; $("zone-of").parentElement.hidden = true; return; }
-  options($("zone-of"), choices.map(([text], k) => [k, text]), 0);
-  $("zone-of").onchange = () => chart.show(choices[$("zone-of").value][1]);
-  whenSeen($("zones"), () => chart.show(choices[$("zone-of").value][1]));
+/* A choice of one of several runs for a section; nothing to choose where there is one. */
+function ofRun(runs, id, make) {
+  const list = $(id);
+  list.parentElement.hidden = runs.length < 2;
+  options(list, runs.map((r, k) => [k, r.label]), 0);
+  list.onchange = () => make(runs[list.value], true);
+  make(runs[0], false);
+}
+function zones(runs) {
+  ofRun(runs, "zone-run", (run, now) => {
+    const chart = new ZoneChart(run), choices = chart.choices(), before = $("zone-of").selectedOptions[0]?.textContent;
+    $("zone-of").parentElement.hidden = !choices.length;
+    if (!choices.length) { $("zone-note").textContent = "Nothing in this scene has zones."; $("zone-chart").replaceChildren(); $("zone-legend").replaceChildren(); return; }
+    options($("zone-of"), choices.map(([text], k) => [k, text]), Math.max(0, choices.findIndex(([text]) => text === before)));
+    const draw = () => chart.show(choices[$("zone-of").value][1]);
+    $("zone-of").onchange = draw;
+    if (now) draw(); else whenSeen($("zones"), draw);
+  });
 }
 
-function maps(run) {
+function maps(runs) {
+  const with_maps = runs.filter(run => mapped(run).length);
+  $("maps").hidden = !with_maps.length;
+  if (!with_maps.length) return;
+  ofRun(with_maps, "map-run", (run, now) => {
+    const draw = async () => { const made = document.createElement("div"); $("map-list").replaceChildren(made); for (const name of mapped(run)) await map(run, run.lines[0], name, made); };
+    if (now) draw(); else whenSeen($("maps"), draw);
+  });
+}
+function mapped(run) {
   const line = run.lines[0];
-  if (!line) return;
-  const wanted = line.along.filter(n => /\.(tension|torque|d|slip|turned)$/.test(n) && run.family.get(n).elements.length > 3).slice(0, 5);
-  $("maps").hidden = !wanted.length;
-  whenSeen($("maps"), async () => { for (const name of wanted) await map(run, line, name, $("map-list")); });
+  return line ? line.along.filter(n => /\.(tension|torque|d|slip|turned)$/.test(n) && run.family.get(n).elements.length > 3).slice(0, 5) : [];
 }
 
 async function begin() {
@@ -103,7 +121,7 @@ async function begin() {
   clock.heard.push(t => page.draw(t));
   let later; new ResizeObserver(() => { clearTimeout(later); later = setTimeout(() => page.resized(), 80); }).observe($("stage"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
-  signals(readable); zones(readable[0]); maps(readable[0]);
+  signals(readable); zones(readable); maps(readable);
   addEventListener("beforeprint", () => { for (const d of document.querySelectorAll("#scene details")) d.open = true; });
   const ruck = readable[0].rucks[0]; clock.set(ruck ? ruck.t : clock.end * .4);
   document.body.dataset.ready = "yes";
