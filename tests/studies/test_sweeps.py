@@ -1,5 +1,6 @@
 """Sweeps: designs against what they are defined by, and the table through crashes and kills."""
 
+import contextlib
 import math
 import os
 import signal
@@ -145,7 +146,8 @@ def _kill_and_resume(tmp_path, kills, count) -> None:
     folder, rows = tmp_path / "killed", 0
     for _ in range(kills):
         command = [sys.executable, "-m", "tests.studies.sweep_to_kill", str(folder), str(count), "0.02"]
-        going = subprocess.Popen(command, cwd=ROOT)
+        quiet = subprocess.DEVNULL
+        going = subprocess.Popen(command, cwd=ROOT, stdout=quiet, stderr=quiet, start_new_session=True)
         for _ in range(2000):
             time.sleep(0.01)
             if (folder / tables.FILE).exists() and (now := tables.read(folder)[0].num_rows) > rows:
@@ -153,6 +155,8 @@ def _kill_and_resume(tmp_path, kills, count) -> None:
                 break
         going.send_signal(signal.SIGKILL)
         going.wait(timeout=60)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(going.pid, signal.SIGKILL)  # its workers, which would end when they find nobody to answer
         assert 0 < rows < count  # each time there is more, and never all
     table, standing = sweep(job(square), whole, folder, processes=2)
     assert standing.reused >= rows
