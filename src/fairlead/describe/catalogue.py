@@ -25,8 +25,8 @@ INNARDS = frozenset((
     "Drum", "FarNode", "Hose", "LaidOn", "LateralLoad", "LeverArm", "LineWeight", "LoadLoss", "LoopedCore",
     "LoopedHose", "Mesh", "Meter", "MotorFriction", "OilColumn", "PlanarContact", "PressedLoad", "Pressing",
     "Registration", "RelaxingHose", "RoundLoad", "RuckingHose", "SeaDrag", "SealForce", "StoredNode",
-    "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "Tow", "Turning", "TwistElement", "Untouched",
-    "WatchedHose", "WoundNode",
+    "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "ToothLoad", "Tow", "Turning", "TwistElement",
+    "Untouched", "WatchedHose", "WoundNode",
 ))  # fmt: skip
 """Bundled types that other types are made of, and that a netlist hardly names; limits of effects are so anyway."""
 
