@@ -18,6 +18,7 @@ from fairlead.errors import FairleadError, ModelError, UsageError
 from fairlead.studies.sweeps.breach import breach
 from fairlead.studies.sweeps.design import MOST_CASES, Design, Sample
 from fairlead.studies.sweeps.distributions import read_distribution
+from fairlead.studies.sweeps.plan import is_sweep_file, read_plan
 from fairlead.studies.sweeps.ranges import RangeError, read_range
 from fairlead.studies.sweeps.sweep import sweep
 from tests.studies.jobs import crash_at_three, job, square
@@ -161,6 +162,24 @@ def _kill_and_resume(tmp_path, kills, count) -> None:
     table, standing = sweep(job(square), whole, folder, processes=2)
     assert standing.reused >= rows
     assert plain(table.frame()).equals(plain(expected))
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("model: belt\ngird: {mu: [1, 2]}\n", "s.yaml:2:1: a sweep file has no key gird\n    Did you mean grid?"),
+        ("modle: belt\ngrid: {mu: [1, 2]}\n", "s.yaml:1:1: a sweep file has no key modle\n    Did you mean model?"),
+        ("model: belt\nsample: {kind: sobol, sampels: 4, over: {a: 'uniform(1, 2)'}}\n",
+         "s.yaml:2:23: sample has no key sampels\n    Did you mean samples?"),
+    ],
+)  # fmt: skip
+def test_a_misspelt_key_is_told_as_one_of_a_sweep_file(text, says, tmp_path) -> None:
+    file = tmp_path / "s.yaml"
+    file.write_text(text)
+    assert is_sweep_file(str(file))
+    with pytest.raises(ModelError) as caught:
+        read_plan(str(file))
+    assert says in str(caught.value)
 
 
 def test_a_case_that_stands_twice_is_computed_once(tmp_path) -> None:

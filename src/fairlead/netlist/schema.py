@@ -41,6 +41,7 @@ class ComponentBlock(BaseModel):
 class Part(Strict):
     """What an included file may hold."""
 
+    called = "an included file"
     version: Literal[1] = Field(alias="schema")
     """Version of the netlist format: 1."""
     name: SceneName = ""
@@ -60,6 +61,7 @@ class Part(Strict):
 class Document(Part):
     """A fairlead netlist."""
 
+    called = "a netlist"
     effects: Block = {}
     """Effects switched on or off for the whole scene."""
     friction: Block = {}

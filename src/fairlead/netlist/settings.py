@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
@@ -14,6 +14,8 @@ from fairlead.quantities import QuantityError, wanted, whole, written
 class Strict(BaseModel):
     """A frozen block in which an unknown key is an error; its docstrings are the hover texts of editors."""
 
+    called: ClassVar[str] = ""
+    """What messages call a file that holds it, as in "a netlist has no key x"; empty for what is no file."""
     model_config = ConfigDict(
         extra="forbid", frozen=True, strict=True, use_attribute_docstrings=True, hide_input_in_errors=True
     )

@@ -121,12 +121,10 @@ def _missing(path: Path, model: type[BaseModel], value: Value) -> Fault:
 def _unknown_key(path: Path, model: type[BaseModel], tree: Value) -> Fault:
     name = str(path[-1])
     known = _keys(_model_at(model, path[:-1]) or model)
-    owner = f"{_subject(path[:-1])} has" if path[:-1] else "a netlist has"
-    if path[:-1] == () and "run" not in known:
-        owner = "an included file has"
+    owner = _subject(path[:-1]) if path[:-1] else getattr(model, "called", "") or "a netlist"
     value = _at(tree, path)
     advice = f"{did_you_mean(name, known)} Known keys are {listing(known, 20)}.".strip()
-    return Fault(value.named_at, f"{owner} no key {shown(name)}", advice)
+    return Fault(value.named_at, f"{owner} has no key {shown(name)}", advice)
 
 
 def _choice(value: Value, subject: str, given: str, expected: str) -> Fault:

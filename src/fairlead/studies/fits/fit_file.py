@@ -93,6 +93,7 @@ class LawFile(Strict):
 class FitFile(Strict):
     """A file that says what to fit."""
 
+    called = "a fit file"
     model: str = ""
     """A netlist, by its path from this file or by the name of a bundled model."""
     library: list[str] = []

@@ -50,6 +50,7 @@ class Sampling(Strict):
 class SweepFile(Strict):
     """A file that says what to sweep."""
 
+    called = "a sweep file"
     model: str
     """A netlist, by its path from this file or by the name of a bundled model."""
     library: list[str] = []
@@ -87,11 +88,12 @@ class Plan:
 
 
 def is_sweep_file(path: str) -> bool:
-    """Whether a path is a YAML file with `model:` in it, which no netlist has."""
+    """Whether a path is a YAML file with a key that sweep files have and netlists have not; `model:` may be misspelt."""
     file = Path(path)
     if not file.is_file() or file.suffix not in (".yaml", ".yml"):
         return False
-    return re.search(r"^model\s*:", file.read_text(encoding="utf-8", errors="replace"), re.MULTILINE) is not None
+    text = file.read_text(encoding="utf-8", errors="replace")
+    return re.search(r"^(model|grid|cases|sample)\s*:", text, re.MULTILINE) is not None
 
 
 def read_plan(path: str) -> Plan:
