@@ -53,7 +53,8 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     """Read a netlist, by path or by the name of a bundled model. Raises ModelError with every mistake.
 
     `set` overrides scene parameters (`mu`) and settings (`pad.normal_force`, `run.stop`), with texts as after `--set`
-    or numbers in SI; `libraries` are Python files with component classes of the user, whose code is run.
+    or numbers in SI, and a value that does not fit is told at once; `libraries` are Python files with component
+    classes of the user, whose code is run.
     """
     from fairlead.netlist.load import read
 
@@ -68,6 +69,8 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     model = Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries))
     if model._faults or not all(map(os.path.exists, model.libraries)):
         model.check()
+    if set:
+        model.assembly  # noqa: B018 - a value that does not fit is told here, at the call that gives it
     return model
 
 

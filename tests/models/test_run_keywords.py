@@ -20,6 +20,21 @@ def test_keywords_are_those_of_a_netlist():
     assert list(typing.get_type_hints(RunKeywords)) == list(RunSettings.model_fields)
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("pad.normal_force", "2O N", "--set: pad.normal_force = 2O N is not a quantity."),
+        ("pad.normal_force", "20 m", "--set: pad.normal_force = 20 m is a length, not a force."),
+        ("block.mass", -1, "--set: block.mass = -1 is out of range.\n    Allowed: above 0 kg."),
+        ("pad.normal_forc", "20 N", "Did you mean normal_force?"),
+    ],
+)
+def test_a_value_that_does_not_fit_is_told_when_it_is_given(name, value, says):
+    with pytest.raises(ModelError) as caught:
+        fairlead.load("belt", set={name: value})
+    assert says in str(caught.value)
+
+
 @pytest.mark.parametrize("stop", ["100 ms", 0.1, np.float64(0.1)])
 def test_quantities_and_numbers_are_taken(model, stop):
     assert model.run(out=None, stop=stop).t[-1] == pytest.approx(0.1)
