@@ -5,8 +5,10 @@ import json
 import pytest
 from typer.testing import CliRunner
 
+import fairlead
 from fairlead.cli import app
 from fairlead.component.registry import bundled
+from fairlead.component.scene import is_head
 from fairlead.describe.catalogue import INNARDS, catalogue, innards, record, sentence, short
 
 
@@ -44,6 +46,24 @@ def test_every_type_has_a_sentence_and_a_short_page_with_all_that_a_netlist_give
     for word in ("ports", "parameters", "inputs", "outputs"):
         assert all(one["name"] in page for one in data[word])
     json.dumps(data)
+
+
+@pytest.mark.parametrize("name", sorted(bundled()))
+def test_the_zones_that_tables_of_switches_name_stand_on_the_short_page(name):
+    kind = bundled()[name]
+    page = "\n".join(short(name, kind)).partition("\nzones")[2]
+    for one in kind.members.values() if is_head(kind) else (kind,):
+        zones = one.declaration.zones or ()
+        assert len(zones) < 2 or all(zone in page for zone in zones)
+
+
+def test_who_looks_for_sticking_finds_the_word_that_a_run_uses():
+    switches = fairlead.load("belt").run(out=None, stop=1.0).switches()
+    zones = set(switches["zone_from"]) | set(switches["zone_to"])
+    told = json.loads(command("describe", "Contact", "--json"))["zones"]["hold"]
+    assert "held" in zones
+    assert zones <= set(told)
+    assert "held" in command("describe", "Contact")
 
 
 def test_a_page_is_short_unless_all_is_asked_for():

@@ -80,9 +80,29 @@ def short(name: str, kind: type[Declared]) -> Iterator[str]:
     for family in ([kind] if is_head(kind) else []) + families_of(kind):
         yield from heading(f"{family.key}: one of")
         yield from columns((word, sentence(member)) for word, member in family.members.items())
+    yield from _zones(kind)
     made = issubclass(kind, Composite)
     yield ""
-    yield f"--all adds {'what it hands on' if made else 'zones, transitions and equations'}, --json the same as data."
+    yield f"--all adds {'what it hands on' if made else 'transitions and equations'}, --json the same as data."
+
+
+def _zones(kind: type[Declared]) -> Iterator[str]:
+    """The names that tables, events and figures give to what it does; of a family, the names of each member."""
+    if is_head(kind):
+        title = f"zones, by {kind.key}"
+        rows = [(word, ", ".join(names)) for word, member in kind.members.items() if (names := zone_names(member))]
+    else:
+        title = "zones"
+        rows = [(name, first_line(kind.declaration.laws[name])) for name in zone_names(kind)]
+    if rows:
+        yield from heading(title)
+        yield from columns(rows)
+
+
+def zone_names(kind: type[Declared]) -> list[str]:
+    """The zones of a leaf; none where it has a single one, which nothing ever enters or leaves."""
+    has = kind.declaration
+    return list(has.zones or ()) if len(has.zones or ()) > 1 and has.laws else []
 
 
 def record(name: str, kind: type[Declared]) -> dict[str, Any]:
@@ -96,6 +116,7 @@ def record(name: str, kind: type[Declared]) -> dict[str, Any]:
         "parameters": [_parameter(n, p) for n, p in has.parameters.items()],
         "inputs": [{"name": n, "unit": i.unit, "doc": i.doc, "default": i.default} for n, i in has.inputs.items()],
         "outputs": [{"name": n, "unit": o.unit, "doc": o.doc} for n, o in has.outputs.items()],
+        "zones": {word: zone_names(one) for word, one in members.items()} if members else zone_names(kind),
         "families": {
             family.key: {word: {"doc": inspect.getdoc(member) or "",
                                 "parameters": [_parameter(n, p) for n, p in member.declaration.parameters.items()]}
