@@ -88,7 +88,7 @@ class Plan:
 
 
 def is_sweep_file(path: str) -> bool:
-    """Whether a path is a YAML file with a key that sweep files have and netlists have not; `model:` may be misspelt."""
+    """Whether a path is a YAML file with a key that sweep files have and netlists do not; `model:` may be misspelt."""
     file = Path(path)
     if not file.is_file() or file.suffix not in (".yaml", ".yml"):
         return False
