@@ -21,7 +21,7 @@ PRECISION = 1e-8
 """Relative change of parameters at which a search ends."""
 LITTLE = 0.01
 """Change of the sum of squares at which a search ends, in variances of the noise: 1 is one standard error."""
-MOST_TURNS = 60
+MOST_TURNS = 30
 
 
 @dataclass(frozen=True)
