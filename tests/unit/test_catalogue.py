@@ -9,6 +9,7 @@ import fairlead
 from fairlead.cli import app
 from fairlead.component.registry import bundled
 from fairlead.component.scene import is_head
+from fairlead.describe import words
 from fairlead.describe.catalogue import INNARDS, catalogue, innards, record, sentence, short
 
 
@@ -64,6 +65,22 @@ def test_who_looks_for_sticking_finds_the_word_that_a_run_uses():
     assert "held" in zones
     assert zones <= set(told)
     assert "held" in command("describe", "Contact")
+
+
+@pytest.mark.parametrize("family", ["method", "curve"])
+def test_every_treatment_and_curve_is_described_by_its_word(family):
+    contact = json.loads(command("describe", "Contact", "--json"))["families"][family]
+    assert contact
+    for word, told in contact.items():
+        page = "\n".join(words.page(word, bundled()))
+        assert f"{word}    {family}" in page
+        assert all(one["name"] in page for one in told["parameters"])
+
+
+def test_hold_is_the_treatment_and_a_bundled_model_stays_one():
+    assert "held, forward, backward, off" in command("describe", "hold")
+    assert "hold    method of Contact" in command("describe", "hold")
+    assert "free of" in command("describe", "capstan")
 
 
 def test_a_page_is_short_unless_all_is_asked_for():

@@ -24,7 +24,7 @@ def describe(
     subject: Annotated[
         str,
         typer.Argument(
-            help="A netlist, a bundled model, a component type such as Spring, or `types` for the list.",
+            help="A netlist, a bundled model, a type such as Spring, `types` for the list, or a word such as hold.",
             autocompletion=completion.subjects,
         ),
     ],
@@ -43,6 +43,8 @@ def describe(
         text = fairlead.describe_type(subject, libraries)
     elif is_type_name(subject):
         text = _at_a_glance(subject, libraries, as_json)
+    elif said := _word(subject, libraries):
+        text = said
     else:
         text = fairlead.load(subject, set=parse_settings(settings), libraries=libraries).describe(stage.value)
     echo(text)
@@ -63,6 +65,17 @@ def _at_a_glance(subject: str, libraries: list[str], as_json: bool) -> str:
         return json.dumps(rows, indent=2) if as_json else "\n".join(catalogue(types))
     kind = named(subject, types)
     return json.dumps(record(subject, kind), indent=2) if as_json else "\n".join(short(subject, kind))
+
+
+def _word(subject: str, libraries: list[str]) -> str:
+    """The page of a word such as `hold`, the name of a friction treatment; empty for a netlist, or a word unknown."""
+    from fairlead.component.registry import known_types
+    from fairlead.describe.words import page
+    from fairlead.netlist.files import bundled_models
+
+    if not subject.isidentifier() or subject in bundled_models() or pathlib.Path(subject).exists():
+        return ""
+    return "\n".join(page(subject, known_types(libraries))).rstrip()
 
 
 def is_type_name(subject: str) -> bool:
