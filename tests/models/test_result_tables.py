@@ -1,6 +1,7 @@
 """A result in the hands of Python: elements by time and place, unique times, workbooks, tables, figures."""
 
 import builtins
+import pathlib
 
 import numpy as np
 import pandas
@@ -31,6 +32,15 @@ def route():
 @pytest.fixture
 def belt(scene):
     return scene(STICK_SLIP).run(out=None)
+
+
+def test_every_column_is_explained_in_the_documentation(belt):
+    page = (pathlib.Path(__file__).parents[2] / "docs" / "python.md").read_text(encoding="utf-8")
+    told = page.partition("The columns of these tables")[2].partition("```")[0]
+    rows = {name: row for row in told.splitlines() if (name := row.partition("`")[2].partition("`")[0])}
+    for name, table in (("margins()", belt.margins()), ("switches()", belt.switches()), ("limits", belt.limits),
+                        ("energy", belt.energy)):  # fmt: skip
+        assert [column for column in table.columns if f"`{column}`" not in rows[name]] == []
 
 
 # Elements
