@@ -317,6 +317,10 @@ def test_a_tree_of_includes_has_a_bound(tmp_path):
         ("mu", "9" * 5000, "at most 1000 characters"),
         ("parameters.nu", "1", "there is no"),
         ("connections.0", "1", "there is no component or block connections"),
+        ("pad.curve", "{curve: coulomb, mu: 1}", "is a map; one value is set at a time\n    Set its entries one by one, each by"
+         " its path: pad.curve.curve."),
+        ("pad.curve", '{ "curve":coulomb', "is a map; one value is set at a time"),
+        ("record.signals", "[a, b]", "is a list; one value is set at a time\n    Write it in the netlist"),
         ("spring.stiffness", "{nu}", "--set: spring.stiffness: {nu}: there is no parameter nu"),
     ],
 )

@@ -7,6 +7,7 @@ into lists by number or by the `name` of an item.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -22,6 +23,8 @@ DOTTED = ("initial", "nominal", "limits")
 """Blocks whose names are those of signals, with dots and brackets in them."""
 SIDES = ("above", "below")
 LONGEST = 1000
+WHOLE = re.compile(r"\s*(\{\s*['\"]?(?P<key>\w+)['\"]?\s*:|\[)")
+"""The beginning of a map or a list; an expression in braces has no colon."""
 PLACE = Location("--set")
 
 
@@ -43,6 +46,8 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
         return Fault(PLACE, f"{shown(name)}: names and values have at most {LONGEST} characters")
     if UNPRINTABLE.search(name + text):
         return Fault(PLACE, f"{shown(name)} = {shown(text)} is not a text in UTF-8", "Type it again in plain letters.")
+    if whole := WHOLE.match(text):
+        return _several(name, text, whole["key"])
     try:
         new = Value(resolve(text.strip()), place, place)
     except ValueError as error:
@@ -64,6 +69,14 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
     elif path[0] not in (*BLOCKS, "parameters") or (path[0] == "parameters" and path[1] not in parameters):
         return _unknown(name, parameters, components)
     return _placed(tree, path, new, name)
+
+
+def _several(name: str, text: str, key: str | None) -> Fault:
+    """A map or a list is given where one value is asked for."""
+    what = f"{shown(name)} = {shown(text)} is {'a map' if key else 'a list'}; one value is set at a time"
+    if key:
+        return Fault(PLACE, what, f"Set its entries one by one, each by its path: {shown(f'{name}.{key}')}.")
+    return Fault(PLACE, what, f"Write it in the netlist; an item that is there is set by {shown(f'{name}[0]')}.")
 
 
 def _dotted(name: str) -> list[str]:
