@@ -45,13 +45,16 @@ def test_the_hose_of_a_run_is_told_beside_its_estimate(bundled):
 
 
 def test_margins_of_the_whole_route_are_those_of_its_signals(bundled):
+    """Recorded rows lie inside the extremes of the steps, and within what a tension does between two rows."""
     result = bundled("guidance_route_ideal")
     (line,) = margins(result)
-    hose = result.columns(result.match("line.hose[*].tension"))
+    names = result.match("line.hose[*].tension")
+    hose = result.columns(names)
     core = result.columns(result.match("line.core[*].tension"))
-    assert line.whole.hose.value == hose.min()
-    assert line.whole.peak.value == (hose + core).max()
-    assert line.ruck_margin(line.whole) == pytest.approx(160 / -hose.min())
+    assert line.whole.hose.value == min(result.extremes(name).lowest for name in names)
+    assert hose.min() * (1 + 1e-3) < line.whole.hose.value <= hose.min()
+    assert (hose + core).max() <= line.whole.peak.value < (hose + core).max() * (1 + 1e-3)
+    assert line.ruck_margin(line.whole) == pytest.approx(160 / -line.whole.hose.value)
     assert [one.name for one in line.stations][:3] == ["winch", "tensiometer", "bend_a"]
     assert line.missing == ()
 
