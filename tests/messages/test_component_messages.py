@@ -131,6 +131,9 @@ SEEDED = [
     ("[block.x, pad.*]", "[block.x], plots: [{signals: [block.x], kind: map, along: block.z}]", "scene.yaml:22:77: record: no signal has the name block.z."),
     ("spring.tension:", "spring.tenson:", "scene.yaml:23:10: limits.spring.tenson: no signal has this name. Did you mean spring.tension?"),
     ("below: 50 N", "below: 50 m", "scene.yaml:23:34: limits.spring.tension.below = 50 m is a length, not a force."),
+    ("{below: 50 N}", "50 N", "scene.yaml:23:26: limits.spring.tension = 50 N has no bound: a limit is above or below"),
+    ("{below: 50 N}", "{}", "scene.yaml:23:26: limits.spring.tension = an empty map has no bound"),
+    ("{spring.tension: {", "{spring.*: {", "scene.yaml:23:10: limits.spring.* means signals of several units"),
     ("below:", "belw:", "scene.yaml:23:27: limits.spring.tension.belw: a limit is above or below. Did you mean below?"),
     # where it begins
     ("friction:", "initial: {blok.x: 1 m}\nfriction:", "scene.yaml:20:11: initial.blok.x: no unknown has this name. Did you mean block.x?"),

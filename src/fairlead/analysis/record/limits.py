@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.record.extremes import Extremes
 from fairlead.analysis.record.suggestion import suggest
-from fairlead.errors import Fault, ModelError, did_you_mean, listing
+from fairlead.errors import Fault, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.patterns import picked
@@ -86,26 +87,57 @@ def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) ->
     for pattern, value in given.items():
         if len(faults) > MOST_FAULTS:
             break
-        columns = [column[name] for name in picked(column, pattern)]
-        if not columns:
-            near, way_out = suggest(pattern, [signal.name for signal in recorded])
-            faults.append(Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip(), way_out))
+        bounded = [recorded[column[name]] for name in picked(column, pattern)]
+        if fault := _unfit(pattern, value, bounded, recorded):
+            faults.append(fault)
             continue
+        columns = np.array([column[one.name] for one in bounded])
         for word, bound in value.entries.items():
-            unit = recorded[columns[0]].unit
-            if word not in SENSES:
-                what = f"limits.{pattern}.{word}: a limit is above or below. {did_you_mean(word, SENSES)}"
-                faults.append(Fault(bound.named_at, what.rstrip(), f"Write {listing(SENSES)}."))
+            number = _bound(pattern, word, bound, bounded[0].unit)
+            if isinstance(number, Fault):
+                faults.append(number)
                 continue
-            try:
-                number = si(bound.plain(), unit)
-            except QuantityError as error:
-                faults.append(Fault(bound.where, f"limits.{pattern}.{word} = {error.what}.", error.allowed))
-                continue
-            names = [recorded[k].name for k in columns]
-            text = f"{word} {bound.plain()}"
-            limit = Limit(text, np.array(columns), names, SENSES[word], number, unit, pattern=pattern)
-            found.limits.append(limit)
+            text, names = f"{word} {bound.plain()}", [one.name for one in bounded]
+            found.limits.append(Limit(text, columns, names, SENSES[word], number, bounded[0].unit, pattern=pattern))
     if faults:
         raise ModelError(faults)
     return found
+
+
+def _unfit(
+    pattern: str, value: Value, bounded: Sequence[OutputSignal], recorded: Sequence[OutputSignal]
+) -> Fault | None:
+    """Why an entry limits nothing: no such signal, signals of several units, or no bound."""
+    if not bounded:
+        near, way_out = suggest(pattern, [signal.name for signal in recorded])
+        return Fault(value.named_at, f"limits.{pattern}: no signal has this name. {near}".rstrip(), way_out)
+    by_unit = {one.unit: one.name for one in reversed(bounded)}
+    if len(by_unit) > 1:
+        signals = listing([f"{name} [{unit}]" for unit, name in by_unit.items()])
+        return Fault(value.named_at, f"limits.{pattern} means signals of several units: {signals}",
+                     "Write an entry for each unit.")  # fmt: skip
+    if not value.entries:
+        given = "" if value.content is None else f" = {shown(value.plain())}"
+        way_out = f"Write it as {{below: {_sample(value, bounded[0].unit)}}}, with above, below or both."
+        return Fault(value.where, f"limits.{pattern}{given} has no bound: a limit is above or below", way_out)
+    return None
+
+
+def _sample(value: Value, unit: str) -> str:
+    """What was given, where it is a value of the signal; else a value that would be."""
+    given = value.content
+    if isinstance(given, str | int | float) and not isinstance(given, bool):
+        with contextlib.suppress(QuantityError):
+            si(given, unit)
+            return str(given)
+    return f"1 {unit}"
+
+
+def _bound(pattern: str, word: str, bound: Value, unit: str) -> float | Fault:
+    if word not in SENSES:
+        what = f"limits.{pattern}.{word}: a limit is above or below. {did_you_mean(word, SENSES)}"
+        return Fault(bound.named_at, what.rstrip(), f"Write {listing(SENSES)}.")
+    try:
+        return si(bound.plain(), unit)
+    except QuantityError as error:
+        return Fault(bound.where, f"limits.{pattern}.{word} = {error.what}.", error.allowed)
