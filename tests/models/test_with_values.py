@@ -129,11 +129,13 @@ def mistakes(call):
 
 def compare(model, path, value):
     """Another value by both ways, compared; None if it was refused, by both alike, else why it was rebuilt."""
-    fresh = fairlead.load(model.netlist.path, set={path: str(value)})
-    refused = mistakes(lambda: fresh.system)
+    made_fresh = []
+    refused = mistakes(lambda: made_fresh.append(fairlead.load(model.netlist.path, set={path: str(value)})))
+    refused = refused or mistakes(lambda: made_fresh[0].system)
     if refused:
         assert mistakes(lambda: model.with_values(**{path: value})) == refused
         return None
+    (fresh,) = made_fresh
     want = fresh.system
     made = model.with_values(**{path: value})
     assert made.netlist == fresh.netlist
