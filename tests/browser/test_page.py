@@ -112,6 +112,27 @@ def test_the_keyboard_plays_and_steps(browser, bend):
     assert browser.execute_script("return fairlead.clock.playing")
 
 
+@pytest.fixture(scope="module")
+def two_bends(tmp_path_factory) -> Path:
+    runs = []
+    for mu in ("0.35", "0.6"):
+        model = fairlead.load("single_bend", set={"mu": mu})
+        shown_besides(model)
+        runs.append(model.run(out=tmp_path_factory.mktemp("bends") / mu, stop=3.0))
+    return page.write(runs)
+
+
+@pytest.mark.parametrize("section", ["energy", "slow", "zones"])
+def test_a_link_lands_on_its_section_the_first_time(browser, two_bends, section):
+    """Plots come into sight while the page scrolls smoothly, and push down what stands below them."""
+    show(browser, two_bends)
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+    browser.find_element("css selector", f"nav a[href='#{section}']").click()
+    browser.execute_async_script("setTimeout(arguments[0], 3000)")
+    top = f"return document.getElementById('{section}').getBoundingClientRect().top"
+    assert abs(browser.execute_script(top)) < 40
+
+
 def test_names_that_are_markup_are_shown_as_text(browser, tmp_path):
     from tests.unit.test_report_page import SIGNALS, Result, RunDirectory
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import fairlead
 from fairlead.cli import app
 from fairlead.report import page
 from fairlead.report.page import packing
@@ -142,6 +143,21 @@ def test_a_row_of_zones_begins_where_the_run_began(result: Result) -> None:
     assert [words[k] for k in outer["start"]] == ["held", "forward"]
     assert outer["counts"] == [1, 0]
     assert [one["means"] for one in data["words"]][:2] == ["stuck", "forward"]
+
+
+def test_runs_of_one_scene_bear_the_values_in_which_they_differ(tmp_path: Path) -> None:
+    """Also the run that left a parameter as the netlist has it."""
+    belt = {"pad.normal_force": "12 N"}
+    runs = [fairlead.load("single_bend", set=given).run(out=tmp_path / str(k), stop=0.01)
+            for k, given in enumerate(({"mu": "0.6"}, {}))]  # fmt: skip
+    text = page.write(runs, tmp_path / "both.html").read_text(encoding="utf-8").replace(library(), "")
+    assert "<h3>single_bend (mu = 0.6)</h3>" in text
+    assert "<h3>single_bend (mu = 0.35)</h3>" in text
+    runs = [fairlead.load("belt", set=given).run(out=tmp_path / f"belt{k}", stop=0.01)
+            for k, given in enumerate((belt, {}))]  # fmt: skip
+    text = page.write(runs, tmp_path / "belts.html").read_text(encoding="utf-8").replace(library(), "")
+    assert "<h3>belt (pad.normal_force = 12 N)</h3>" in text
+    assert "<h3>belt (as written)</h3>" in text
 
 
 def test_several_runs_share_a_page_and_are_told_apart(result: Result, tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -83,12 +83,20 @@ def _labels(runs: Sequence[Result]) -> list[str]:
     names = [str(one.run.get("name") or one.folder.name) for one in runs]
     if len(set(names)) == len(names):
         return names
-    given = [", ".join(f"{key} = {value}" for key, value in ((one.run.get("scene") or {}).get("set") or {}).items())
-             for one in runs]  # fmt: skip
+    scenes = [one.run.get("scene") or {} for one in runs]
+    keys = list(dict.fromkeys(key for scene in scenes for key in scene.get("set") or {}))
+    given = [", ".join(f"{key} = {value}" for key in keys if (value := _value(scene, key)) is not None)
+             for scene in scenes]  # fmt: skip
     found = [f"{name} ({more or 'as written'})" for name, more in zip(names, given, strict=True)]
     if len(set(found)) < len(found):
         found = [f"{name} in {one.folder}" for name, one in zip(names, runs, strict=True)]
     return found
+
+
+def _value(scene: Mapping[str, Any], key: str) -> Any:
+    """What was given for a name from outside, else what the netlist has for a parameter of its own."""
+    own = (scene.get("parameters") or {}).get(key)
+    return (scene.get("set") or {}).get(key, own)
 
 
 def _run(result: Result, label: str) -> dict[str, Any]:

@@ -12,7 +12,17 @@ function whenSeen(element, make) {
   let made;
   const once = () => { watch.disconnect(); return made ??= make(); };
   const watch = new IntersectionObserver(found => { if (found.some(one => one.isIntersecting)) once(); }, {rootMargin: "500px"});
-  watch.observe(element); page.waiting.push(once);
+  watch.observe(element); once.element = element; page.waiting.push(once);
+}
+/* A link to a section makes what stands above it first, because plots that come into sight push the section down. */
+function links() {
+  document.querySelector("nav").addEventListener("click", async e => {
+    const link = e.target.closest("a"), to = link && document.querySelector(link.hash);
+    if (!to) return;
+    e.preventDefault(); history.replaceState(null, "", link.hash);
+    await Promise.all(page.waiting.filter(make => to.compareDocumentPosition(make.element) & Node.DOCUMENT_POSITION_PRECEDING).map(make => make()));
+    to.scrollIntoView(); to.focus({preventScroll: true});
+  });
 }
 
 function player() {
@@ -121,7 +131,7 @@ async function begin() {
   clock.heard.push(t => page.draw(t));
   let later; new ResizeObserver(() => { clearTimeout(later); later = setTimeout(() => page.resized(), 80); }).observe($("stage"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
-  signals(readable); zones(readable); maps(readable);
+  signals(readable); zones(readable); maps(readable); links();
   addEventListener("beforeprint", () => { for (const d of document.querySelectorAll("#scene details")) d.open = true; });
   const ruck = readable[0].rucks[0]; clock.set(ruck ? ruck.t : clock.end * .4);
   document.body.dataset.ready = "yes";
