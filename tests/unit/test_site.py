@@ -74,7 +74,7 @@ def test_every_page_has_its_place_on_the_home_page() -> None:
 
 def test_every_component_occurs_in_a_netlist_that_runs() -> None:
     hidden = innards(known_types())
-    models = [*EXAMPLES, *(ROOT / "models").rglob("*.yaml")]
+    models = [*EXAMPLES, *(ROOT / "models").glob("*.yaml")]  # those the generator takes
     text = "\n".join(file.read_text(encoding="utf-8") for file in models)
     shown = [n for n, kind in known_types().items() if n not in hidden and kind.__module__.startswith("fairlead.")]
     assert [name for name in shown if not re.search(rf"\btype: {name}\b", text)] == []
