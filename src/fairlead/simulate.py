@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 STAGES = ("netlist", "component", "flatten", "system")
 DRAWINGS = ("mermaid", "dot", "svg")
 LONGEST_NAME = 60
+OF_SIGNALS = ("initial.", "nominal.", "limits.", "record.")
+"""Blocks whose entries are named after signals."""
 Progress = Callable[[float, float, Any], None]
 S = TypeVar("S")
 
@@ -69,9 +71,18 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     model = Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries))
     if model._faults or not all(map(os.path.exists, model.libraries)):
         model.check()
-    if set:
+    if set and _fits_are_known_late(model.netlist, set):
+        model.check()
+    elif set:
         model.assembly  # noqa: B018 - a value that does not fit is told here, at the call that gives it
     return model
+
+
+def _fits_are_known_late(netlist: Netlist, given: Iterable[str]) -> bool:
+    """Whether a value from outside may stand at a signal, whose unit only the compiled model knows."""
+    blocks = (netlist.initial, netlist.nominal, netlist.limits)
+    expressions = any(value.is_worked_out for block in blocks for value in block.values())
+    return expressions or any(name.startswith(OF_SIGNALS) for name in given)
 
 
 class Model:

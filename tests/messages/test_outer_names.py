@@ -4,6 +4,7 @@ import pytest
 
 import fairlead
 from fairlead.errors import ModelError
+from tests.mistakes.bases import PULLER
 
 SERVO = """
 components:
@@ -51,9 +52,10 @@ def test_initial_and_limits_are_set_by_name(scene):
 
 
 def test_a_misspelt_name_in_such_a_block_is_told_whole(scene):
-    said = told(scene(SPRING, **{"initial.blok.x": "1"}))
-    assert "initial.blok.x: no unknown has this name. Did you mean block.x?" in said
-    assert "limits.spring.tention: no signal" in told(scene(SPRING, **{"limits.spring.tention.below": "1 N"}))
+    with pytest.raises(ModelError, match=r"initial\.blok\.x: no unknown has this name\. Did you mean block\.x\?"):
+        scene(SPRING, **{"initial.blok.x": "1"})
+    with pytest.raises(ModelError, match=r"limits\.spring\.tention: no signal"):
+        scene(SPRING, **{"limits.spring.tention.below": "1 N"})
 
 
 @pytest.mark.parametrize(
@@ -94,3 +96,18 @@ def test_what_is_varied_and_compared_is_looked_at_before_anything_runs(tmp_path)
     with pytest.raises(ModelError, match=r"--signals: no recorded signal has the name blok\.x\. Did you mean block\.x"):
         compare(load, {"pad.method": ["hold", "tanh"]}, out=tmp_path / "two", signals="blok.x")
     assert not (tmp_path / "two").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [({"initial.block.x": "3 N"}, "initial.block.x = 3 N is a force"), ({"start": "3 N"}, "initial.block.x = 3 N is a"),
+     ({"limits.spring.tension.below": "3 m"}, "limits.spring.tension.below = 3 m is a length"),
+     ({"nominal.block.x": "3 N"}, "nominal.block.x = 3 N is a force"),
+     ({"record.signals[0]": "blok.x"}, "no signal has the name blok.x")],
+)  # fmt: skip
+def test_a_value_at_a_signal_is_told_by_load_as_by_check(given, told, tmp_path):
+    text = PULLER.replace("initial: {block.x: 0 mm}", 'initial: {block.x: "{start}"}')
+    (tmp_path / "puller.yaml").write_text(text.replace("{mu: 0.3", "{start: 0 mm, mu: 0.3"), encoding="utf-8")
+    assert fairlead.load(tmp_path / "puller.yaml", set={"start": "2 mm"}).netlist.name == "puller"
+    with pytest.raises(ModelError, match=told):
+        fairlead.load(tmp_path / "puller.yaml", set=given)

@@ -180,4 +180,27 @@ TIME_AND_TABLES = (
           "comma")),
 )  # fmt: skip
 
-MISTAKES = SLIPS_OF_THE_PEN + YAML + UNITS + VALUES + WIRING + TIME_AND_TABLES
+LATER = (
+    scene("a setting of the run is misspelt", "puller", ("accuracy: 1e-4", "acuracy: 1e-4"), part="acuracy",
+          cure="accuracy"),
+    scene("a limit does not say on which side", "puller", ("{below: 20 N}", "20 N"), part=("spring.tension", "20 N"),
+          cure=("below", "above")),
+    scene("a limit allows nothing", "puller", ("{below: 20 N}", "{below: 20 N, above: 30 N}"),
+          part=("spring.tension", "20 N", "30 N"), cure=("swap", "higher", "lower", "between", "less than", "raise")),
+    scene("two stations have one name", "haul", ("{type: Straight, length", "{name: wheel, type: Straight, length"),
+          part="wheel", at=("name: wheel, type: Straight", "name: wheel, type: Pulley"),
+          cure=("another name", "rename", "one name", "each", "own name", "twice")),
+    scene("a ramp does not say where it ends", "puller", ('{ramp: {to: "{speed}", over', "{ramp: {over"),
+          part=("hand", "ramp", "to"), cure=("to: 0.1 m/s", "give", "needs", "missing", "add")),
+    scene("a stiffness is negative", "puller", ("400 N/m", "-400 N/m"), part=("spring", "stiffness", "-400 N/m"),
+          cure=("above 0", "> 0", "positive", "greater than 0", "more than 0")),
+    scene("the treatment of the whole scene is misspelt", "drill", ("{method: hold}", "{method: held}"),
+          part=("method", "held"), cure="hold"),
+    scene("an angle is in metres", "haul", ("angle: 90 deg", "angle: 90 m"), part=("angle", "90 m"), cure="deg"),
+    scene("a comma is missing in a connection", "puller", ("block.flange, spring.a", "block.flange spring.a"),
+          part="block.flange spring.a", cure=("comma", "block.flange, spring.a")),
+    scene("a unit lacks its sign of multiplication", "drill", ("2 kg*m^2", "2 kgm^2"), part=("flywheel", "moment",
+          "kgm^2"), cure="kg*m^2"),
+)  # fmt: skip
+
+MISTAKES = SLIPS_OF_THE_PEN + YAML + UNITS + VALUES + WIRING + TIME_AND_TABLES + LATER

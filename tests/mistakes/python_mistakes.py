@@ -168,4 +168,37 @@ CLASSES = (
     call("a force has the wrong sign", lambda desk: contract(Backward), "Backward", "energy", ("sign", "signs")),
 )  # fmt: skip
 
-MISTAKES = LOADING + RUNNING + NEW_VALUES + READING + CLASSES
+class Lopsided(Component):
+    """A spring whose law forgets its second end."""
+
+    a, b = Translational(), Translational()
+    stiffness = Parameter("N/m", "Tension per stretch.", above=0)
+
+    def law(p, a, b):
+        return p.stiffness * (a.x - b.x)
+
+
+LATER = (
+    call("a start value in newtons", lambda desk: fairlead.load("puller.yaml", set={"initial.block.x": "3 N"}),
+         ("set", "--set", "initial.block.x"), ("block.x", "3 N"), ("m", "mm", "35 mm")),
+    call("a signal of no line is asked for by element", lambda desk: desk.result.elements("block.x"), ("elements",
+         "block.x"), "block.x", ("[*]", "families", "families()")),
+    call("text goes into a folder that is not there", lambda desk: desk.result.to_csv("nowhere/block.csv"),
+         "nowhere/block.csv", "nowhere", ("folder", "directory")),
+    call("a figure ends before it begins", lambda desk: desk.result.plot("block.x", between=(0.2, 0.1)), "between",
+         "0.2", ("before", "after", "first", "swap", "later", "earlier")),
+    call("a figure of a format that there is not", lambda desk: desk.result.plot("block.x", file="block.xyz"),
+         "block.xyz", "xyz", ("png", "svg", "pdf")),
+    call("a scene without a line is asked for its statics", lambda desk: desk.puller.statics(), ("statics", "puller"),
+         "line", ("route", "docs/routes.md")),
+    call("a run is stepped back", lambda desk: desk.puller.start().advance(-1.0), "advance", "-1", ("0", "after",
+         "later", "above 0", "positive")),
+    call("switches of a part that there is not", lambda desk: desk.result.switches("pda"), ("switches", "pda"), "pda",
+         "pad"),
+    call("a coefficient of friction in newtons", values(mu="0.3 N"), ("mu", "pad"), ("pad", "0.3 N"), ("number",
+         "without a unit", "plain")),
+    call("a law forgets one of its ports", lambda desk: contract(Lopsided), ("law", "Lopsided"), ("1", "2", "a", "b"),
+         ("ports", "(a, b)", "Law(a=..., b=...)")),
+)  # fmt: skip
+
+MISTAKES = LOADING + RUNNING + NEW_VALUES + READING + CLASSES + LATER

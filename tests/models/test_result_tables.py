@@ -214,7 +214,7 @@ def test_switches_count_the_events_of_each_component(belt):
     same = [e.t for e in belt.events if tuple(e)[1:4] == (row["component"], row["zone_from"], row["zone_to"])]
     assert (row["count"], row["first"], row["last"]) == (len(same), min(same), max(same))
     assert len(belt.switches("pad")) == len(table)
-    with pytest.raises(UsageError, match=r"No component of the name pda has changed zone\. Did you mean pad\?"):
+    with pytest.raises(UsageError, match=r"No component of the name pda changes zone\. Did you mean pad\?"):
         belt.switches("pda")
 
 

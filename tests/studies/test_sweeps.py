@@ -168,6 +168,7 @@ def _kill_and_resume(tmp_path, kills, count) -> None:
     ("text", "says"),
     [
         ("model: belt\ngird: {mu: [1, 2]}\n", "s.yaml:2:1: a sweep file has no key gird\n    Did you mean grid?"),
+        ("model: belt\nvary: {mu: [1, 2]}\n", "s.yaml:2:1: a sweep file has no key vary\n    It is called grid here."),
         ("modle: belt\ngrid: {mu: [1, 2]}\n", "s.yaml:1:1: a sweep file has no key modle\n    Did you mean model?"),
         ("model: belt\nsample: {kind: sobol, sampels: 4, over: {a: 'uniform(1, 2)'}}\n",
          "s.yaml:2:23: sample has no key sampels\n    Did you mean samples?"),

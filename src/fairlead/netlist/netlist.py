@@ -32,6 +32,12 @@ class Value:
         """The entries of a map; empty when this is not a map."""
         return self.content if isinstance(self.content, dict) else {}
 
+    @property
+    def is_worked_out(self) -> bool:
+        """Whether it comes from an expression, or anything in it does."""
+        inner = self.content if isinstance(self.content, list) else self.entries.values()
+        return bool(self.written) or any(value.is_worked_out for value in inner)
+
     def plain(self) -> Any:
         """The value as Python's own text, number, bool, None, dict or list, without places."""
         if isinstance(self.content, dict):

@@ -16,6 +16,8 @@ class Strict(BaseModel):
 
     called: ClassVar[str] = ""
     """What messages call a file that holds it, as in "a netlist has no key x"; empty for what is no file."""
+    elsewhere: ClassVar[dict[str, str]] = {}
+    """Keys that other tools or commands have, with the key that means the same here."""
     model_config = ConfigDict(
         extra="forbid", frozen=True, strict=True, use_attribute_docstrings=True, hide_input_in_errors=True
     )

@@ -104,9 +104,11 @@ def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: 
             "Results go to a folder of that name: up to 80 letters, digits, spaces and _ + - . in it.",
         )  # fmt: skip
     if error["type"] in ("string_pattern_mismatch", "string_too_long") and error["loc"][0] == "connections":
-        return Fault(
-            value.where, f"{given} is not a port", "A port is written component.port, as in spring.a."
-        )
+        said = "A port is written component.port, as in spring.a."
+        ends = str(value.content).split()
+        several = len(ends) > 1 and all("." in end for end in ends)
+        apart = f"Put a comma between two ports: [{shown(', '.join(ends))}]."
+        return Fault(value.where, f"{given} is not a port", apart if several else said)
     return Fault(value.where, f"{subject} = {given}: {error['msg']}")
 
 
@@ -123,7 +125,9 @@ def _unknown_key(path: Path, model: type[BaseModel], tree: Value) -> Fault:
     known = _keys(_model_at(model, path[:-1]) or model)
     owner = _subject(path[:-1]) if path[:-1] else getattr(model, "called", "") or "a netlist"
     value = _at(tree, path)
-    advice = f"{did_you_mean(name, known)} Known keys are {listing(known, 20)}.".strip()
+    meant = getattr(model, "elsewhere", {}).get(name) if len(path) == 1 else None
+    near = f"It is called {meant} here." if meant else did_you_mean(name, known)
+    advice = f"{near} Known keys are {listing(known, 20)}.".strip()
     return Fault(value.named_at, f"{owner} has no key {shown(name)}", advice)
 
 

@@ -9,7 +9,7 @@ from fairlead.analysis.margins.limits_again import judged
 from fairlead.analysis.margins.margins import LineMargins, StationMargins, Worst
 from fairlead.analysis.margins.margins import margins as of_lines
 from fairlead.analysis.margins.ruck import sentence, verdicts
-from fairlead.errors import UsageError, did_you_mean
+from fairlead.errors import UsageError, did_you_mean, listing
 from fairlead.results import Result
 from fairlead.results.signal import matching
 from fairlead.results.table import Table
@@ -81,9 +81,24 @@ def switches(result: Result, pattern: str) -> Table:
     names = list(dict.fromkeys(component for component, _, _ in found))
     picked = set(matching(names, pattern)) if isinstance(pattern, str) else set()
     if pattern != "*" and not picked:
-        near = did_you_mean(pattern, names) if isinstance(pattern, str) else ""
-        raise UsageError(f"No component of the name {pattern} has changed zone. {near}".rstrip())
+        raise UsageError(_never_changed(result, pattern, names))
     rows = [(*key, len(times), min(times), max(times)) for key, times in found.items() if key[0] in picked]
     rows.sort(key=lambda row: -row[3])
     columns = ("component", "zone_from", "zone_to", "count", "first", "last")
     return Table("zone changes", columns, ("", "", "", "", "s", "s"), tuple(rows))
+
+
+def _never_changed(result: Result, pattern: str, names: list[str]) -> str:
+    """Why no zone change fits: nothing of this name changes zone, or what there is did not in this run."""
+    could = [member for one in result.run.get("zones") or () for member in _members(one)]
+    if isinstance(pattern, str) and matching(could, pattern):
+        return f"{pattern} did not change zone in this run."
+    known = list(dict.fromkeys((*names, *could)))
+    near = did_you_mean(pattern, known) if isinstance(pattern, str) else ""
+    there = f"Zones are changed by {listing(known)}." if known else "Nothing in this run changes zone."
+    return f"No component of the name {pattern} changes zone. {near} {there}".replace("  ", " ")
+
+
+def _members(one: dict[str, Any]) -> list[str]:
+    """Components of an entry of `zones`: `line.outer[*]` with its elements."""
+    return [str(one["family"]).replace("*", str(number), 1) for number in one["elements"]]

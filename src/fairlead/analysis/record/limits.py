@@ -92,6 +92,7 @@ def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) ->
             faults.append(fault)
             continue
         columns = np.array([column[one.name] for one in bounded])
+        before = len(found.limits)
         for word, bound in value.entries.items():
             number = _bound(pattern, word, bound, bounded[0].unit)
             if isinstance(number, Fault):
@@ -99,6 +100,7 @@ def read_limits(given: Mapping[str, Value], recorded: Sequence[OutputSignal]) ->
                 continue
             text, names = f"{word} {bound.plain()}", [one.name for one in bounded]
             found.limits.append(Limit(text, columns, names, SENSES[word], number, bounded[0].unit, pattern=pattern))
+        faults += _empty(pattern, value, found.limits[before:])
     if faults:
         raise ModelError(faults)
     return found
@@ -121,6 +123,15 @@ def _unfit(
         way_out = f"Write it as {{below: {_sample(value, bounded[0].unit)}}}, with above, below or both."
         return Fault(value.where, f"limits.{pattern}{given} has no bound: a limit is above or below", way_out)
     return None
+
+
+def _empty(pattern: str, value: Value, limits: Sequence[Limit]) -> list[Fault]:
+    """An entry whose bounds leave nothing between them."""
+    by_word = {one.text.split()[0]: one for one in limits}
+    if len(by_word) < len(SENSES) or by_word["above"].bound < by_word["below"].bound:
+        return []
+    what = f"limits.{pattern} allows nothing: {by_word['above'].text} and {by_word['below'].text}"
+    return [Fault(value.where, what, "Swap the two numbers, or give each its own: above is the lower one.")]
 
 
 def _sample(value: Value, unit: str) -> str:

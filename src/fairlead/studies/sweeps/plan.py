@@ -51,6 +51,7 @@ class SweepFile(Strict):
     """A file that says what to sweep."""
 
     called = "a sweep file"
+    elsewhere = {"vary": "grid", "parameters": "set", "over": "sample", "libraries": "library", "signals": "figures"}
     model: str
     """A netlist, by its path from this file or by the name of a bundled model."""
     library: list[str] = []
