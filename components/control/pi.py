@@ -20,11 +20,13 @@ from fairlead.component import (
 )  # fmt: skip
 
 LAG = 1e-3  # s; of a command whose rate is limited
+NONE = 1e300  # where there is no limit
 
 
 class Pi(Component, abstract=True):
     """Half-model: what both forms are given."""
 
+    asked_with = {"low": -1.0, "high": 1.0}  # or no random motion would find the limits
     follows = ("reference", "measured")  # steadily the second is the first
     reference = Input("1", "Value wanted.", signed=True)
     measured = Input("1", "Value measured.", signed=True)
@@ -33,8 +35,8 @@ class Pi(Component, abstract=True):
     integral_time = Parameter("s", "T_i.", above=0)
     feed_forward = Parameter("1", "k_ff, command per reference.", default=0.0)
     ahead_gain = Parameter("1", "k_a, command per `ahead`.", default=1.0)
-    low = Parameter("1", "Smallest command.", default=-1.0)
-    high = Parameter("1", "Largest command.", default=1.0)
+    low = Parameter("1", "Smallest command, -1 of a valve; no limit when not given.", default=None)
+    high = Parameter("1", "Largest command, 1 of a valve; no limit when not given.", default=None)
     slew = Parameter("1/s", "Largest rate of the command; no limit when not given.", default=None, above=0)
     tracking_time = Parameter("s", "T_t of the anti-windup; half of T_i when not given.", default=None, above=0)
     command = Output("1", "Command.")
@@ -43,8 +45,18 @@ class Pi(Component, abstract=True):
 
     def check(p):
         """There is something between the limits."""
-        if p.high <= p.low:
-            yield "high", f"high {p.high:g} is not above low {p.low:g}", "Raise it."
+        if p.most <= p.least:
+            yield "high", f"high {p.most:g} is not above low {p.least:g}", "Raise it."
+
+    @derived
+    def least(p):
+        """Smallest command."""
+        return -NONE if p.low is None else p.low
+
+    @derived
+    def most(p):
+        """Largest command."""
+        return NONE if p.high is None else p.high
 
     @derived
     def tracking(p):
@@ -68,29 +80,29 @@ class ContinuousPi(Pi):
     def controlling(p, reference, measured, ahead, summed, applied, zone):
         """What is wanted is limited; what that leaves out is taken from the integral."""
         error, wanted = reference - measured, wanted_of(p, reference, measured, ahead, summed)
-        command, rate = behind(p, {"above": p.high, "below": p.low}.get(zone, wanted), applied)
+        command, rate = behind(p, {"above": p.most, "below": p.least}.get(zone, wanted), applied)
         gathered = p.gain / p.integral_time * error + (command - wanted) / p.tracking
         return Law(summed=gathered, applied=rate, command=command, error=error, integral=summed)
 
     @guard("*", to="above", unit="1")
     def rises_above(p, reference, measured, ahead, summed):
         """More than the largest command is wanted."""
-        return wanted_of(p, reference, measured, ahead, summed) - p.high
+        return None if p.high is None else wanted_of(p, reference, measured, ahead, summed) - p.high
 
     @guard("*", to="below", unit="1")
     def falls_below(p, reference, measured, ahead, summed):
         """Less than the smallest is wanted."""
-        return p.low - wanted_of(p, reference, measured, ahead, summed)
+        return None if p.low is None else p.low - wanted_of(p, reference, measured, ahead, summed)
 
     @guard("above", to="within", unit="1")
     def comes_down(p, reference, measured, ahead, summed):
         """Within the limits again."""
-        return p.high - wanted_of(p, reference, measured, ahead, summed)
+        return p.most - wanted_of(p, reference, measured, ahead, summed)
 
     @guard("below", to="within", unit="1")
     def comes_up(p, reference, measured, ahead, summed):
         """Within the limits again."""
-        return wanted_of(p, reference, measured, ahead, summed) - p.low
+        return wanted_of(p, reference, measured, ahead, summed) - p.least
 
 
 def behind(p, target, applied):
@@ -137,7 +149,7 @@ class PiController(Pi):
         """One sample."""
         value = seen if p.delay == "sample" else measured
         error, wanted = reference - value, wanted_of(p, reference, value, ahead, summed)
-        command = clip(wanted, p.low, p.high)
+        command = clip(wanted, p.least, p.most)
         if p.slew is not None:
             most = p.slew * p.period
             command = clip(command, applied - most, applied + most)

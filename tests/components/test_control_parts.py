@@ -54,6 +54,16 @@ def test_a_pi_controller_without_sampling_is_ideal(simulate):
     assert result["control.command"][0] == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize("sampling", ["off", "on"])
+def test_a_pi_controller_has_no_limits_that_nobody_gave(simulate, sampling):
+    """What cannot be moved leaves the error at 5: the command is 2*5 + 2*5 t, and 1 at most where that is told."""
+    text = SPEED.replace("1 kg*m^2", "1e9 kg*m^2").replace("value: 1}", "value: 5}")
+    text = text.replace("sampling: off", f"sampling: {sampling}")
+    free = simulate(text.replace(", low: -10, high: 10", ""))
+    assert free.at("control.command", 2.0) == pytest.approx(30, abs=0.11)  # a sample of 10 ms late
+    assert simulate(text.replace("low: -10, high: 10", "high: 1")).at("control.command", 2.0) == pytest.approx(1)
+
+
 def test_a_smoothed_command_lags_behind_as_it_says(simulate):
     """The command follows with smoothing T: after T, 1 - 1/e of the way where nothing else moves."""
     text = SPEED.replace("high: 10}", "high: 10, smoothing: 0.1 s}").replace("1 kg*m^2", "1e6 kg*m^2")
