@@ -1,7 +1,7 @@
 """A gearbox with losses and play."""
 
+from fairlead.components.rotation.backlash import Backlash
 from fairlead.components.rotation.gear import Gear
-from fairlead.components.rotation.mesh import Mesh
 from fairlead.components.rotation.rubbing import Brake
 from fairlead.components.rotation.torque_sensor import TorqueSensor
 
@@ -50,7 +50,7 @@ class Gearbox(Composite):
         """A rigid gear, then what carries the torque to b, then its friction."""
         children = {"gear": scene.make(Gear, ratio=p.ratio)}
         if p.backlash == "on":
-            children["teeth"] = scene.make(Mesh, stiffness=p.stiffness, damping=p.damping, backlash=p.play)
+            children["teeth"] = scene.make(Backlash, stiffness=p.stiffness, damping=p.damping, play=p.play)
         elif p.gear_friction == "on":
             children["teeth"] = scene.make(TorqueSensor)
         else:

@@ -33,9 +33,10 @@ def pages(docs: Path, folder: Path) -> dict[str, str]:
 
 
 def examples_of(docs: Path, names: Iterable[str]) -> dict[str, Path]:
-    """The shortest netlist of docs/examples, else of the bundled models, in which a type occurs."""
+    """The shortest netlist of the small ones, else of the bundled models, in which a type occurs."""
     bundled = Path(str(__import__("fairlead.models").models.__file__)).parent
-    files = [*sorted((docs / "examples").glob("*.yaml")), *sorted(bundled.glob("*.yaml"))]
+    small = [*sorted((docs / "examples").glob("*.yaml")), *sorted((bundled / "single_parts").glob("*.yaml"))]
+    files = [*small, *sorted(bundled.glob("*.yaml"))]
     texts = {file: _with_includes(file) for file in files}
     found = {}
     for name in names:
@@ -136,7 +137,7 @@ def _example(name: str, example: Path | None, folder: Path) -> Iterator[str]:
     if example is None:
         return
     yield from ("## Example", "")
-    own = example.parent.name == "examples"
+    own = example.parent.name in ("examples", "single_parts")
     place = folder / "examples"
     place.mkdir(parents=True, exist_ok=True)
     if own:

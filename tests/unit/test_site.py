@@ -27,7 +27,7 @@ from tests.browser.browser import complaints, missing, opened, requests
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
-EXAMPLES = sorted((DOCS / "examples").glob("*.yaml"))
+EXAMPLES = [*sorted((DOCS / "examples").glob("*.yaml")), *sorted((ROOT / "models" / "single_parts").glob("*.yaml"))]
 NOTEBOOK = DOCS / "tutorial" / "notebook.ipynb"
 BUILT = ("generated", "_site", "jupyter_execute")
 PATIENCE = 500  # s

@@ -21,10 +21,10 @@ from fairlead.describe.specimen import families_of
 
 BUNDLED = "fairlead.components."
 INNARDS = frozenset((
-    "BearingLoad", "CavitatingVolume", "Chamber", "Clamp", "ClampLoad", "Core", "CurrentLimit", "Dancer",
-    "Drum", "FarNode", "Hose", "LaidOn", "LateralLoad", "LeverArm", "LineWeight", "LoadLoss", "LoopedCore",
-    "LoopedHose", "Mesh", "Meter", "MotorFriction", "OilColumn", "PlanarContact", "PressedLoad", "Pressing",
-    "Registration", "RelaxingHose", "RoundLoad", "RuckingHose", "SeaDrag", "SealForce", "StoredNode",
+    "BearingLoad", "BeltSpans", "CavitatingVolume", "Chamber", "Clamp", "ClampLoad", "Core", "CurrentLimit",
+    "Dancer", "Drum", "FarNode", "Flank", "FlankLoad", "Hose", "LaidOn", "LateralLoad", "LeverArm", "LineWeight",
+    "LoadLoss", "LoopedCore", "LoopedHose", "Meter", "MotorFriction", "OilColumn", "PlanarContact", "PressedLoad",
+    "Pressing", "Registration", "RelaxingHose", "RoundLoad", "RuckingHose", "SeaDrag", "SealForce", "StoredNode",
     "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "ToothLoad", "Tow", "Turning", "TwistElement",
     "Untouched", "WatchedHose", "WoundNode",
 ))  # fmt: skip

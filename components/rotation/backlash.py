@@ -1,10 +1,10 @@
-"""Teeth that mesh: stiff, with a gap between them."""
+"""Play between shafts: stiff teeth with a gap between them."""
 
 from fairlead.component import Component, Law, Output, Parameter, Rotational, Zones, guard, zone
 
 
-class Mesh(Component):
-    """Backlash between two shafts of one speed: nothing is carried while the twist is within half a gap of zero.
+class Backlash(Component):
+    """Play between two shafts of one speed: nothing is carried while the twist is within half a gap of zero.
 
     drive     twist beyond gap/2 by d      torque = stiffness d (1 + damping dd/dt)
     gap                                    torque = 0
@@ -19,7 +19,7 @@ class Mesh(Component):
     b = Rotational("driven side")
     stiffness = Parameter("N*m/rad", "Of the teeth in contact.", above=0)
     damping = Parameter("s/rad", "Share of the torque that is added per speed of approach.", default=10.0, least=0)
-    backlash = Parameter("rad", "Angle by which b can turn while a stands still.", least=0)
+    play = Parameter("rad", "Angle by which b can turn while a stands still.", least=0)
     torque = Output("N*m", "Torque carried from a to b.")
     size = Output("N*m", "The same without sign.")
     zones = Zones("gap", "drive", "reverse", forward=["drive"], backward=["reverse"])
@@ -33,7 +33,7 @@ class Mesh(Component):
     def touching(p, a, b, zone):
         """Spring and damper of the teeth."""
         d = 1 if zone == "drive" else -1
-        deep, rate = d * (a.angle - b.angle) - p.backlash / 2, d * (a.speed - b.speed)
+        deep, rate = d * (a.angle - b.angle) - p.play / 2, d * (a.speed - b.speed)
         size = p.stiffness * deep * (1 + p.damping * rate)
         return Law(a=d * size, b=-d * size, torque=d * size, size=size, stored=p.stiffness * deep**2 / 2,
                    dissipated=p.stiffness * p.damping * deep * rate**2)  # fmt: skip
@@ -41,9 +41,9 @@ class Mesh(Component):
     @guard("gap", to="drive", unit="rad", mirrored="meets_backward")
     def meets_forward(p, a, b, direction):
         """The gap is used up."""
-        return direction * (a.angle - b.angle) - p.backlash / 2
+        return direction * (a.angle - b.angle) - p.play / 2
 
     @guard("drive", to="gap", unit="rad", mirrored="parts_backward")
     def parts_forward(p, a, b, direction):
         """The teeth part."""
-        return p.backlash / 2 - direction * (a.angle - b.angle)
+        return p.play / 2 - direction * (a.angle - b.angle)
