@@ -16,9 +16,10 @@ from fairlead.simulate import Model, describe_type, json_schema, load
 
 if TYPE_CHECKING:
     from fairlead.result import Result
+    from fairlead.studies.sensitivities.sensitivity import sensitivity
 
 __all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInterrupted", "RunWarning",
-           "SteppingError", "UsageError", "describe_type", "json_schema", "load"]  # fmt: skip
+           "SteppingError", "UsageError", "describe_type", "json_schema", "load", "sensitivity"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:
@@ -26,4 +27,8 @@ def __getattr__(name: str) -> Any:
         from fairlead.result import Result
 
         return Result
+    if name == "sensitivity":
+        from fairlead.studies.sensitivities.sensitivity import sensitivity
+
+        return sensitivity
     raise AttributeError(f"module 'fairlead' has no attribute {name!r}")

@@ -8,11 +8,11 @@ from typer.testing import CliRunner
 
 from fairlead.cli import app
 from fairlead.errors import ModelError
+from fairlead.studies.differences.steps import difference, noise_floor, steps
 from fairlead.studies.fits.features import read_feature
 from fairlead.studies.fits.fit_file import read_fit
 from fairlead.studies.fits.problem import records_of
 from fairlead.studies.fits.search import fit, prepared
-from fairlead.studies.fits.steps import difference, noise_floor, steps
 
 STIFFNESS, MASS, FRICTION, BEGIN = 400.0, 2.0, 1.2, 0.1
 SCENE = """schema: 1

@@ -70,3 +70,10 @@ def test_a_shell_is_offered_the_same():
     code = "from fairlead.cli import main; main()"
     done = subprocess.run([sys.executable, "-c", code], env=given, capture_output=True, text=True, check=False)
     assert done.stdout.split() == ["mu="]
+
+
+def test_parameters_are_offered_without_an_equals_sign_also_behind_a_comma():
+    ctx = typed("mine.yaml")
+    assert completion.parameters(ctx, "m") == ["mu"]
+    assert completion.parameters(ctx, "mu,pad.nor") == ["mu,pad.normal_force"]
+    assert not any(name.startswith(("run.", "limits.")) for name in completion.parameters(ctx, ""))

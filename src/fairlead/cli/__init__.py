@@ -25,6 +25,7 @@ from fairlead.cli import (
     report,
     run,
     schema,
+    sensitivity,
     statics,
     sweep,
 )  # fmt: skip
@@ -44,8 +45,8 @@ app = typer.Typer(
 )
 for verb in (
     check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
-    margins.margins, compare.compare, sweep.sweep, fit.fit, cost.cost, effects.effects, schema.schema, new.new,
-    doctor.doctor,
+    margins.margins, compare.compare, sweep.sweep, fit.fit, sensitivity.sensitivity, cost.cost, effects.effects,
+    schema.schema, new.new, doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)
 

@@ -43,6 +43,14 @@ def settings(ctx: typer.Context, incomplete: str) -> list[str]:
     return _fitting((f"{name}=" for name in _names(_netlist(ctx))), incomplete)
 
 
+def parameters(ctx: typer.Context, incomplete: str) -> list[str]:
+    """Names of parameters, the last of several with commas between them."""
+    before, comma, last = incomplete.rpartition(",")
+    others = ("run.", "friction.", "record.", "initial.", "limits.")
+    names = (name for name in _names(_netlist(ctx)) if not name.startswith(others))
+    return [f"{before}{comma}{name}" for name in _fitting(names, last)]
+
+
 def signals(ctx: typer.Context, incomplete: str) -> list[str]:
     """Signals of the netlist."""
     from fairlead.analysis.record.names import signals_of

@@ -27,6 +27,7 @@ from fairlead.studies.cases.values_of import value_of
 
 if TYPE_CHECKING:
     from fairlead.result import Result
+    from fairlead.results.events import Event
     from fairlead.simulate import Model
 
 Floats = NDArray[np.float64]
@@ -110,6 +111,12 @@ class Cases:
 
         row = self._told_row(values, tuple(signals), take)
         return row, found[0] if found else np.full((len(signals), len(times)), math.nan)
+
+    def followed(self, values: Mapping[str, Value]) -> tuple[Row, tuple[Event, ...]]:
+        """The row of a case and its zone changes in order; none where it did not finish."""
+        found: list[Event] = []
+        row = self._told_row(values, (), lambda result: found.extend(result.events))
+        return row, tuple(found)
 
     def _run(self, start: Row, values: Mapping[str, Value], also: tuple[str, ...], take: Take | None) -> Row:
         model = self._model(values)

@@ -4,6 +4,7 @@
     peak(line.hose[*].tension)   highest of all these signals   lowest(...)             lowest
     largest(block.x)             largest without its sign       mean(block.x, 1 s, 3 s) over a span, or the run
     rms(block.x)                 root of the mean square        time(pad, held, 2)     second change into a zone
+    period(pad, held)            from the last but one change into a zone to the last; with n from the n-th on
     switches(pad)                zone changes                   energy(dissipated)      an entry of the ledger
     margin(ruck)                 of lines: ruck, slack, side_wall, slip
     broken()                     how many limits of the netlist the run broke
@@ -32,9 +33,11 @@ OF_SEVERAL = ("peak", "lowest", "largest")
 OF_ONE = ("end", "at", "mean", "rms")
 MARGINS = {"ruck": "1", "slack": "N", "side_wall": "1", "slip": "m"}
 LEDGER = {"supplied": "J", "dissipated": "J", "stored": "J", "closure": "1"}
-KINDS = (*OF_ONE, *OF_SEVERAL, "time", "switches", "margin", "energy", "broken")
+KINDS = (*OF_ONE, *OF_SEVERAL, "time", "period", "switches", "margin", "energy", "broken")
 FEW = 32
 """Signals whose rows of all steps are kept for their extremes; of more, the run looks for extremes as it goes."""
+LAST = 0
+"""Of a period: the last one of the run."""
 EXAMPLE = "Write it as in peak(block.x), mean(block.x, 1 s, 3 s) or time(pad, held)."
 PLACE = Location("figures")
 
@@ -158,12 +161,13 @@ class _Known:
     def _time(self, kind: str, given: Sequence[str]) -> dict[str, Any]:
         if not 1 <= len(given) <= 3:
             raise _Wrong(
-                "time takes a component, a zone, and which of the changes is meant",
-                "Write it as in time(pad, held, 2).",
+                f"{kind} takes a component, a zone, and which of the changes is meant",
+                f"Write it as in {kind}(pad, held, 2).",
             )
-        count = given[2] if len(given) > 2 else "1"
-        if not count.isdecimal() or int(count) < 1:
-            raise _Wrong(f"{shown(count)} is no number of an event", "They are counted from 1.")
+        text = given[2] if len(given) > 2 else "1"
+        if not text.isdecimal() or int(text) < 1:
+            raise _Wrong(f"{shown(text)} is no number of an event", "They are counted from 1.")
+        count = LAST if kind == "period" and len(given) < 3 else int(text)
         component = self._component(given[0])
         system = self.model.system
         zones = dict.fromkeys(zone for k, name in enumerate(system.machine_names) if name in component
@@ -173,7 +177,9 @@ class _Known:
                 f"{given[0]} has no zone {shown(given[1])}. {did_you_mean(given[1], zones)}".rstrip(),
                 f"There are {listing(zones)}.",
             )
-        return {"arguments": (given[0], given[1] if len(given) > 1 else "", int(count)), "unit": "s"}
+        return {"arguments": (given[0], given[1] if len(given) > 1 else "", count), "unit": "s"}
+
+    _period = _time
 
     def _switches(self, kind: str, given: Sequence[str]) -> dict[str, Any]:
         if len(given) > 1:

@@ -82,10 +82,20 @@ def _largest(figure: Figure, result: Result) -> float:
 
 
 def _time(figure: Figure, result: Result) -> float:
-    component, zone, count = figure.arguments
-    fits = matcher(component)
-    times = [one.t for one in result.events if fits(one.component) and (not zone or one.zone_to == zone)]
+    times, count = _times(figure, result), figure.arguments[2]
     return times[count - 1] if len(times) >= count else math.nan
+
+
+def _times(figure: Figure, result: Result) -> list[float]:
+    component, zone, _ = figure.arguments
+    fits = matcher(component)
+    return [one.t for one in result.events if fits(one.component) and (not zone or one.zone_to == zone)]
+
+
+def _period(figure: Figure, result: Result) -> float:
+    times, count = _times(figure, result), figure.arguments[2]
+    first = count - 1 if count else len(times) - 2
+    return times[first + 1] - times[first] if 0 <= first < len(times) - 1 else math.nan
 
 
 def _switches(figure: Figure, result: Result) -> float:
@@ -126,5 +136,5 @@ def _broken(figure: Figure, result: Result) -> float:
 
 _TOLD: dict[str, Callable[[Figure, Any], float]] = {
     "end": _end, "at": _at, "mean": _mean, "rms": _rms, "peak": _peak, "lowest": _lowest, "largest": _largest,
-    "time": _time, "switches": _switches, "margin": _margin, "energy": _energy, "broken": _broken,
+    "time": _time, "period": _period, "switches": _switches, "margin": _margin, "energy": _energy, "broken": _broken,
 }  # fmt: skip

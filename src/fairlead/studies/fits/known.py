@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.studies.differences.steps import Step
 from fairlead.studies.fits.fit_file import LINEAR
 from fairlead.studies.fits.problem import Problem
-from fairlead.studies.fits.steps import Step
 
 Floats = NDArray[np.float64]
 LEVEL = 0.95

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.errors import FairleadError
+from fairlead.studies.differences.steps import CHAOS, Step, jacobian, noise_floor, steps
 from fairlead.studies.fits.fit_file import Asked, Law
 from fairlead.studies.fits.known import Direction, Interval, directions, intervals, loss_slopes
 from fairlead.studies.fits.problem import FAR, TIME, Problem, Record, Target, records_of, targets_of
-from fairlead.studies.fits.steps import CHAOS, Step, jacobian, noise_floor, steps
 
 Floats = NDArray[np.float64]
 Told = Callable[[str], None]

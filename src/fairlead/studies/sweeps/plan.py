@@ -175,6 +175,15 @@ class Asked:
             self.faults.append(Fault(where, str(error)))
             return text
 
+    def figures(self, texts: Iterable[str], option: str) -> dict[str, str | Function]:
+        """Figures of a command line, `NAME=FIGURE` or just FIGURE, by name."""
+        wanted = {}
+        for text in texts:
+            named = re.fullmatch(r"\s*([^=()]+?)\s*=\s*(.+)", text)
+            name, said = (named[1], named[2]) if named else (text.strip(), text)
+            wanted[name] = self.figure(Location(option), said, Path())
+        return wanted
+
     def pairs(self, where: Location, given: Mapping[str, float]) -> dict[tuple[str, str], float]:
         """Correlations by two names."""
         found = {}
@@ -227,6 +236,15 @@ def options(texts: Iterable[str], option: str, example: str) -> dict[str, str]:
     return found
 
 
+def figures_of_options(texts: Iterable[str], option: str) -> dict[str, str | Function]:
+    """Figures of a command line by name. Raises ModelError for a file without such a function."""
+    asked = Asked()
+    wanted = asked.figures(texts, option)
+    if asked.faults:
+        raise ModelError(asked.faults)
+    return wanted
+
+
 def plan_of_options(model: str, settings: Mapping[str, str], libraries: Sequence[str], *, grid: Sequence[str],
                     cases: Path | None, over: Sequence[str], sample: tuple[str, int] | None, seed: int,
                     correlate: Sequence[str], figures: Sequence[str], max_steps: int | None,
@@ -252,11 +270,7 @@ def plan_of_options(model: str, settings: Mapping[str, str], libraries: Sequence
         if pairs and sample[0] != "monte_carlo":
             raise UsageError("--correlate goes with --monte-carlo: the other samples have independent parameters.")
         asked.sample = Sample(sample[0], sample[1], found, seed, pairs)
-    wanted = {}
-    for text in figures:
-        named = re.fullmatch(r"\s*([^=()]+?)\s*=\s*(.+)", text)
-        name, said = (named[1], named[2]) if named else (text.strip(), text)
-        wanted[name] = asked.figure(Location("--figure"), said, Path())
+    wanted = asked.figures(figures, "--figure")
     return Plan(model, asked.design(), settings, tuple(libraries), wanted or None, max_steps, tuple(keep))
 
 

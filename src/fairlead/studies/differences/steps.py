@@ -12,8 +12,9 @@ and the step is that with the smallest error.
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,8 +41,17 @@ class Step:
 
 def noise_floor(residuals: Callable[[Floats], Floats], z: Floats, bounds: tuple[Floats, Floats]) -> float:
     """Root mean square of the rough part of one residual, from POINTS runs along the diagonal of all parameters."""
+    return noise_of(near(residuals, z, bounds))
+
+
+def near(residuals: Callable[[Floats], Floats], z: Floats, bounds: tuple[Floats, Floats]) -> Floats:
+    """Residuals at POINTS points very near each other, shape (POINTS, residuals)."""
     inward = np.where(z + POINTS * NEAR <= bounds[1], 1.0, -1.0)
-    table = np.array([residuals(z + k * NEAR * inward) for k in range(POINTS)])
+    return np.array([residuals(z + k * NEAR * inward) for k in range(POINTS)])
+
+
+def noise_of(table: Floats) -> float:
+    """Root mean square of the rough part of the columns of such a table."""
     found = []
     for order in range(1, POINTS):
         table = np.diff(table, axis=0)
@@ -52,15 +62,26 @@ def noise_floor(residuals: Callable[[Floats], Floats], z: Floats, bounds: tuple[
 
 def steps(residuals: Callable[[Floats], Floats], z: Floats, bounds: tuple[Floats, Floats], noise: float) -> list[Step]:
     """The step of each parameter."""
-    made = []
-    for index in range(len(z)):
-        slopes = [difference(residuals, z, index, size, bounds) for size in LADDER]
-        errors = [noise * math.sqrt(len(slopes[0])) / (size * math.sqrt(2)) + float(np.linalg.norm(one - other))
-                  for size, one, other in zip(LADDER, slopes, slopes[1:], strict=False)]  # fmt: skip
-        best = int(np.argmin(errors))
-        size = float(np.linalg.norm(slopes[best]))
-        made.append(Step(LADDER[best], errors[best] / size if size > 0 else math.inf, errors[best]))
-    return made
+    return [step_of(residuals, z, index, bounds, noise) for index in range(len(z))]
+
+
+def step_of(
+    residuals: Callable[[Floats], Floats], z: Floats, index: int, bounds: tuple[Floats, Floats], noise: float,
+    ladder: Sequence[float] = LADDER,
+) -> Step:  # fmt: skip
+    """The step of one parameter. The ladder is left where its noise alone exceeds the smallest error so far."""
+    slopes = [difference(residuals, z, index, ladder[0], bounds)]
+    errors: list[float] = []
+    for size, next_size in itertools.pairwise(ladder):
+        rough = noise * math.sqrt(len(slopes[0])) / (size * math.sqrt(2))
+        if errors and rough > min(errors):
+            break
+        slopes.append(difference(residuals, z, index, next_size, bounds))
+        error = rough + float(np.linalg.norm(slopes[-2] - slopes[-1]))
+        errors.append(error if math.isfinite(error) else math.inf)
+    best = int(np.argmin(errors))
+    slope = float(np.linalg.norm(slopes[best]))
+    return Step(ladder[best], errors[best] / slope if slope > 0 else math.inf, errors[best])
 
 
 def difference(
