@@ -1,0 +1,93 @@
+"""Signals with a memory: an integral, a filtered derivative, an oscillation of second order."""
+
+from fairlead.component import Component, Input, Law, Output, Parameter, State, Zones, guard, least, zone
+
+
+class Integrator(Component):
+    """d(signal)/dt = gain value, from `initial` on, and at rest at a limit while the value would lead beyond it.
+
+    Without limits it is free. Limits hold the signal where it met them (no windup); it leaves at once when the value
+    changes its sign.
+    """
+
+    asked_with = {"low": -1.0, "high": 1.0}
+    value = Input("1", "What is integrated.", signed=True)
+    gain = Parameter("1/s", "Rate per value, in SI of both; not zero.", default=1.0)
+    initial = Parameter("1", "Signal at the start.", default=0.0, physics=False)
+    low = Parameter("1", "Smallest signal; no limit when not given.", default=None)
+    high = Parameter("1", "Largest signal; no limit when not given.", default=None)
+    gathered = State("1", "The integral.", start="initial", nominal=0.1)
+    signal = Output("1", "The integral.")
+    zones = Zones("free", "full", "empty")
+
+    def check(p):
+        """It begins between its limits, and has somewhere to go."""
+        if p.gain == 0:
+            yield "gain", "gain is zero", "Without a rate the signal is a constant: take a SignalSource."
+        if p.low is not None and p.high is not None and p.high <= p.low:
+            yield "high", f"high {p.high:g} is not above low {p.low:g}", "Raise it."
+        if (p.high is not None and p.initial > p.high) or (p.low is not None and p.initial < p.low):
+            yield "initial", f"initial {p.initial:g} is beyond the limits", "Begin between low and high."
+
+    @zone("free")
+    def gathering(p, value, gathered):
+        """At the rate of the value."""
+        return Law(gathered=p.gain * value, signal=gathered)
+
+    @zone("full", "empty")
+    def at_limit(p, gathered):
+        """It stays."""
+        return Law(gathered=0, signal=gathered)
+
+    @guard("free", to="full", unit="1")
+    def fills(p, value, gathered):
+        """The largest signal is met, and the value leads on."""
+        return None if p.high is None else least(gathered - p.high, p.gain * value)
+
+    @guard("free", to="empty", unit="1")
+    def empties(p, value, gathered):
+        """The smallest is met, and the value leads on."""
+        return None if p.low is None else least(p.low - gathered, -p.gain * value)
+
+    @guard("full", to="free", unit="1/s")
+    def comes_down(p, value):
+        """The value leads back."""
+        return -p.gain * value
+
+    @guard("empty", to="free", unit="1/s")
+    def comes_up(p, value):
+        """The value leads back."""
+        return p.gain * value
+
+
+class FilteredDerivative(Component):
+    """signal = (value - s)/lag,  ds/dt = the same:  the rate of a signal, filtered with a lag of first order."""
+
+    value = Input("1", "What is differentiated.", signed=True)
+    lag = Parameter("s", "Time constant of the filter.", above=0)
+    initial = Parameter("1", "Value before the start.", default=0.0, physics=False)
+    slow = State("1", "The value, filtered.", start="initial", nominal=0.1)
+    signal = Output("1/s", "The rate.")
+
+    def law(p, value, slow):
+        """First order."""
+        return Law(slow=(value - slow) / p.lag, signal=(value - slow) / p.lag)
+
+
+class SecondOrder(Component):
+    """signal'' = omega^2 (gain value - signal) - 2 damping omega signal':  an oscillation, or a filter."""
+
+    value = Input("1", "What comes in.", signed=True)
+    gain = Parameter("1", "Steady signal per value, in SI of both.", default=1.0)
+    omega = Parameter("rad/s", "Angular frequency without damping.", above=0)
+    damping = Parameter("1", "Damping ratio; 1 is critical.", default=1.0, least=0)
+    initial = Parameter("1", "Signal at the start.", default=0.0, physics=False)
+    told = State("1", "The signal.", start="initial", nominal=0.1)
+    rate = State("1/s", "Its rate.", nominal=1.0)
+    signal = Output("1", "What goes out.")
+    slope = Output("1/s", "Its rate.")
+
+    def law(p, value, told, rate):
+        """Spring and damper of a unit mass."""
+        return Law(told=rate, rate=p.omega**2 * (p.gain * value - told) - 2 * p.damping * p.omega * rate,
+                   signal=told, slope=rate)  # fmt: skip

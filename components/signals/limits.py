@@ -1,0 +1,74 @@
+"""Signals that end at limits, and that are not heard within a band."""
+
+from fairlead.component import Component, Input, Law, Output, Parameter, Zones, guard, zone
+
+
+class Limiter(Component):
+    """signal = value, but not below `low` nor above `high`; at a limit it is in a zone of its own."""
+
+    asked_with = {"low": -1.0, "high": 1.0}
+    value = Input("1", "What comes in.", signed=True)
+    low = Parameter("1", "Smallest value, in SI of what comes in.")
+    high = Parameter("1", "Largest value.")
+    signal = Output("1", "The value within its limits.")
+    zones = Zones("within", "above", "below")
+
+    def check(p):
+        """There is something between the limits."""
+        if p.high <= p.low:
+            yield "high", f"high {p.high:g} is not above low {p.low:g}", "Raise it."
+
+    @zone("within", "above", "below")
+    def limited(p, value, zone):
+        """The value, or the limit it has passed."""
+        return Law(signal={"above": p.high, "below": p.low}.get(zone, value))
+
+    @guard("*", to="above", unit="1")
+    def rises_above(p, value):
+        """Beyond the largest value."""
+        return value - p.high
+
+    @guard("*", to="below", unit="1")
+    def falls_below(p, value):
+        """Below the smallest."""
+        return p.low - value
+
+    @guard("above", to="within", unit="1")
+    def comes_down(p, value):
+        """Within the limits again."""
+        return p.high - value
+
+    @guard("below", to="within", unit="1")
+    def comes_up(p, value):
+        """Within the limits again."""
+        return value - p.low
+
+
+class DeadZone(Component):
+    """signal = 0 while |value| is below `band`, and gain (|value| - band) with the sign of the value beyond."""
+
+    value = Input("1", "What comes in.", signed=True)
+    band = Parameter("1", "Half the width that is not heard, in SI of what comes in.", above=0)
+    gain = Parameter("1", "Factor beyond the band, in SI of both.", default=1.0)
+    signal = Output("1", "What is heard.")
+    zones = Zones("silent", "above", "below", forward=["above"], backward=["below"])
+
+    @zone("silent")
+    def unheard(p, value):
+        """Nothing."""
+        return Law(signal=0)
+
+    @zone("above", "below")
+    def heard(p, value, direction):
+        """What is beyond the band."""
+        return Law(signal=p.gain * (value - direction * p.band))
+
+    @guard("silent", to="above", unit="1", mirrored="leaves_below")
+    def leaves_above(p, value, direction):
+        """Beyond the band."""
+        return direction * value - p.band
+
+    @guard("above", to="silent", unit="1", mirrored="comes_back_from_below")
+    def comes_back(p, value, direction):
+        """Within the band."""
+        return p.band - direction * value

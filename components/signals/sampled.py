@@ -1,0 +1,42 @@
+"""Signals in samples: held, and told later."""
+
+from fairlead.component import Component, Controller, Count, Discrete, Input, Law, Output, Parameter, sampled
+
+
+class SampleHold(Component):
+    """signal = the value at the last sample, one every `period`."""
+
+    value = Input("1", "What is sampled.", signed=True)
+    period = Parameter("s", "Time between samples.", above=0)
+    kept = Discrete("1", "The value at the last sample.")
+    signal = Output("1", "What is held.")
+
+    def law(p, kept):
+        """Held between samples."""
+        return Law(signal=kept)
+
+    @sampled(every="period")
+    def sample(p, value):
+        """One sample."""
+        return Law(kept=value)
+
+
+class SignalDelay(Controller):
+    """signal = the value `samples` samples ago, one every `period`:  a delay of samples period, as of a bus.
+
+    Before the first value has come through it is `initial`.
+    """
+
+    value = Input("1", "What comes in.", signed=True)
+    samples = Count("By how many samples it is late.", default=1)
+    initial = Parameter("1", "Signal before the first value has come through.", default=0.0, physics=False)
+    signal = Output("1", "What goes out.")
+
+    def begin(self):
+        """Nothing is under way."""
+        self.under_way = [self.initial] * self.samples
+
+    def sample(self, value):
+        """One comes in, one goes out."""
+        self.under_way.append(value)
+        return self.under_way.pop(0)
