@@ -179,7 +179,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError.
 
     They go to the directory `path`, or stay in memory when that is None. Without `peaks` extremes and limits are not
-    looked for between rows, without `told` there are no remarks: both cost as much as the loop of a small model.
+    looked for, and on a grid nothing between its rows; without `told` there are no remarks: both cost as much as the
+    loop of a small model.
     """
     if faults := unreasonable(netlist, settings, system.flat):
         raise ModelError(faults)
@@ -196,12 +197,12 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
         least = least_jumps(system, recording.chosen, settings.accuracy)
         event_rows = EventRows(least) if netlist.record.every is not None else None
-        asked = engine_settings(netlist, settings, system, patterns)
+        strains = Strains.of(system, recording.recorded)
+        asked = engine_settings(netlist, settings, system, patterns, between=peaks or bool(strains.names))
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
-                      Strains.of(system, recording.recorded),
-                      BelowWeight.of(system, recording.chosen if told else [], settings.accuracy), together, progress,
-                      interruption, event_rows, settings.accuracy, peaks)  # fmt: skip
+                      strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
+                      together, progress, interruption, event_rows, settings.accuracy, peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
         watch.finish()
         interruption.between_blocks = False
@@ -286,15 +287,17 @@ def refused(settings: RunSettings, system: System) -> Fault | None:
     return refusal(system, settings)
 
 
-def engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str]) -> Run:
-    """The settings of a run as the engine takes them."""
+def engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str], *,
+                    between: bool = True) -> Run:  # fmt: skip
+    """The settings of a run as the engine takes them; `between`: with what happens between the rows of a grid."""
     method = "rodas5p" if settings.method == "auto" else settings.method
     types = [instance.type for instance in system.flat.instances]
     engine = engine_of(settings, system)[0]
     located = {"most_located": most_located(system, settings)} if engine == "stepping" else {}
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
-        accuracy=settings.accuracy, record=patterns, between=True,
+        accuracy=settings.accuracy, record=patterns,
+        between=between or netlist.record.every is None,  # the curve of a step goes through its rows inside
         engine=engine, **located,
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 import fairlead
+from fairlead import run
 from fairlead.cases import Cases
 from fairlead.errors import ModelError
+from fairlead.integrate.problem import Block, End
+from fairlead.run import Watch
 
 # Block on a belt (tests/reference): stiffness 100 N/m, mass 1 kg, belt 0.2 m/s, stiction 10 N, sliding 6 N.
 # It sticks until the spring pulls with 10 N, slips about x = 0.06 m, and comes to the speed of the belt again.
@@ -131,3 +134,23 @@ def test_another_structure_gives_what_a_fresh_model_gives() -> None:
     ):
         fresh = fairlead.load("belt", set={"run.stop": "2 s", **values}).run(out=None)
         assert cases.row(values).figures["end"] == pytest.approx(fresh["block.x"][-1], abs=1e-12)
+
+
+def test_figures_without_extremes_cost_no_rows_between_those_of_the_grid(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And are the same beside figures that do. A netlist with limits keeps them."""
+    rows: list[int] = []
+
+    class Watched(Watch):
+        def __call__(self, block: Block) -> End | None:
+            rows.append(len(block.t))
+            return super().__call__(block)
+
+    monkeypatch.setattr(run, "Watch", Watched)
+    plain = {"end": "end(block.x)", "let_go": "time(pad, backward)", "n": "switches(pad)", "lost": "energy(dissipated)"}
+    alone = Cases(MODEL, plain).row({})
+    few = sum(rows)
+    rows.clear()
+    beside = Cases(MODEL, {**plain, "closure": "energy(closure)"}).row({})
+    assert {name: beside.figures[name] for name in plain} == alone.figures
+    # The start, the end, both sides of every change; one more where the run pauses.
+    assert few <= 3 + 2 * alone.figures["n"] < sum(rows) / 4

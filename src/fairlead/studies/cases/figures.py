@@ -66,12 +66,13 @@ class Figure:
     @property
     def wants_extremes(self) -> bool:
         """Whether it is told from the extremes that the run looks for as it goes."""
-        return self.many or self.kind in ("margin", "function")
+        of_most = self.kind == "energy" and self.arguments == ("closure",)  # it goes by the most energy at any time
+        return self.wants_record or of_most
 
     @property
     def wants_record(self) -> bool:
         """Whether it is told from what the netlist records."""
-        return self.wants_extremes
+        return self.many or self.kind in ("margin", "function")
 
 
 def read_figures(wanted: Mapping[str, str | Function], model: Model) -> tuple[Figure, ...]:
