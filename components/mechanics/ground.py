@@ -1,6 +1,6 @@
 """A fixed point."""
 
-from fairlead.component import Component, Translational
+from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Ground(Component):
@@ -15,3 +15,21 @@ class Ground(Component):
     def prescribes():
         """Position, velocity and acceleration of the flange: zero."""
         return {"flange": None}
+
+
+class FixedPoint(Component):
+    """A point that never moves and stands at `position`; it takes whatever force comes."""
+
+    flange = Translational("the fixed point")
+    position = Parameter("m", "Where it stands.", physics=False)
+    x = Output("m", "Position.")
+    v = Output("m/s", "Velocity: none.")
+    a = Output("m/s^2", "Acceleration: none.")
+
+    def law(p, flange):
+        """Nothing to add; the motion is prescribed."""
+        return Law(flange=0, x=p.position, v=0, a=0, supplied=flange.force * flange.v)
+
+    def prescribes():
+        """Names of the outputs that are the position, velocity and acceleration of the flange."""
+        return {"flange": ("x", "v", "a")}
