@@ -33,7 +33,7 @@ from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Saved, Underway
 from fairlead.outer import find_inputs, find_outputs
 from fairlead.quantities import QuantityError, si
-from fairlead.run import engine_settings, failure_of, named_change, refused
+from fairlead.run import engine_settings, failure_of, named_change, not_allowed, refused
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
@@ -81,7 +81,7 @@ class Stepping:
         """Names of outputs of the `interface` block; every other signal can be read as well."""
         self.variables = (*(one.seen for one in self._inputs.values()), *outputs)
         """Inputs and outputs with unit, start value, nominal size and description."""
-        if (fault := refused(settings, system)) is not None:
+        if (fault := refused(settings, system) or not_allowed(system)) is not None:
             raise UsageError(f"{fault.what} {fault.way_out}")
         asked = engine_settings(netlist, settings, system, list(EVERYTHING))
         if why := engine_of(asked).not_saved:

@@ -186,7 +186,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()
-    if (fault := refused(settings, system)) is not None:
+    if (fault := refused(settings, system) or not_allowed(system)) is not None:
         raise UsageError(f"{fault.what} {fault.way_out}")
     patterns = _patterns(netlist)
     recording = system.recording(patterns)
@@ -204,6 +204,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
                       together, progress, interruption, event_rows, settings.accuracy, peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
+        for controller in outcome.problem.controllers:
+            controller.end()
         watch.finish()
         interruption.between_blocks = False
         outcome = _explained(outcome)
@@ -285,6 +287,20 @@ def refused(settings: RunSettings, system: System) -> Fault | None:
         what = f"run.engine: ida does not bring positions back to what {few(kept)} keeps after every step"
         return Fault(None, f"{what}, so they would drift.", "Take run.engine: rodas (or auto).")
     return refusal(system, settings)
+
+
+def not_allowed(system: System) -> Fault | None:
+    """Why FMUs of the model may not run, None where there are none or they may."""
+    called = [instance for instance in system.flat.instances if instance.type.declaration.python]
+    if not called:
+        return None
+    from fairlead.foreign.block import NOT_ALLOWED
+    from fairlead.foreign.block import not_allowed as file_of
+
+    named = [f"{one.path.rpartition('.')[0]} ({file_of(one.type)})" for one in called if file_of(one.type)]
+    if not named:
+        return None
+    return Fault(None, f"{few(named)} {'is an FMU' if len(named) == 1 else 'are FMUs'} and not run.", NOT_ALLOWED)
 
 
 def engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str], *,

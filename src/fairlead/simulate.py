@@ -51,12 +51,12 @@ class Place(enum.Enum):
 
 
 def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = None,
-         libraries: Iterable[str | os.PathLike[str]] = ()) -> Model:  # fmt: skip
+         libraries: Iterable[str | os.PathLike[str]] = (), allow_fmu: bool = False) -> Model:  # fmt: skip
     """Read a netlist, by path or by the name of a bundled model. Raises ModelError with every mistake.
 
     `set` overrides scene parameters (`mu`) and settings (`pad.normal_force`, `run.stop`), with texts as after `--set`
     or numbers in SI, and a value that does not fit is told at once; `libraries` are Python files with component
-    classes of the user, whose code is run.
+    classes of the user, whose code is run. With `allow_fmu` runs may call the code of FMUs that the netlist names.
     """
     from fairlead.netlist.load import read
 
@@ -64,11 +64,12 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     asked.path("path", path)
     asked.values_by_name("set", set)
     asked.texts("libraries", libraries, '"parts.py"')
+    asked.yes_or_no("allow_fmu", allow_fmu)
     asked.refuse()
     sources, faults = read(path)
     if sources is None:
         raise ModelError(faults)
-    model = Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries))
+    model = Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries), allow_fmu=allow_fmu)
     if model._faults or not all(map(os.path.exists, model.libraries)):
         model.check()
     if set and _fits_are_known_late(model.netlist, set):
@@ -92,18 +93,20 @@ class Model:
     again where it arrives, and tables in files read again.
     """
 
-    def __init__(self, sources: Sources, overrides: Mapping[str, str], libraries: tuple[str, ...]) -> None:
+    def __init__(
+        self, sources: Sources, overrides: Mapping[str, str], libraries: tuple[str, ...], *, allow_fmu: bool = False
+    ) -> None:
         """Work out the netlist of `sources`; nothing is instantiated yet. `load` reads them."""
         from fairlead.netlist.load import worked_out
 
-        self.libraries = libraries
+        self.libraries, self.allow_fmu = libraries, allow_fmu
         self.rebuilt = ""
         """Of a model made by `with_values`: why it shares no structure with the one it comes from, if it does not."""
         self._sources, self._overrides = sources, overrides
         netlist, self._faults = worked_out(sources, overrides)
         if netlist is None:
             raise ModelError(self._faults)
-        self.netlist: Netlist = _shown_in_a_line(netlist)
+        self.netlist: Netlist = _shown_in_a_line(replace(netlist, foreign_code=allow_fmu))
 
     @functools.cached_property
     def assembly(self) -> Assembly:
@@ -286,7 +289,8 @@ class Model:
         """
         from fairlead.renewal import renew
 
-        new = Model(self._sources, {**self._overrides, **_as_text(values)}, self.libraries)
+        given = {**self._overrides, **_as_text(values)}
+        new = Model(self._sources, given, self.libraries, allow_fmu=self.allow_fmu)
         if new._faults:
             new.check()
         if near is not None:
@@ -305,7 +309,7 @@ class Model:
 
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle holds: no stage, and of the libraries where they lie."""
-        kept = ("netlist", "rebuilt", "_sources", "_overrides", "_faults")
+        kept = ("netlist", "allow_fmu", "rebuilt", "_sources", "_overrides", "_faults")
         return {"libraries": tuple(map(os.path.abspath, self.libraries)), **{name: vars(self)[name] for name in kept}}
 
     def __repr__(self) -> str:

@@ -9,7 +9,7 @@ import typer
 
 import fairlead.cli.completion as completion
 from fairlead.cli.exit_codes import MODEL_ERROR
-from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import console, echo
 
 if TYPE_CHECKING:
@@ -25,7 +25,8 @@ def compare(
     vary: Annotated[
         list[str],
         typer.Option(
-            metavar="NAME=A,B,C", help="What to vary: pad.method=hold,binding,tanh. Repeatable: all pairs.",
+            metavar="NAME=A,B,C",
+            help="What to vary: pad.method=hold,binding,tanh. Repeatable: all pairs.",
             autocompletion=completion.settings,
         ),
     ],
@@ -38,6 +39,7 @@ def compare(
         typer.Option(metavar="DIR", help="Leave runs and figure here. Default: results/NAME-compare."),
     ] = None,
     max_wall: Annotated[float, typer.Option(help="Seconds after which each run is ended.")] = 60.0,
+    allow_fmu: AllowFmu = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -49,7 +51,8 @@ def compare(
 
     folder = out or pathlib.Path("results") / f"{pathlib.Path(netlist).stem}-compare"
     found = run_all(
-        lambda chosen: fairlead.load(netlist, set=chosen, libraries=libraries), parse_variations(vary),
+        lambda chosen: fairlead.load(netlist, set=chosen, libraries=libraries, allow_fmu=allow_fmu),
+        parse_variations(vary),
         settings=parse_settings(settings), out=folder, signals=signals, max_wall=max_wall,
     )  # fmt: skip
     figure = draw(found, folder / "compare.png")

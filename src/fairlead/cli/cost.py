@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.exit_codes import INTERRUPTED
-from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.study import Budget, Fresh, Outputs, number, say, write_record
 from fairlead.cli.terminal import echo
 
@@ -37,6 +37,7 @@ def cost(
     out: Annotated[
         pathlib.Path | None, typer.Option(metavar="DIR", help="Table and figure go here. Default: results/NAME-cost.")
     ] = None,
+    allow_fmu: AllowFmu = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -50,7 +51,7 @@ def cost(
 
     fixed, aim = parse_settings(settings), number("--target", target, "1")
     study = study_cost(
-        lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries),
+        lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries, allow_fmu=allow_fmu),
         _ladder(accuracy, engine, friction, creep, finer), budget=number("--budget", budget, "s"),
         signals=outputs or ["*"], kept=KeptRuns(None if fresh else default_folder()), libraries=libraries,
         full=full, note=None if quiet or as_json else say,

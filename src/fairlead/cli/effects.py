@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.exit_codes import INTERRUPTED
-from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.study import Budget, Fresh, Outputs, number, print_table, say, write_record
 from fairlead.cli.terminal import echo
 
@@ -37,6 +37,7 @@ def effects(
     out: Annotated[
         pathlib.Path | None, typer.Option(metavar="DIR", help="effects.json goes here. Default: results/NAME-effects.")
     ] = None,
+    allow_fmu: AllowFmu = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -48,7 +49,7 @@ def effects(
 
     fixed = parse_settings(settings)
     found = switch_all(
-        lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries),
+        lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries, allow_fmu=allow_fmu),
         budget=number("--budget", budget, "s"), signals=outputs or ["*"],
         kept=KeptRuns(None if fresh else default_folder()), libraries=libraries,
         note=None if quiet or as_json else say, window=(_moment("--from", begin), _moment("--to", end)),

@@ -31,6 +31,9 @@ Libraries = Annotated[
         show_default=False,
     ),
 ]
+AllowFmu = Annotated[
+    bool, typer.Option("--allow-fmu", help="Run the code of FMUs that the netlist names; it is foreign code.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON on standard output.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")]
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Print more, and tracebacks.")]

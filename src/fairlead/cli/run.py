@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
-from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import console, echo
 from fairlead.errors import RunWarning
 
@@ -41,6 +41,7 @@ def run(
     profile: Annotated[
         bool, typer.Option("--profile", help="Say which components cost the time, and one thing to try.")
     ] = False,
+    allow_fmu: AllowFmu = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -52,7 +53,7 @@ def run(
     from fairlead.simulate import Place
 
     chosen = read_settings(settings_file) if settings_file is not None else {}
-    model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries)
+    model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries, allow_fmu=allow_fmu)
     if report:
         from fairlead.analysis.statics.to_show import shown_besides
 

@@ -12,7 +12,7 @@ import typer
 
 import fairlead.cli.completion as completion
 from fairlead.cli.exit_codes import INTERRUPTED, NUMERICAL_FAILURE, OK
-from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import AllowFmu, AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError
 
@@ -75,6 +75,7 @@ def sweep(
         pathlib.Path | None, typer.Option(metavar="DIR", help="The table goes here. Default: results/NAME-sweep.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the table of another sweep.")] = False,
+    allow_fmu: AllowFmu = False,
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -96,7 +97,7 @@ def sweep(
             subject, parse_settings(settings), libraries, grid=grid or (), cases=cases, over=over or (), sample=sample,
             seed=seed, correlate=correlate or (), figures=figure or (), max_steps=max_steps, keep=keep or (),
         )  # fmt: skip
-    model = fairlead.load(plan.model, set=plan.settings, libraries=plan.libraries)
+    model = fairlead.load(plan.model, set=plan.settings, libraries=plan.libraries, allow_fmu=allow_fmu)
     job = Cases(model, plan.figures, max_steps=plan.max_steps or max_steps)
     words = (*plan.keep, *(keep or ())) if plan.keep else tuple(keep or ())
     chosen.refuse(words, list(job.units), plan.design.count)

@@ -38,13 +38,26 @@ from fairlead.component.functions import (
     sqrt,
     tanh,
 )  # fmt: skip
-from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.given import (
+    Block,
+    Choice,
+    Count,
+    Effect,
+    Entries,
+    File,
+    Name,
+    Parameter,
+    Part,
+    Stations,
+    Table,
+    Waveform,
+)  # fmt: skip
 from fairlead.component.holding import hold, hold_position
 
 __all__ = [
     "Block", "Carries", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect",
-    "Electrical", "Expansion", "Family", "Hydraulic", "Input", "Law", "Name", "Output", "Parameter", "Part", "Path",
-    "Rotational", "State", "Stations", "Summing", "Table", "Translational", "Unknown", "Waveform", "Zones", "atan",
-    "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest", "guard", "hold", "hold_position", "least",
-    "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh", "zone",
+    "Electrical", "Entries", "Expansion", "Family", "File", "Hydraulic", "Input", "Law", "Name", "Output",
+    "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Summing", "Table", "Translational", "Unknown",
+    "Waveform", "Zones", "atan", "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest", "guard",
+    "hold", "hold_position", "least", "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

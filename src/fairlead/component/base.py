@@ -51,13 +51,26 @@ from fairlead.component.declare import (
     Zones,
 )  # fmt: skip
 from fairlead.component.defaults import misfits, odd_kinds
-from fairlead.component.given import Block, Choice, Count, Effect, Name, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.given import (
+    Block,
+    Choice,
+    Count,
+    Effect,
+    Entries,
+    File,
+    Name,
+    Parameter,
+    Part,
+    Stations,
+    Table,
+    Waveform,
+)  # fmt: skip
 from fairlead.component.holding import HoldPosition
 from fairlead.component.replies import AnswerError, held_to, is_bundled
 from fairlead.errors import did_you_mean
 from fairlead.quantities import QuantityError, parse_unit
 
-PARAMETER_KINDS = (Parameter, Choice, Count, Name, Part, Block, Table, Waveform, Stations)
+PARAMETER_KINDS = (Parameter, Choice, Count, Name, File, Entries, Part, Block, Table, Waveform, Stations)
 CONTROLLERS = "fairlead.component.controller"
 LEDGER = ("dissipated", "supplied", "stored")
 RESERVED = {"type", "given", "variant", "path", "effects"}  # attributes of `values.Values` that would hide a parameter

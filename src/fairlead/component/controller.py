@@ -25,7 +25,7 @@ from fairlead.component.given import Parameter
 
 
 class Controller(Component, abstract=True):
-    """Base of controllers in plain Python: `sample(self, t, ...)`, and `begin(self)` where a run begins.
+    """Base of controllers in plain Python: `sample(self, t, ...)`, and `begin(self)` and `end(self)` round a run.
 
     Arguments of `sample` go by name: `t` and any input (a number in SI) or port (`shaft.speed`). Parameters are
     attributes of `self`. It returns the outputs as a map, or the number alone when there is one.
@@ -48,6 +48,9 @@ class Controller(Component, abstract=True):
 
     def begin(self) -> None:
         """Called before the first sample of a run."""
+
+    def end(self) -> None:
+        """Called when a run is over, however it ended; not of one that is stepped from outside."""
 
 
 def _check(cls: type[Controller]) -> None:

@@ -28,7 +28,9 @@ def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene,
         faults += wrong
         if not wrong:
             kept[name] = value
-    return Scene(kept, netlist.effects, netlist.path.parent), list(dict.fromkeys(faults))
+    return Scene(kept, netlist.effects, netlist.path.parent, foreign_code=netlist.foreign_code), list(
+        dict.fromkeys(faults)
+    )
 
 
 def unheard(netlist: Netlist, kinds: Iterable[type[Declared]]) -> list[Fault]:

@@ -88,6 +88,23 @@ class Name:
 
 
 @dataclass(frozen=True)
+class File:
+    """A file in the folder of the netlist or below, given relative to that; read as its whole path. No law sees it."""
+
+    doc: str = ""
+    default: Any = REQUIRED
+    ending: str = ""  # of those that a message offers
+
+
+@dataclass(frozen=True)
+class Entries:
+    """A map with keys of the user's own, read as pairs in their order; what it means is the class's business."""
+
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
 class Part:
     """A replaceable part of a law: an instance of a `family` of small declarations (such as a curve)."""
 

@@ -26,6 +26,8 @@ from fairlead.component.given import (
     Choice,
     Count,
     Effect,
+    Entries,
+    File,
     Name,
     Parameter,
     Part,
@@ -35,7 +37,7 @@ from fairlead.component.given import (
 )  # fmt: skip
 from fairlead.component.mistakes import explain
 from fairlead.component.replies import AnswerError
-from fairlead.component.tables import read_table, table_schema
+from fairlead.component.tables import file_inside, read_table, table_schema
 from fairlead.component.values import Values
 from fairlead.component.waveforms import read_waveform, waveform_schema
 from fairlead.errors import Fault, Location
@@ -132,8 +134,8 @@ def _field(declared: Any) -> tuple[Any, Any]:
         kind = Literal[declared.options]
     elif isinstance(declared, Count):
         kind = Annotated[int, BeforeValidator(whole), Field(ge=declared.least, le=declared.most)]
-    elif isinstance(declared, Name):
-        kind = Annotated[str, BeforeValidator(_named), _Schema({"type": "string", "pattern": NAME.pattern})]
+    elif isinstance(declared, Name | File | Entries):
+        kind = _own_words(declared)
     elif isinstance(declared, Part):
         kind = family_type(declared.family)
     elif isinstance(declared, Block):
@@ -150,7 +152,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
     described = _hover(declared)
     if default is ...:
         return kind, Field(description=described)
-    if not isinstance(default, str | int | float | None):
+    if not isinstance(default, str | int | float | tuple | None):
         return kind, default
     validated: Any = default is not None and not isinstance(declared, Choice)
     return kind, Field(default=default, description=described, validate_default=validated)
@@ -190,6 +192,37 @@ def _named(value: Any) -> str:
     if not isinstance(value, str) or not NAME.match(value):
         raise ValueError("write a name of small letters, digits and underscores")
     return value
+
+
+def _own_words(declared: Name | File | Entries) -> Any:
+    """What is written in words of the user's own."""
+    if isinstance(declared, Name):
+        return Annotated[str, BeforeValidator(_named), _Schema({"type": "string", "pattern": NAME.pattern})]
+    if isinstance(declared, File):
+        return Annotated[pathlib.Path, BeforeValidator(_file_of(declared)), _Schema({"type": "string"})]
+    return Annotated[tuple[Any, ...], BeforeValidator(_entries), _Schema({"type": "object"})]
+
+
+def _file_of(declared: File) -> Callable[[Any, ValidationInfo], pathlib.Path]:
+    """Reads the name of a file in the folder of the netlist. What it returns raises TableError."""
+
+    def parse(value: Any, info: ValidationInfo) -> pathlib.Path:
+        return (
+            value
+            if isinstance(value, pathlib.Path)
+            else file_inside((info.context or {})["folder"], value, declared.ending)
+        )
+
+    return parse
+
+
+def _entries(value: Any) -> tuple[tuple[str, Any], ...]:
+    """The pairs of a map. Raises ValueError for anything else."""
+    if isinstance(value, tuple):
+        return value
+    if not isinstance(value, Mapping):
+        raise ValueError("write a map {NAME: VALUE, ...}")
+    return tuple(value.items())
 
 
 def _values(kind: type[Declared], model: BaseModel) -> Values:

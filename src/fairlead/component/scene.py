@@ -57,6 +57,8 @@ class Scene:
     effects: Mapping[str, Value] = field(default_factory=dict)
     folder: pathlib.Path = field(default_factory=pathlib.Path)
     tally: Tally = field(default_factory=Tally)
+    foreign_code: bool = False
+    """Whether FMUs may run; who loads the netlist says so, never the netlist."""
 
     def make(self, kind: type[Declared], **given: Any) -> Values:
         """Values of a child, numbers in SI. A family head stands for the member the scene chose.

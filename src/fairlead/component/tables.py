@@ -212,20 +212,31 @@ def _hint(cell: str) -> str:
     return "A decimal comma is no point. " if comma else "Numbers of a file are in SI and have no unit. "
 
 
-def _inside(folder: pathlib.Path, name: str) -> pathlib.Path:
-    """The file of a name, which must lie below the folder and be of a bearable size."""
+def file_inside(folder: pathlib.Path, name: Any, ending: str) -> pathlib.Path:
+    """The file of a name, which must lie in the folder or below, links followed. Raises TableError."""
+    try:
+        return _inside(folder, str(name), ending)
+    except TableError as error:
+        raise TableError(error.what, error.way_out) from None
+    except (OSError, ValueError, RuntimeError) as error:  # no name of a file, or a link that leads to itself
+        reason = getattr(error, "strerror", None) or "this is no path to a file"
+        raise TableError(f" = {shown(name)} cannot be read: {reason}") from error
+
+
+def _inside(folder: pathlib.Path, name: str, ending: str = ".csv") -> pathlib.Path:
+    """The file of a name, which must lie below the folder and, as a table, be of a bearable size."""
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
         raise TableError(
             f" = {shown(name)} lies outside the folder of the netlist", "Put the file beside the netlist.", ("file",)
         )
     if not path.is_file():
-        beside = [file.name for file in folder.iterdir() if file.suffix == ".csv"]
+        beside = [file.name for file in folder.iterdir() if file.suffix == ending]
         near = did_you_mean(path.name, beside)
         raise TableError(
             f": there is no file {shown(name)} in the folder of the netlist. {near}".rstrip(" ."), "", ("file",)
         )
-    if path.stat().st_size > MOST_BYTES:
+    if ending == ".csv" and path.stat().st_size > MOST_BYTES:
         raise TableError(f" = {shown(name)} is larger than {MOST_BYTES} bytes", "", ("file",))
     return path
 

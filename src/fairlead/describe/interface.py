@@ -9,7 +9,20 @@ from typing import Any
 
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Input, Output, State, Unknown
-from fairlead.component.given import REQUIRED, Block, Choice, Count, Name, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.given import (
+    REQUIRED,
+    Block,
+    Choice,
+    Count,
+    Entries,
+    File,
+    Name,
+    Parameter,
+    Part,
+    Stations,
+    Table,
+    Waveform,
+)  # fmt: skip
 from fairlead.component.waveforms import TERMS
 from fairlead.describe.columns import columns, heading, wrapped
 from fairlead.errors import listing
@@ -110,6 +123,10 @@ def _allowed(declared: Any) -> str:
         return f"whole number, {declared.least} to {declared.most}"
     if isinstance(declared, Name):
         return "name"
+    if isinstance(declared, File):
+        return f"file{declared.ending and f' (*{declared.ending})'}"
+    if isinstance(declared, Entries):
+        return "map"
     if isinstance(declared, Part):
         return f"{declared.family.__name__}, see below"
     if isinstance(declared, Stations):
@@ -125,7 +142,7 @@ def _default(declared: Any) -> str:
         return "required" if any(d.default is REQUIRED for d in declared.parameters.values()) else ""
     if default is REQUIRED or isinstance(declared, Stations):
         return "required"
-    if default is None:
+    if default is None or default == ():
         return "may be left out"
     return f"= {default:g}" if isinstance(default, float) else f"= {default}"
 

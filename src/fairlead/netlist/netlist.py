@@ -106,6 +106,8 @@ class Netlist:
     """The files as they were read, by the name that messages call them; the netlist itself first."""
     given: Mapping[str, str] = field(default_factory=dict)
     """Values given from outside, by name (`--set`)."""
+    foreign_code: bool = False
+    """Whether code of FMUs may run (`--allow-fmu`): said by who loads it, never in the file."""
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

@@ -60,7 +60,7 @@ class Parcel:
         old = self.job.model
         sources = replace(old.sources, top=scene / old.sources.top.name)
         made = copy.copy(self.job)
-        made.model = Model(sources, old.overrides, tuple(libraries))
+        made.model = Model(sources, old.overrides, tuple(libraries), allow_fmu=old.allow_fmu)
         return made
 
 

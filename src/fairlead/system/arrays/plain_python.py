@@ -7,11 +7,13 @@ import ctypes
 import inspect
 import math
 import traceback
+import warnings
 from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
 from fairlead.component.instantiate import Instance
+from fairlead.errors import FairleadError, RunWarning
 from fairlead.system.arrays.blocks import Block, Memory
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -45,6 +47,8 @@ class CalledController:
     def complaint(self) -> str:
         """What went wrong, with the author's file and line."""
         assert self.failure is not None
+        if isinstance(self.failure, FairleadError):  # it says all there is to say
+            return f"t = {self.failed_at:.6g} s: {self.instance.path}: {self.failure}"
         frames = traceback.extract_tb(self.failure.__traceback__)
         file = inspect.getsourcefile(self.instance.type)
         own = [frame for frame in frames if frame.filename == file]
@@ -59,6 +63,17 @@ class CalledController:
     def know(self, what: Known) -> None:
         """Go on from there, on a copy."""
         self._object, (self.failure, self.failed_at) = copy.deepcopy(what[0]), what[1:]
+
+    def end(self) -> None:
+        """The run is over. What fails in it is a warning: the results are there."""
+        end = getattr(type(self._object), "end", None)
+        if not callable(end):  # never begun, or a signal of that name
+            return
+        try:
+            end(self._object)
+        except Exception as error:  # noqa: BLE001 - of a user's method, whatever it is
+            said = f"{self.instance.path}: {self.instance.type.__name__}.end fails: {type(error).__name__}: {error}"
+            warnings.warn(said, RunWarning, stacklevel=2)
 
     def take_over(self, other: CalledController) -> None:
         """Go on where another one of the same instance was."""
