@@ -27,7 +27,7 @@ class PmDrive(Composite):
     current_loop = Effect("The current follows what is asked for with a lag.")
     current = Output("A", "Current.")
     torque = Output("N*m", "Torque on the shaft.")
-    rate = Output("rad/s", "Speed of the shaft.")
+    speed = Output("rad/s", "Speed of the shaft.")
 
     def expand(p, scene):
         """Limit, motor, rotor."""
@@ -38,5 +38,6 @@ class PmDrive(Composite):
             "rotor": scene.make(Inertia, moment=p.inertia),
         }
         joins = [("limit.current", "motor.wanted"), ("motor.shaft", "rotor.shaft")]
-        shown = {"command": "limit.torque", "current": "motor.current", "torque": "motor.torque", "rate": "rotor.rate"}
+        told = {"current": "motor.current", "torque": "motor.torque", "speed": "rotor.speed"}
+        shown = {"command": "limit.torque", **told}
         return Expansion(children, joins, {"shaft": "rotor.shaft"}, shown)

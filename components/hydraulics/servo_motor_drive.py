@@ -87,7 +87,7 @@ class ServoMotorDrive(Composite):
     air = Effect("Entrained air makes the oil soft at low pressure.", "off")
     motor_friction = Effect("The shaft sticks and slides, and drags.")
     opening = Output("1", "Opening of the valve.")
-    rate = Output("rad/s", "Speed of the shaft.")
+    speed = Output("rad/s", "Speed of the shaft.")
     torque = Output("N*m", "Torque of the oil on the shaft.")
     load_pressure = Output("Pa", "Pressure of a over b.")
     level_a, level_b = Output("Pa", "Pressure at a."), Output("Pa", "Pressure at b.")
@@ -113,7 +113,7 @@ class ServoMotorDrive(Composite):
             joins.append(("load.friction", "rubbing.normal"))
             joins += [(f"{oil}.loose", "load.loose")] if children[oil].type is ThrottledMotor else []
         told = ("torque", "load_pressure", "level_a", "level_b")
-        shown = {"command": "spool.command", "opening": "spool.opening", "rate": "rotor.rate"}
+        shown = {"command": "spool.command", "opening": "spool.opening", "speed": "rotor.speed"}
         shown |= {name: f"{oil}.{name}" for name in told}
         return Expansion(children, [*joins, tuple(turning)], {**ports, "shaft": "rotor.shaft"}, shown)
 

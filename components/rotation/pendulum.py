@@ -18,15 +18,15 @@ class Pendulum(Component):
     hanging = Parameter("rad", "Angle of the shaft at which the mass hangs down.", default=0.0)
     angle = Parameter("rad", "Angle at the start.", default=None, physics=False)
     speed = Parameter("rad/s", "Angular speed at the start.", default=None, physics=False)
-    turned = Output("rad", "Angle.")
-    rate = Output("rad/s", "Angular speed.")
+    turned = Output("rad", "Angle.", name="angle")
+    rate = Output("rad/s", "Angular speed.", name="speed")
     load = Output("N*m", "Torque of gravity on the shaft.")
 
     def law(p, shaft):
         """Gravity pulls it to where it hangs down."""
         weight, lean = p.mass * GRAVITY * p.arm, shaft.angle - p.hanging
         kinetic = (p.moment + p.mass * p.arm**2) * shaft.speed**2 / 2
-        return Law(shaft=weight * sin(lean), turned=shaft.angle, rate=shaft.speed, load=-weight * sin(lean),
+        return Law(shaft=weight * sin(lean), angle=shaft.angle, speed=shaft.speed, load=-weight * sin(lean),
                    stored=kinetic + weight * (1 - cos(lean)))  # fmt: skip
 
     def inertia(p):

@@ -47,6 +47,6 @@ class Deployer(Station):
             "clamps": scene.make(Clamp, load=p.clamp),
         }
         ports = {"shaft": "wheel.shaft", "belt": "belts.rack", "clamp": "clamps.added"}
-        shown = {"rate": "wheel.rate", "pressing": "clamps.pressing"}
+        shown = {"speed": "wheel.speed", "pressing": "clamps.pressing"}
         clamp = {"clamp": "clamps.pressing", "load": p.clamp, "added": "clamps.added"}
         return Machinery(children, (("wheel.shaft", "belts.pinion"),), ports, shown, "belts.rack", **clamp)

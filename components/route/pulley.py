@@ -77,4 +77,4 @@ class Pulley(Station):
             children["load"] = scene.make(BearingLoad, share=share)
             joins += [("wheel.shaft", "bearing.shaft"), ("load.load", "bearing.normal")]
             total = "load.sum"
-        return Machinery(children, tuple(joins), ports, {"rate": "wheel.rate"}, "rim.rack", total=total)
+        return Machinery(children, tuple(joins), ports, {"speed": "wheel.speed"}, "rim.rack", total=total)

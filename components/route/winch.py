@@ -68,7 +68,7 @@ class Winch(Station):
     def machinery(p, scene):
         """Drum with a rim, or with a radius that follows its angle."""
         drum = scene.make(Inertia, moment=p.moment)
-        shown = {"rate": "drum.rate", "turned": "drum.turned"}
+        shown = {"speed": "drum.speed", "angle": "drum.angle"}
         if p.layers == "off":
             children = {"drum": drum, "rim": scene.make(Rack, radius=p.radius)}
             ports = {"shaft": "drum.shaft", "rim": "rim.rack"}

@@ -91,15 +91,15 @@ class SpeedSource(Component):
         "rad", "Angle at t = 0 when the speed is given; else where the driven shaft starts.", default=None,
         physics=False,
     )
-    turned = Output("rad", "Angle.")
-    rate = Output("rad/s", "Angular speed.")
+    turned = Output("rad", "Angle.", name="angle")
+    rate = Output("rad/s", "Angular speed.", name="speed")
     acceleration = Output("rad/s^2", "Angular acceleration.")
     torque = Output("N*m", "Torque the source gives, positive forward.")
 
     def law(p, shaft, t):
         """Angle and its derivatives; the ledger takes the torque from the balance at the node."""
         return Law(
-            shaft=0, turned=p.motion(t), rate=p.motion.rate(t), acceleration=p.motion.second(t), torque=shaft.torque,
+            shaft=0, angle=p.motion(t), speed=p.motion.rate(t), acceleration=p.motion.second(t), torque=shaft.torque,
             supplied=shaft.torque * shaft.speed,
         )  # fmt: skip
 
@@ -107,7 +107,7 @@ class SpeedSource(Component):
 
     def prescribes():
         """Names of the outputs that are the angle, speed and acceleration of the shaft."""
-        return {"shaft": ("turned", "rate", "acceleration")}
+        return {"shaft": ("angle", "speed", "acceleration")}
 
     def check(p):
         """Exactly one of the two ways."""

@@ -16,6 +16,7 @@ from fairlead.analysis.record.suggestion import suggest
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.interface import Outer, OuterInput
 from fairlead.quantities import QuantityError, fits, parse_unit, si
+from fairlead.renamed import now_called
 from fairlead.system.compiled.opened import FreeInput, free_inputs
 
 if TYPE_CHECKING:
@@ -81,12 +82,13 @@ def find_outputs(
     found, seen, faults = dict(columns), list[Variable](), list[Fault]()
     for name, outer in netlist.interface.outputs.items():
         what, place = f"interface.outputs.{name}", _place(netlist, "outputs", name)
-        if outer.of not in columns:
+        of = now_called(outer.of, columns) or outer.of
+        if of not in columns:
             near, way_out = suggest(outer.of, list(units))
             faults.append(Fault(place, f"{what}: no signal has the name {shown(outer.of)}. {near}".rstrip(), way_out))
             continue
-        found[name] = columns[outer.of]
-        variable, wrong = _variable(name, "output", outer, units[outer.of], what, place)
+        found[name] = columns[of]
+        variable, wrong = _variable(name, "output", outer, units[of], what, place)
         seen.append(variable)
         faults += wrong
     return found, tuple(seen), faults

@@ -33,6 +33,7 @@ from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Saved, Underway
 from fairlead.outer import find_inputs, find_outputs
 from fairlead.quantities import QuantityError, si
+from fairlead.renamed import now_called
 from fairlead.run import engine_settings, failure_of, named_change, not_allowed, refused
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
@@ -131,6 +132,7 @@ class Stepping:
     def get(self, name: str) -> float:
         """A signal where the run is, in SI. Raises UsageError for a name that no signal has."""
         self._begin()
+        name = now_called(name, self._columns) or name if isinstance(name, str) else name
         if name not in self._columns:
             near, way_out = suggest(str(name), list(self._columns))
             raise UsageError(f"get: no signal has the name {shown(str(name))}. {near} {way_out}".rstrip())

@@ -13,13 +13,29 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection
 
+from fairlead.renamed import of_today
+
 LONGEST = 1000
 """Characters of a pattern; nothing in a model has so long a name."""
 INDEX = r"(?:\[\d+\])?"
 
 
 def picked(names: Collection[str], pattern: str) -> list[str]:
-    """The names that fit a pattern, in their own order; one without * and ? is looked up (give a set or a dict)."""
+    """The names that fit a pattern, in their own order; one without * and ? is looked up (give a set or a dict).
+
+    Where none does, the old name of an output (`rotor.rate`) stands for that of today.
+    """
+    found = _picked(names, pattern)
+    return found or _picked(names, as_today(names, pattern))
+
+
+def as_today(names: Collection[str], pattern: str) -> str:
+    """The pattern with today's name of an output, if only so it fits; else ""."""
+    today = of_today(pattern)
+    return today if today and not _picked(names, pattern) and _picked(names, today) else ""
+
+
+def _picked(names: Collection[str], pattern: str) -> list[str]:
     if "*" not in pattern and "?" not in pattern:
         return [pattern] if pattern in names else []
     return [*filter(matcher(pattern), names)]

@@ -251,7 +251,7 @@ TENSION = """
 def test_torque_mode_keeps_the_tension_but_for_what_the_drum_takes_to_turn(simulate):
     """Steady: T = wanted. While the line accelerates by a: T = wanted + J a/R^2."""
     text = TENSION.replace("CONTROL", "{type: TensionTorque, wanted: 200 N, drum_radius: 0.5 m}").replace(
-        "CONNECTIONS", "- [drum.rate, control.speed]\n      - [control.torque, drive.torque]"
+        "CONNECTIONS", "- [drum.speed, control.speed]\n      - [control.torque, drive.torque]"
     )
     result = simulate(text)
     assert result.at("line.tension", 0.9) == pytest.approx(200, rel=1e-3)

@@ -38,11 +38,11 @@ components:
 connections:
   - [drive.shaft, rotor.shaft]
   - [wanted.signal, control.reference]
-  - [rotor.rate, control.measured]
+  - [rotor.speed, control.measured]
   - [control.command, drive.torque]
 effects: {sampling: off}
 run: {stop: 4 s, accuracy: 1e-7}
-record: {signals: [rotor.rate, control.command], every: 50 ms}
+record: {signals: [rotor.speed, control.command], every: 50 ms}
 """
 
 
@@ -50,7 +50,7 @@ def test_a_pi_controller_without_sampling_is_ideal(simulate):
     """w' = 2 (1 - w) + 2 int (1 - w):  w = 1 - exp(-t) (cos t - sin t), and the command is 2 from the first instant."""
     result = simulate(SPEED)
     exact = 1 - np.exp(-result.t) * (np.cos(result.t) - np.sin(result.t))
-    assert result["rotor.rate"] == pytest.approx(exact, abs=1e-5)
+    assert result["rotor.speed"] == pytest.approx(exact, abs=1e-5)
     assert result["control.command"][0] == pytest.approx(2.0)
 
 
@@ -80,12 +80,12 @@ components:
   rotor: {type: Inertia, moment: 2 kg*m^2}
 connections: [[source.shaft, rotor.shaft]]
 run: {stop: 2 s}
-record: {signals: [source.*, rotor.turned], every: 100 ms}
+record: {signals: [source.*, rotor.angle], every: 100 ms}
 """)
     assert result.at("source.torque", 0.55) == pytest.approx(6.0)
     assert result.at("source.torque", 1.55) == pytest.approx(0.0, abs=1e-9)
-    assert result.at("source.turned", 1.0) == pytest.approx(1.5)
-    assert result.at("rotor.turned", 2.0) == pytest.approx(4.5)
+    assert result.at("source.angle", 1.0) == pytest.approx(1.5)
+    assert result.at("rotor.angle", 2.0) == pytest.approx(4.5)
 
 
 def test_a_sum_adds_what_is_connected(simulate):

@@ -27,7 +27,7 @@ MOTOR = """
       - [drive.shaft, load.shaft]
     friction: {method: hold}
     run: {stop: 1.3 s, accuracy: 1e-6}
-    record: {signals: [drive.rate, drive.opening], every: 10 ms}
+    record: {signals: [drive.speed, drive.opening], every: 10 ms}
 """
 CYLINDER = """
     components:
@@ -97,10 +97,10 @@ def test_a_motor_drive_with_an_effect_off_is_the_limit_of_on(simulate, effect):
     name = f"{owner(effect)}.effects.{effect.split(',')[0]}"
     on = simulate(MOTOR, **besides, **limit, **{name: "on"})
     off = simulate(MOTOR, **besides, **{name: "off"})
-    assert difference(off, on, "drive.rate") < tolerance
+    assert difference(off, on, "drive.speed") < tolerance
     usual = simulate(MOTOR, **besides, **{name: "on"})
     if effect != "cavitation":
-        assert difference(off, usual, "drive.rate") > 10 * tolerance  # the effect matters where it is not in the limit
+        assert difference(off, usual, "drive.speed") > 10 * tolerance  # the effect matters where it is not in the limit
 
 
 @pytest.mark.parametrize("effect", CYLINDER_LIMITS)
@@ -170,7 +170,7 @@ def test_the_pressures_without_compression_are_those_of_the_formula(simulate):
     text = MOTOR.replace("drive.opening]", "drive.opening, drive.load_pressure]")
     result = simulate(text, **off)
     at = (result.t > 0.1) & (result.t < 0.6)
-    conductance, displaced = 40e-3 / 60 / np.sqrt(35e5), 125e-6 / (2 * np.pi) * result["drive.rate"][at]
+    conductance, displaced = 40e-3 / 60 / np.sqrt(35e5), 125e-6 / (2 * np.pi) * result["drive.speed"][at]
     formula = 178e5 - 2 * (displaced / (conductance * result["drive.opening"][at])) ** 2
     np.testing.assert_allclose(result["drive.load_pressure"][at], formula, atol=2e3)  # the laminar part, below 1 bar
 
@@ -179,7 +179,7 @@ def test_a_closed_valve_without_compression_locks_the_shaft(simulate):
     off = {**TIGHT, "drive.effects.valve_dynamics": "off"}
     result = simulate(MOTOR, **off)
     locked = (result.t > 0.71) & (result.t < 0.9)
-    assert np.abs(result["drive.rate"][locked]).max() < 1e-9
+    assert np.abs(result["drive.speed"][locked]).max() < 1e-9
     assert {"closed", "backward"} == {e.zone_to for e in result.events if e.component == "drive.oil"}
 
 

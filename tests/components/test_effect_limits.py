@@ -239,10 +239,10 @@ DRUM = """
       - [drive.shaft, route.winch.shaft]
       - [weight.flange, rope.outboard]
     run: {stop: 0.6 s, accuracy: 1e-6}
-    record: {signals: [route.winch.rate, "rope.line[*].tension"], every: 10 ms}
+    record: {signals: [route.winch.speed, "rope.line[*].tension"], every: 10 ms}
 """
 
 
 def test_layers_of_a_line_without_thickness_leave_the_radius_as_it_is(simulate):
     thin = simulate(DRUM, **{"route.stations.0.layers": "on"})
-    assert difference(thin, simulate(DRUM), "route.winch.rate") < 1e-4
+    assert difference(thin, simulate(DRUM), "route.winch.speed") < 1e-4

@@ -23,10 +23,10 @@ def test_a_dc_motor_runs_up_to_its_no_load_speed_with_its_time_constant(simulate
     """w = U/K (1 - exp(-t/tau)), tau = J R/K^2, for an inductance that does not matter."""
     result = simulate(DC)
     tau = J * R / K**2
-    np.testing.assert_allclose(result["rotor.rate"], U / K * -np.expm1(-result.t / tau), atol=1e-4 * U / K)
-    assert result["rotor.rate"][-1] == pytest.approx(U / K * -np.expm1(-0.5 / tau), rel=1e-4)
+    np.testing.assert_allclose(result["rotor.speed"], U / K * -np.expm1(-result.t / tau), atol=1e-4 * U / K)
+    assert result["rotor.speed"][-1] == pytest.approx(U / K * -np.expm1(-0.5 / tau), rel=1e-4)
     assert result.run["energy"]["closure"] < 1e-6
-    charged = J * result["rotor.rate"][-1] ** 2 / 2
+    charged = J * result["rotor.speed"][-1] ** 2 / 2
     assert result.run["energy"]["dissipated"] == pytest.approx(charged, rel=2e-3)  # half is lost, run up without load
 
 
@@ -40,7 +40,7 @@ def test_a_dc_motor_stalls_with_k_u_over_r(simulate):
     result = simulate(text)
     assert result["motor.torque"][-1] == pytest.approx(K * U / R, rel=1e-4)
     assert result["brake.torque"][-1] == pytest.approx(K * U / R, rel=1e-4)
-    assert abs(result["rotor.rate"][-1]) < 1e-12
+    assert abs(result["rotor.speed"][-1]) < 1e-12
 
 
 def test_the_current_of_a_stalled_motor_rises_with_l_over_r(simulate):
@@ -53,7 +53,7 @@ def test_without_the_current_loop_a_dc_motor_is_its_limit_and_has_no_current_as_
     off = {"motor.effects.current_loop": "off"}
     assert "motor.flowing" not in scene(DC, **off).system.unknown_names
     times = np.linspace(0.01, 0.5, 50)
-    ends = [simulate(DC, **settings).at("rotor.rate", times) for settings in ({"motor.inductance": "1e-9 V*s/A"}, off)]
+    ends = [simulate(DC, **settings).at("rotor.speed", times) for settings in ({"motor.inductance": "1e-9 V*s/A"}, off)]
     np.testing.assert_allclose(*ends, atol=1e-4 * U / K)
 
 
@@ -67,7 +67,7 @@ LIMITED = """
       rotor: {type: Inertia, moment: 2e-3 kg*m^2, speed: 0 rad/s}
     connections: [[command.signal, drive.command], [drive.shaft, rotor.shaft]]
     run: {stop: 1.4 s, accuracy: 1e-6}
-    record: {signals: [drive.*, rotor.rate]}
+    record: {signals: [drive.*, rotor.speed]}
 """
 
 
@@ -76,10 +76,10 @@ def test_an_amplifier_keeps_to_its_current_and_its_voltage(simulate):
     assert np.abs(result["drive.current"]).max() == pytest.approx(30, rel=1e-6)
     braked = np.abs(result["drive.current"]) > 29.9999  # it is kept by what voltage that takes
     assert np.abs(result["drive.voltage"])[~braked].max() <= 48 + 1e-6
-    at = result.at("rotor.rate", [0.05, 0.1])
+    at = result.at("rotor.speed", [0.05, 0.1])
     assert at[1] - at[0] == pytest.approx(0.05 * 30 * K / J, rel=1e-6)  # constant torque while limited
     assert {event.zone_to for event in result.events} >= {"forward", "backward", "upper"}
-    assert result["rotor.rate"][-1] == pytest.approx(20 / K, rel=1e-3)
+    assert result["rotor.speed"][-1] == pytest.approx(20 / K, rel=1e-3)
     assert result.run["energy"]["closure"] < 1e-6
 
 
@@ -99,7 +99,7 @@ def test_a_pm_drive_gives_its_torque_within_its_current(simulate):
     result = simulate(PM)
     assert result.at("drive.torque", 0.4) == pytest.approx(0.4 * 25, rel=1e-6)  # 12 N m would take 30 A
     assert result["drive.torque"][-1] == pytest.approx(-3, rel=1e-6)
-    gained = np.diff(result.at("drive.rate", [0.2, 0.4]))[0]
+    gained = np.diff(result.at("drive.speed", [0.2, 0.4]))[0]
     assert gained == pytest.approx(0.2 * 10 / 0.02, rel=1e-6)
     assert result.run["energy"]["closure"] < 1e-6
 
@@ -116,7 +116,7 @@ def test_the_voltage_limits_the_speed_at_which_a_torque_is_to_be_had(simulate):
     """Held at its voltage the motor comes to the speed U/K, where it has no torque left."""
     text = PM.replace("[0, 0.01, 0.5, 0.51]", "[0, 0.01, 8, 9]")
     result = simulate(text, **{"drive.effects.winding": "on", "run.stop": "6 s"})
-    assert result["drive.rate"][-1] == pytest.approx(200 / 0.4, rel=1e-3)
+    assert result["drive.speed"][-1] == pytest.approx(200 / 0.4, rel=1e-3)
     assert any(event.zone_to == "upper" and event.component == "drive.motor" for event in result.events)
     assert result.run["energy"]["closure"] < 1e-6
 
@@ -126,5 +126,5 @@ def test_without_current_loop_the_current_is_the_one_asked_for(scene, simulate):
     assert scene(PM, **off).system.unknown_names[:2] == ["drive.rotor.angle", "drive.rotor.speed"]
     assert not [name for name in scene(PM, **off).system.unknown_names if "motor" in name]
     times = np.linspace(0.02, 1.0, 50)
-    ends = [simulate(PM, **settings).at("drive.rate", times) for settings in ({"drive.lag": "1 us"}, off)]
+    ends = [simulate(PM, **settings).at("drive.speed", times) for settings in ({"drive.lag": "1 us"}, off)]
     np.testing.assert_allclose(*ends, atol=2e-3)  # a lag of 1 us in torque is 0.5 ms/s^2 * 1 us * 1000 rad/s^2 behind

@@ -27,18 +27,18 @@ def rate_of_change(result, name):
 
 def test_a_gear_turns_in_its_ratio_and_gives_torque_in_the_inverse(simulate):
     result = simulate(GEARBOX, **{"effects.gear_friction": "off"})
-    np.testing.assert_allclose(result["load.rate"], result["rotor.rate"] / 10, rtol=1e-12)
+    np.testing.assert_allclose(result["load.speed"], result["rotor.speed"] / 10, rtol=1e-12)
     exact = (20 * 10 - 100) / (8 + 0.05 * 10**2)
-    assert rate_of_change(result, "load.rate") == pytest.approx(exact, rel=1e-9)
+    assert rate_of_change(result, "load.speed") == pytest.approx(exact, rel=1e-9)
     assert result.run["energy"]["closure"] < 1e-9
 
 
 def test_a_lossy_gearbox_passes_its_share_of_the_torque(simulate):
     """J_b a = eta T_mesh - 100, and T_mesh = 10 (20 - J_a 10 a): both at shaft b."""
     result = simulate(GEARBOX)
-    np.testing.assert_allclose(result["load.rate"], result["rotor.rate"] / 10, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(result["load.speed"], result["rotor.speed"] / 10, rtol=1e-9, atol=1e-12)
     exact = (0.9 * 20 * 10 - 100) / (8 + 0.9 * 0.05 * 10**2)
-    assert rate_of_change(result, "load.rate") == pytest.approx(exact, rel=1e-5)  # 1e-3 N m of the load is rounded
+    assert rate_of_change(result, "load.speed") == pytest.approx(exact, rel=1e-5)  # 1e-3 N m of the load is rounded
     mesh = 10 * (20 - 0.05 * 10 * exact)
     assert result["gearbox.torque"][-1] == pytest.approx(mesh, rel=1e-6)
     assert result["gearbox.loss"][-1] == pytest.approx(0.1 * mesh, rel=1e-5)
@@ -48,7 +48,7 @@ def test_a_lossy_gearbox_passes_its_share_of_the_torque(simulate):
 def test_driven_backwards_the_share_that_arrives_is_one_over_two_less_the_efficiency(simulate):
     """The load of 100 N m drives the motor, which brakes with 5: T_mesh (1 + 0.1) = 100 - J_b a at shaft b."""
     result = simulate(GEARBOX, drive="5 N*m")
-    slowing = rate_of_change(result, "load.rate")
+    slowing = rate_of_change(result, "load.speed")
     mesh = 10 * (5 - 0.05 * 10 * slowing)
     assert mesh * 1.1 == pytest.approx(100 + 8 * slowing, rel=1e-5)
     assert slowing < 0
@@ -59,7 +59,7 @@ def test_between_both_a_lossy_gearbox_sticks(simulate):
     """100 N m at b are held by any torque at a between 100/10/1.1 and 100/10/0.9."""
     for drive, moves in ((9.2, False), (10.9, False), (8.9, True), (11.3, True)):
         result = simulate(GEARBOX, drive=f"{drive} N*m")
-        assert (abs(result["load.rate"][-1]) > 1e-3) == moves, drive
+        assert (abs(result["load.speed"][-1]) > 1e-3) == moves, drive
 
 
 def test_without_play_the_teeth_are_the_limit_of_stiff_ones(simulate):
@@ -70,15 +70,15 @@ def test_without_play_the_teeth_are_the_limit_of_stiff_ones(simulate):
         on = simulate(GEARBOX, **{"effects.backlash": "on", "gearbox.play": "0", "gearbox.stiffness": stiffness,
                                   "gearbox.damping": 100})  # fmt: skip
         times = np.linspace(0.2, 2, 10)
-        differences.append(np.abs(on.at("load.rate", times) - off.at("load.rate", times)).max())
-    assert differences[1] < 1e-4 * off["load.rate"][-1]
+        differences.append(np.abs(on.at("load.speed", times) - off.at("load.speed", times)).max())
+    assert differences[1] < 1e-4 * off["load.speed"][-1]
     assert differences[1] < 0.05 * differences[0]
 
 
 def test_without_friction_the_efficiency_is_one(simulate):
     off = simulate(GEARBOX, **{"effects.gear_friction": "off"})
     on = simulate(GEARBOX, **{"gearbox.efficiency": "0.9999999"})
-    assert on["load.rate"][-1] == pytest.approx(off["load.rate"][-1], rel=1e-5)
+    assert on["load.speed"][-1] == pytest.approx(off["load.speed"][-1], rel=1e-5)
 
 
 def test_what_is_off_in_a_gearbox_is_absent(scene):
@@ -101,7 +101,7 @@ def test_play_lets_the_load_stand_until_the_gap_is_crossed(simulate):
     (first, *_) = [event.t for event in result.events if event.zone_to == "drive"]
     # shaft b of the gear turns a tenth of the rotor: 0.01 rad at b are 0.1 rad at a
     assert first == pytest.approx(np.sqrt(2 * 0.1 * 0.05 / 20), rel=1e-6)
-    assert result.at("load.rate", first - 6e-3) == 0
+    assert result.at("load.speed", first - 6e-3) == 0
     assert result.run["energy"]["closure"] < 1e-5
 
 
@@ -117,4 +117,4 @@ def test_a_winch_accelerates_with_the_torque_and_the_pull(simulate):
         run: {stop: 4 s}
     """
     result = simulate(text)
-    assert result["drum.rate"][-1] == pytest.approx(4 * (-300 + 0.65 * 1386) / 1150, rel=1e-9)
+    assert result["drum.speed"][-1] == pytest.approx(4 * (-300 + 0.65 * 1386) / 1150, rel=1e-9)

@@ -103,7 +103,7 @@ def test_a_motor_between_closed_volumes_swings_at_its_hydraulic_frequency(scene)
 def test_it_swings_as_the_closed_form_says_and_keeps_its_energy(simulate):
     result = simulate(CLOSED)
     w, swing = DRIVE.natural_frequency, 0.5 * 1.025 * DRIVE.natural_frequency / DRIVE.displacement / 2
-    np.testing.assert_allclose(result["load.rate"], 0.5 * np.cos(w * result.t), atol=1e-5)
+    np.testing.assert_allclose(result["load.speed"], 0.5 * np.cos(w * result.t), atol=1e-5)
     np.testing.assert_allclose(result["a.level"], 90e5 - swing * np.sin(w * result.t), atol=1e-4 * swing)
     assert result.run["energy"]["closure"] < 1e-6
     assert result.run["energy"]["supplied"] == 0
@@ -135,8 +135,8 @@ def test_a_valve_and_a_motor_reach_the_speed_of_the_closed_form(simulate):
     square_root = drive.no_load_speed(0.5)
     half = (drive.supply - drive.tank) / 2
     exact = drive.conductance * 0.5 * throttled(1.0, half, drive.critical) / drive.displacement
-    assert result["drive.rate"][-1] == pytest.approx(exact, rel=1e-6)
-    assert result["drive.rate"][-1] == pytest.approx(square_root, rel=5e-5)
+    assert result["drive.speed"][-1] == pytest.approx(exact, rel=1e-6)
+    assert result["drive.speed"][-1] == pytest.approx(square_root, rel=5e-5)
     assert square_root * drive.radius / drive.gear * 2 == pytest.approx(1.158, abs=5e-4)  # line speed, fully open
     assert result.run["energy"]["closure"] < 1e-5
 
@@ -153,7 +153,7 @@ def test_a_motor_that_cannot_turn_gives_its_stall_torque(simulate):
     assert result["drive.torque"][-1] == pytest.approx(Drive().stall_torque, rel=1e-6)
     assert result["brake.torque"][-1] == pytest.approx(Drive().stall_torque, rel=1e-6)
     assert Drive().stall_torque * 30 / 0.65 == pytest.approx(16.3e3, abs=50)  # line pull of the winch at stall
-    assert result["drive.rate"][-1] == pytest.approx(0.0, abs=1e-12)
+    assert result["drive.speed"][-1] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_with_a_load_pressure_the_speed_is_that_of_what_is_left(simulate):
@@ -167,7 +167,7 @@ def test_with_a_load_pressure_the_speed_is_that_of_what_is_left(simulate):
     drive = Drive()
     left = (drive.supply - drive.tank - 100 / drive.displacement) / 2
     speed = drive.conductance * 0.5 * math.sqrt(left) / drive.displacement
-    assert result["drive.rate"][-1] == pytest.approx(speed, rel=1e-4)
+    assert result["drive.speed"][-1] == pytest.approx(speed, rel=1e-4)
     assert result["drive.load_pressure"][-1] == pytest.approx(100 / drive.displacement, rel=1e-5)
 
 
@@ -185,7 +185,7 @@ def test_leakage_lets_a_locked_motor_turn_under_load_at_the_speed_of_the_closed_
     """
     result = simulate(text)
     turning = -100 * 4e-12 / DRIVE.displacement**2
-    assert result["rotor.rate"][-1] == pytest.approx(turning, rel=1e-5)
+    assert result["rotor.speed"][-1] == pytest.approx(turning, rel=1e-5)
     assert result["motor.load_pressure"][-1] == pytest.approx(100 / DRIVE.displacement, rel=1e-6)
 
 
@@ -205,7 +205,7 @@ CAVITATING = """
 def test_oil_that_is_drawn_away_leaves_a_void_that_is_filled_again_to_the_last_drop(simulate):
     """A rotor that swings draws oil out and pushes it back; what is missing beside the compression is the void."""
     result = simulate(CAVITATING)
-    displaced = 20e-6 / (2 * math.pi) * result["rotor.turned"]
+    displaced = 20e-6 / (2 * math.pi) * result["rotor.angle"]
     squeezed = 0.5e-3 / BETA * (10e5 - result["oil.level"])
     assert result["oil.level"].min() > -5e3  # of some 20 bar that the swing would ask for
     void = displaced - squeezed
@@ -214,7 +214,7 @@ def test_oil_that_is_drawn_away_leaves_a_void_that_is_filled_again_to_the_last_d
     filled = [event.t for event in result.events if event.zone_to == "full" and event.t > 0]
     assert len(filled) == 2  # in two swings
     np.testing.assert_allclose(result.at("oil.level", filled[0] + 0.02), 10e5 - BETA / 0.5e-3 * 20e-6 / (2 * math.pi)
-                               * result.at("rotor.turned", filled[0] + 0.02), atol=5e3)  # fmt: skip
+                               * result.at("rotor.angle", filled[0] + 0.02), atol=5e3)  # fmt: skip
     assert result.run["energy"]["closure"] < 1e-6
     bare = simulate(CAVITATING, **{"oil.effects.cavitation": "off"})
     assert bare["oil.level"].min() < -10e5
@@ -242,7 +242,7 @@ def test_air_in_the_limit_of_none_is_oil(simulate):
     text = CLOSED.replace("effects: {cavitation: off}", "air_share: 1e-9, effects: {air: on}")
     frequency = DRIVE.natural_frequency
     result = simulate(text)
-    np.testing.assert_allclose(result["load.rate"], 0.5 * np.cos(frequency * result.t), atol=2e-4)
+    np.testing.assert_allclose(result["load.speed"], 0.5 * np.cos(frequency * result.t), atol=2e-4)
 
 
 def test_an_accumulator_holds_the_gas_volumes_of_the_closed_form(simulate):

@@ -44,8 +44,8 @@ def test_a_clutch_locks_at_the_common_speed_with_the_heat_of_the_closed_form(sim
     result = simulate(ENGAGED, method=method)
     assert result.status == "finished", result.run["sentence"]
     # A regularised clutch comes to rest only asymptotically; bristles ring by their deflection, some 20 um at 0.1 m.
-    assert result["engine.rate"][-1] == pytest.approx(COMMON, rel=1e-4)
-    assert result["load.rate"][-1] == pytest.approx(COMMON, rel=1e-4)
+    assert result["engine.speed"][-1] == pytest.approx(COMMON, rel=1e-4)
+    assert result["load.speed"][-1] == pytest.approx(COMMON, rel=1e-4)
     assert result["energy.dissipated"][-1] == pytest.approx(INERTIA * SLIP**2 / 2, rel=1e-4)
 
 
@@ -99,8 +99,8 @@ def test_a_braked_shaft_stops_after_the_angle_of_the_closed_form(simulate, kind)
     """
     result = simulate(scene)
     torque = 0.2 * 0.4 * 100
-    assert result["wheel.turned"][-1] == pytest.approx(0.5 * 20**2 / (2 * torque), rel=1e-6)
-    assert abs(result["wheel.rate"][-1]) < 1e-9
+    assert result["wheel.angle"][-1] == pytest.approx(0.5 * 20**2 / (2 * torque), rel=1e-6)
+    assert abs(result["wheel.speed"][-1]) < 1e-9
 
 
 def test_a_shaft_takes_every_treatment_but_those_that_are_there_to_be_looked_at():

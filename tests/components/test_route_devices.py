@@ -135,7 +135,7 @@ WHEEL = "type: Pulley, start: 3 m, angle: 90 deg, radius: 0.5 m, friction: 0.6, 
 def test_26_an_idle_sheave_leaves_the_tension_as_it_is(simulate):
     result = simulate(hauled(f"{{{WHEEL}}}"))
     assert pull(result) == pytest.approx(100, rel=1e-3)
-    rim = result["route.pulley.wheel.rate"][-1] * 0.5
+    rim = result["route.pulley.wheel.speed"][-1] * 0.5
     assert rim == pytest.approx(-0.2, abs=2e-3)  # it turns with the rope
 
 
@@ -190,7 +190,7 @@ record: {{every: 10 ms}}
 """
     result = simulate(text)
     mass = 100 / 0.5**2 + 0.2 * 20
-    assert result["route.winch.drum.rate"][-1] * 0.5 == pytest.approx((500 - 300) / mass * 4.0, rel=2e-3)
+    assert result["route.winch.drum.speed"][-1] * 0.5 == pytest.approx((500 - 300) / mass * 4.0, rel=2e-3)
 
 
 STORED = f"""
@@ -257,7 +257,7 @@ record: {{every: 10 ms}}
     assert radius[-1] == pytest.approx(0.6425, abs=1e-9)
     assert speed[np.searchsorted(result.t, 1.0)] == pytest.approx(2 * 0.7161, rel=1e-3)
     assert speed[-1] == pytest.approx(2 * 0.6425, rel=1e-3)
-    turned = result["route.winch.drum.turned"]
+    turned = result["route.winch.drum.angle"]
     changed = turned[np.argmax(radius < (0.7161 + 0.6425) / 2)]  # 22 + 18 - 36.3 m were in the second layer
     assert changed == pytest.approx((40 - 36.33) / 0.7161, abs=0.05)
 

@@ -48,7 +48,7 @@ def test_a_small_swing_has_its_period(tmp_path) -> None:
     result = run(tmp_path, SWING)
     w = math.sqrt(0.49 * G * 0.1 / (0.002 + 0.49 * 0.01))
     expected = 0.2 + 1e-3 * np.cos(w * result.t)
-    assert result["bob.turned"] == pytest.approx(expected, abs=2e-8)  # the cube of the swing over 16 shifts the phase
+    assert result["bob.angle"] == pytest.approx(expected, abs=2e-8)  # the cube of the swing over 16 shifts the phase
 
 
 @pytest.mark.parametrize(("motor_share", "load_share"), [(0.3, 0.1), (0.1, 0.3), (0.2, 0.0), (0.0, 0.0)])

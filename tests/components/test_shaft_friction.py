@@ -13,7 +13,7 @@ components:
   motor: {{type: TorqueSource, torque: {torque}}}
 connections: [[housing.shaft, rubbing.a], [rubbing.b, rotor.shaft, motor.shaft]]
 run: {{stop: {stop}, accuracy: 1e-6}}
-record: {{signals: [rotor.rate, rubbing.*]}}
+record: {{signals: [rotor.speed, rubbing.*]}}
 """
 
 
@@ -26,20 +26,20 @@ def scene_of(friction, speed="10 rad/s", torque="0", stop="6 s"):
 def test_a_constant_torque_stops_a_rotor(simulate, friction, method):
     """2 kg m^2 at 10 rad/s against 4 N m: 5 s, at 2 rad/s^2."""
     result = simulate(scene_of(f"{friction}, method: {method}"))
-    assert result.at("rotor.rate", 2.0) == pytest.approx(6.0, rel=1e-4)
+    assert result.at("rotor.speed", 2.0) == pytest.approx(6.0, rel=1e-4)
     assert result.at("rubbing.slip", 2.0) == pytest.approx(6.0, rel=1e-4)
     assert result.at("rubbing.torque", 2.0) == pytest.approx(4.0, rel=1e-4)
-    assert result.at("rotor.rate", 4.9) == pytest.approx(0.2, abs=1e-3)
-    assert result["rotor.rate"][-1] == pytest.approx(0.0, abs=1e-6)
+    assert result.at("rotor.speed", 4.9) == pytest.approx(0.2, abs=1e-3)
+    assert result["rotor.speed"][-1] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_rotor_at_rest_begins_at_the_breakaway_torque(simulate):
     """A torque of 1 N m/s reaches 5 N m after 5 s; then 3 N m rub."""
     ramp = "{ramp: {to: 10 N*m, over: 10 s}}"
     result = simulate(scene_of("sliding: 3 N*m, breakaway: 5 N*m", "0", ramp, "7 s"))
-    begins = result.t[np.argmax(result["rotor.rate"] > 1e-6)]
+    begins = result.t[np.argmax(result["rotor.speed"] > 1e-6)]
     assert begins == pytest.approx(5.0, abs=0.05)
-    assert result["rotor.rate"][-1] == pytest.approx((2 * 2 + 2**2 / 2) / 2, rel=1e-3)  # int of (5 + t - 3)/2 over 2 s
+    assert result["rotor.speed"][-1] == pytest.approx((2 * 2 + 2**2 / 2) / 2, rel=1e-3)  # int of (5 + t - 3)/2 over 2 s
 
 
 def test_torque_falls_over_the_speed_that_is_given_and_grows_with_viscous_friction(simulate):

@@ -161,7 +161,7 @@ connections:
   - [drive.shaft, gear.a]
   - [gear.b, route.winch.shaft]
   - [profile.signal, control.reference]
-  - [route.winch.rate, belt_speed.value]
+  - [route.winch.speed, belt_speed.value]
   - [belt_speed.signal, control.measured]
   - [control.command, drive.command]
 friction: {method: hold}

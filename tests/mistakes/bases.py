@@ -91,7 +91,7 @@ connections:
   - [string.b, bit.shaft, rock.shaft]
 friction: {method: hold}
 run: {stop: 10 s}
-record: {signals: [bit.rate, table.rate, string.torque]}
+record: {signals: [bit.speed, table.speed, string.torque]}
 """
 
 BASES = {"puller": PULLER, "haul": HAUL, "servo": SERVO, "drill": DRILL}

@@ -211,8 +211,8 @@ record: {{signals: ["*"]}}
 def test_a_speed_that_nobody_gave_follows_from_what_it_is_joined_to(simulate, kind, ratio) -> None:
     text = GEAR.format(kind=kind, speed="")
     result = simulate(text)
-    assert result["rotor.rate"][0] == pytest.approx(10.0, abs=1e-9)
-    assert result["drum.rate"][0] == pytest.approx(ratio * 10.0, abs=1e-9)
+    assert result["rotor.speed"][0] == pytest.approx(10.0, abs=1e-9)
+    assert result["drum.speed"][0] == pytest.approx(ratio * 10.0, abs=1e-9)
     assert result.run["changed_starts"] == []
 
 

@@ -186,7 +186,7 @@ def test_a_clutch_on_a_spring_without_inertia_turns_as_its_line_slides(simulate)
     joins = "[house.shaft, grip.a, main.a], [rotor.shaft, s0.a, main.b], [s0.b, grip.b]"
     shaft = simulate(without_floor(scene(*turning, joins=joins)))
     times = np.linspace(0, STOP, 40)
-    assert 0.1 * shaft.at("rotor.turned", times) == pytest.approx(line.at("body.x", times), abs=1e-6)
+    assert 0.1 * shaft.at("rotor.angle", times) == pytest.approx(line.at("body.x", times), abs=1e-6)
     assert len(shaft.events) == len(line.events) > 4
 
 
@@ -228,7 +228,7 @@ def test_a_gear_of_three_ports_gives_the_speed_of_a_carrier_without_inertia(simu
     w = np.sqrt(20 / 9 * (1 / 0.1 + 4 / 0.3))
     assert result["spring.torque"] == pytest.approx(20 * np.sin(w * result.t) / w, abs=1e-5)
     turned = 3 * result.t - 20 / (0.3 * w**2) * (result.t - np.sin(w * result.t) / w)
-    assert result["sun.turned"] == pytest.approx(turned, abs=1e-6)
+    assert result["sun.angle"] == pytest.approx(turned, abs=1e-6)
 
 
 def test_what_cannot_be_is_refused_with_the_way_out(simulate):

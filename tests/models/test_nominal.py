@@ -28,7 +28,7 @@ components:
 connections: [[wheel.shaft, brake.shaft, push.shaft]]
 friction: {{method: lugre, presliding: {presliding} m}}
 run: {{stop: 10 s}}
-record: {{signals: [wheel.turned], every: 10 ms}}
+record: {{signals: [wheel.angle], every: 10 ms}}
 """
 
 
@@ -50,7 +50,7 @@ def presliding_of_lugre(presliding, times):
 @pytest.mark.parametrize(
     ("text", "signal", "radius", "presliding"),
     [(STRAIGHT, "block.x", 1.0, 2e-5), (STRAIGHT, "block.x", 1.0, 2e-7), (STRAIGHT, "block.x", 1.0, 2e-2),
-     (TURNING, "wheel.turned", 0.1, 2e-5)],
+     (TURNING, "wheel.angle", 0.1, 2e-5)],
     ids=["20 um", "0.2 um", "20 mm", "a brake"],
 )  # fmt: skip
 def test_presliding_is_as_accurate_as_the_run_whatever_its_size(scene, text, signal, radius, presliding):

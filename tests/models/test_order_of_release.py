@@ -82,9 +82,9 @@ def test_what_is_symmetric_stays_symmetric(scene, engine, torque, accuracy):
     goes = TORQUES[torque]
     text = SHAFTS.format(torque=goes.format(""), against=goes.format("-"), accuracy=accuracy, engine=engine)
     result = scene(text).run(out=None)
-    assert abs(result["r2.rate"][-1]) < 1e-6
-    assert result["r1.rate"][-1] == pytest.approx(-result["r3.rate"][-1], rel=1e-6)
-    assert result["r1.rate"][-1] > 0.5
+    assert abs(result["r2.speed"][-1]) < 1e-6
+    assert result["r1.speed"][-1] == pytest.approx(-result["r3.speed"][-1], rel=1e-6)
+    assert result["r1.speed"][-1] > 0.5
 
 
 def changes(text, tmp_path, bodies=8):

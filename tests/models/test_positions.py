@@ -51,7 +51,7 @@ def rubs(angle, speed, torque="0 N*m", stop=2):
 
 def keeps(result, machine, accuracy, revolutions):
     """The relation is kept below its weight, energy within ten accuracies, both dead centres are passed every time."""
-    angle, speed = result["wheel.turned"], result["wheel.rate"]
+    angle, speed = result["wheel.angle"], result["wheel.speed"]
     energy = machine.energy(angle, speed)
     assert abs(result["crank.gap"]).max() < WEIGHT * accuracy
     assert result.run["projected"]["steps"] >= result.run["steps"] - 1
@@ -65,7 +65,7 @@ def test_a_free_crank_turns_as_its_one_coordinate_says(simulate) -> None:
     result, machine = simulate(FREE), Follower(crank(RADIUS, ROD), MOMENT, MASS)
     expected = machine.at(result.t, 0.3, 10.0)
     keeps(result, machine, 1e-6, 20)
-    assert abs(result["wheel.turned"] - expected[:, 0]).max() < 1e-5  # an angle of 126 rad
+    assert abs(result["wheel.angle"] - expected[:, 0]).max() < 1e-5  # an angle of 126 rad
     x, first, second = machine.path(expected[:, 0])
     assert abs(result["piston.x"] - x).max() < 1e-6
     acceleration = second * expected[:, 1] ** 2 + first * [machine.rates(0, row, 0)[1] for row in expected]
@@ -106,8 +106,8 @@ def test_a_crank_with_friction_at_its_slider_sticks_and_breaks_away(simulate) ->
     expected = machine.at(result.t, 1.2, 0.0)
     held = [event.t for event in result.events if event.component == "pad" and event.zone_to == "held"]
     assert len(held) >= 4
-    assert abs(result["wheel.turned"] - expected[:, 0]).max() < 1e-5
-    assert abs(result["wheel.rate"] - expected[:, 1]).max() < 1e-4
+    assert abs(result["wheel.angle"] - expected[:, 0]).max() < 1e-5
+    assert abs(result["wheel.speed"] - expected[:, 1]).max() < 1e-4
 
 
 def test_friction_turns_round_in_the_dead_centres(simulate) -> None:
@@ -115,8 +115,8 @@ def test_friction_turns_round_in_the_dead_centres(simulate) -> None:
     result = simulate(rubs(0.3, 10, stop=5))
     machine = Follower(crank(RADIUS, ROD), MOMENT, MASS, stiction=5.0, coulomb=3.0)
     expected = machine.at(result.t, 0.3, 10.0)
-    assert abs(result["wheel.turned"] - expected[:, 0]).max() < 1e-5
-    assert result["wheel.rate"][-1] == pytest.approx(0.0, abs=1e-9)
+    assert abs(result["wheel.angle"] - expected[:, 0]).max() < 1e-5
+    assert result["wheel.speed"][-1] == pytest.approx(0.0, abs=1e-9)
     assert result.run["energy"]["closure"] < 1e-6
 
 
@@ -125,9 +125,9 @@ def test_a_crank_at_rest_in_its_dead_centre_breaks_away(simulate) -> None:
     result = simulate(rubs(0, 0, "{ramp: {to: 2 N*m, over: 1 s}}", 1))
     machine = Follower(crank(RADIUS, ROD), MOMENT, MASS, lambda t: 2 * t, stiction=5.0, coulomb=3.0)
     start = result.t >= 0.05
-    expected = machine.at(result.t[start], result["wheel.turned"][start][0], result["wheel.rate"][start][0])
-    assert abs(result["wheel.turned"][start] - expected[:, 0]).max() < 1e-5
-    assert result["wheel.turned"][start][0] == pytest.approx(100 * 0.05**3 / 6, rel=0.01)  # friction has no lever yet
+    expected = machine.at(result.t[start], result["wheel.angle"][start][0], result["wheel.speed"][start][0])
+    assert abs(result["wheel.angle"][start] - expected[:, 0]).max() < 1e-5
+    assert result["wheel.angle"][start][0] == pytest.approx(100 * 0.05**3 / 6, rel=0.01)  # friction has no lever yet
 
 
 def test_a_driven_crank_rubs_through_its_dead_centres(simulate) -> None:
@@ -171,7 +171,7 @@ def test_cranks_at_random_stick_and_slip_as_their_one_coordinate_says(simulate, 
     machine = Follower(crank(radius, rod, offset), moment, mass, lambda t: torque * math.sin(2 * math.pi * pace * t),
                        stiction=stiction * normal, coulomb=coulomb * normal)  # fmt: skip
     expected, beside = (machine.at(result.t, start, speed)[:, 0] for start in (angle, angle + accuracy))
-    off = abs(result["wheel.turned"] - expected).max()
+    off = abs(result["wheel.angle"] - expected).max()
     assert off < 30 * (accuracy + abs(beside - expected).max())
 
 
@@ -194,7 +194,7 @@ def engine(cylinders):
 def test_pistons_that_pass_their_dead_centres_together(simulate, cylinders) -> None:
     """Many unknowns, and several contacts that turn round at one instant; at a hundredth of the error they go alike."""
     one, fine = (simulate(engine(cylinders), **{"run.accuracy": accuracy}) for accuracy in (1e-6, 1e-8))
-    assert abs(one["wheel.turned"] - fine["wheel.turned"]).max() < 1e-5
+    assert abs(one["wheel.angle"] - fine["wheel.angle"]).max() < 1e-5
     assert len(one.events) == len(fine.events) > 100
     assert one.run["energy"]["closure"] < 1e-6
     assert max(abs(one[f"crank{i}.gap"]).max() for i in range(cylinders)) < WEIGHT * 1e-6
@@ -233,7 +233,7 @@ def test_a_cam_of_a_user(simulate, library) -> None:
         return 0.02 * x, 0.02 * (np.sin(a) + np.cos(2 * a) / 2), 0.02 * (np.cos(a) - np.sin(2 * a))
 
     expected = Follower(path, 0.02, 0.5, force=lambda x: -2000 * x).at(result.t, 0.3, 10.0)
-    assert abs(result["wheel.turned"] - expected[:, 0]).max() < 1e-5
+    assert abs(result["wheel.angle"] - expected[:, 0]).max() < 1e-5
     assert abs(result["cam.gap"]).max() < 1e-8
 
 
@@ -299,8 +299,8 @@ def test_an_impact_goes_through_the_crank(simulate) -> None:
     """)
     before = Follower(crank(RADIUS, ROD), MOMENT, MASS).energy(2.0, -5.0)
     assert result.run["lost"]["stop"] == pytest.approx((1 - 0.7**2) * before, rel=1e-6)
-    k = np.flatnonzero(np.diff(np.sign(result["wheel.rate"])))[0]
-    assert result["wheel.rate"][k + 1] == pytest.approx(-0.7 * result["wheel.rate"][k], rel=1e-6)
+    k = np.flatnonzero(np.diff(np.sign(result["wheel.speed"])))[0]
+    assert result["wheel.speed"][k + 1] == pytest.approx(-0.7 * result["wheel.speed"][k], rel=1e-6)
 
 
 @pytest.mark.parametrize(("length", "mass", "accuracy"), [(1e-2, 1e-3, 1e-7), (20.0, 1e3, 1e-6)])
@@ -311,7 +311,7 @@ def test_a_small_and_a_heavy_machine_turn_alike(simulate, length, mass, accuracy
     text = text.replace("200 mm", f"{200 * length} mm").replace("1.5 kg", f"{1.5 * mass} kg")
     result = simulate(text.replace("10 N", f"{10 * mass * length} N"), **{"run.accuracy": accuracy})
     expected = Follower(crank(RADIUS, ROD), MOMENT, MASS, stiction=5.0, coulomb=3.0).at(result.t, 0.3, 10.0)
-    assert abs(result["wheel.turned"] - expected[:, 0]).max() < 1e-4
+    assert abs(result["wheel.angle"] - expected[:, 0]).max() < 1e-4
     assert abs(result["crank.gap"]).max() < WEIGHT * accuracy
 
 
@@ -319,7 +319,7 @@ def test_names_and_order_say_nothing(simulate) -> None:
     lines = FREE.replace("wheel", "zz").replace("piston", "aa").splitlines()
     other = simulate("\n".join([*lines[:2], lines[4], lines[3], lines[2], *lines[5:]]), **{"run.stop": "2 s"})
     one = simulate(FREE, **{"run.stop": "2 s"})
-    assert other["zz.turned"] == pytest.approx(one["wheel.turned"], abs=1e-8)
+    assert other["zz.angle"] == pytest.approx(one["wheel.angle"], abs=1e-8)
 
 
 def test_rodas_alone_takes_relations_of_positions(scene) -> None:

@@ -216,7 +216,7 @@ TWISTED = """
       - [hold.shaft, line.inboard_twist]
       - [line.outboard_twist, hand.shaft]
     run: {stop: 20 s}
-    record: {every: 0.5 s, signals: ["line.twist[*].turned"]}
+    record: {every: 0.5 s, signals: ["line.twist[*].angle"]}
 """
 
 
@@ -225,7 +225,7 @@ def test_a_line_that_moves_as_one_is_free_to_twist(simulate):
     result = simulate(TWISTED)
     assert result.run["counters"]["partial_steps"] > 0
     for k in (60, 120):
-        assert result[f"line.twist[{k}].turned"][-1] == pytest.approx(20 * k * 0.25 / 150, rel=1e-3)
+        assert result[f"line.twist[{k}].angle"][-1] == pytest.approx(20 * k * 0.25 / 150, rel=1e-3)
 
 
 def test_effects_tell_what_the_waves_of_the_line_out_there_cost(scene):

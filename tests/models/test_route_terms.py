@@ -36,7 +36,7 @@ run: {stop: 50 s, accuracy: 1e-3, engine: stepping}
 record: {every: 20 ms, signals: [%s]}
 """
 WORK = [
-    "belts.*", "route.winch.rate", "line.hose_node[*].x", "line.hose_node[*].v", "line.drag[*].drag",
+    "belts.*", "route.winch.speed", "line.hose_node[*].x", "line.hose_node[*].v", "line.drag[*].drag",
     "line.outer*[*].slip", "line.outer*[*].friction", "line.inner[*].slip", "line.inner[*].friction",
 ]  # fmt: skip
 
@@ -73,7 +73,7 @@ def work(tmp_path_factory):
     pulled = np.sum(of("line.drag[*].drag") * of("line.hose_node[*].v"), axis=1)
     return {
         "deployer": over_time(result["belts.force"] * result["belts.v"]),
-        "winch": over_time(-WINCH * 0.65 * result["route.winch.rate"]),
+        "winch": over_time(-WINCH * 0.65 * result["route.winch.speed"]),
         "sea": over_time(pulled + TAIL * result["line.hose_node[160].v"]),
         "bend A": over_time((rubbed * at_a).sum(axis=1)),
         "bend B": over_time((rubbed * ~at_a).sum(axis=1)),
@@ -129,7 +129,7 @@ PULLEY = (
 )
 ON_PULLEY = [
     "belts.*", "line.hose_node[*].x", "line.hose[*].tension", "line.core[*].tension", "line.outer_bend_a[*].friction",
-    "route.bend_a.rate", "route.bend_a.bearing.torque",
+    "route.bend_a.speed", "route.bend_a.bearing.torque",
 ]  # fmt: skip
 TAKEN = BEARING * BORE * 2 * WINCH * math.sin(BEND_A / 2)  # N m; N as well, with a radius of 1 m
 DEPLOYING, HAULING = (+1, 18.0, 24.9), (-1, 34.0, 39.9)
@@ -171,7 +171,7 @@ def test_behind_a_pulley_the_tensions_are_those_of_the_route_without_the_bend(pu
 @pytest.mark.parametrize(("way", "begin", "end"), [DEPLOYING, HAULING])
 def test_a_pulley_turns_with_the_line(pulley, way, begin, end):
     rows = rows_between(pulley, begin, end)
-    np.testing.assert_allclose(pulley["route.bend_a.rate"][rows].mean(), way * SPEED / 1.0, rtol=0.01)
+    np.testing.assert_allclose(pulley["route.bend_a.speed"][rows].mean(), way * SPEED / 1.0, rtol=0.01)
 
 
 def test_to_set_a_pulley_going_takes_its_moment_times_the_acceleration(pulley):

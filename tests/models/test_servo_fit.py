@@ -28,7 +28,7 @@ def test_fitted_coulomb_and_viscous_friction_is_better_than_the_published_values
     fitted = fit(asked, targets, asked.laws[0])
     for record in records:
         published = errors(record, {one.name: one.start for one in asked.sought})
-        assert errors(record, fitted.values)["load.turned"].mean < published["load.turned"].mean, record.name
+        assert errors(record, fitted.values)["load.angle"].mean < published["load.angle"].mean, record.name
 
 
 def test_two_columns_of_a_file_are_named_by_its_header(tmp_path) -> None:

@@ -16,11 +16,11 @@ ANCHOR = FrictionAnchor(stiffness=150.0, grip=GRIP)  # the same closed form, in 
 @pytest.mark.parametrize("planar", ["off", "on"])
 def test_30_the_end_of_an_anchored_line_turns_by_the_square_of_the_couple(bundled, planar):
     result = bundled("torsion", {"effects.planar_slip": planar})
-    assert result["line.twist[80].turned"].max() == pytest.approx(ANCHOR.end_travel(COUPLE), rel=0.01)
+    assert result["line.twist[80].angle"].max() == pytest.approx(ANCHOR.end_travel(COUPLE), rel=0.01)
 
 
 def test_half_of_the_twist_stays_when_the_couple_is_taken_off(bundled):
-    twist = bundled("torsion")["line.twist[80].turned"]
+    twist = bundled("torsion")["line.twist[80].angle"]
     assert twist[-1] / twist.max() == pytest.approx(0.5, abs=0.02)  # half an element of 27, and creep
 
 
@@ -47,7 +47,7 @@ def test_a_cycle_of_the_couple_turns_what_masing_says_into_heat(tmp_path):
     result = fairlead.load(scene, set={"run.stop": "20 s", "friction.method": "hold"}).run(out=tmp_path / "run")
     assert result.status == "finished"
     cycle = result.t >= 4.0
-    work = np.trapezoid(result["hand.applied"][cycle], result["line.twist[80].turned"][cycle])
+    work = np.trapezoid(result["hand.applied"][cycle], result["line.twist[80].angle"][cycle])
     assert work == pytest.approx(ANCHOR.loop_energy(COUPLE), rel=0.01)  # inertia of the line at this pace: 0.4 %
 
 
@@ -103,7 +103,7 @@ def test_a_rope_that_wants_to_unlay_turns_a_free_end(simulate):
     result = wound(simulate, "on", coupling="1 mm")
     assert abs(torque_at(result, 10.0)) < 0.05  # of 0.5 N m: the end is a free swivel, and still swings a little
     swing = np.linspace(17.0, 20.0, 301)
-    ends = [result.at(name, swing).mean() for name in ("line.twist[80].turned", "line.twist[60].turned")]
+    ends = [result.at(name, swing).mean() for name in ("line.twist[80].angle", "line.twist[60].angle")]
     twist = (ends[0] - ends[1]) / 5.0  # per metre
     assert twist == pytest.approx(-1e-3 * 500 / 150, rel=0.05)
 
@@ -115,8 +115,8 @@ def test_on_the_whole_route_twist_goes_through_a_bend_to_the_belts_and_a_rope_un
     assert before == pytest.approx(behind, rel=0.02)
     assert before > 20 * abs(outboard)
     swing = np.linspace(12.0, 15.0, 301)
-    last = len(route.match("line.twist[*].turned")) - 1
-    ends = [route.at(f"line.twist[{k}].turned", swing).mean() for k in (last, last - 19)]
+    last = len(route.match("line.twist[*].angle")) - 1
+    ends = [route.at(f"line.twist[{k}].angle", swing).mean() for k in (last, last - 19)]
     assert (ends[0] - ends[1]) / (19 * 0.25) == pytest.approx(-1e-3 * 300 / 150, rel=0.02)
 
 

@@ -86,6 +86,6 @@ def test_a_drive_can_stand_on_a_supply_that_others_share(bundled):
     result = bundled("winch_drive", {"effects.supply_dynamics": "on"})
     p = result["power.level"][-1]
     leaking = Drive().internal * result["drive.load_pressure"][-1] + Drive().external * result["drive.level_a"][-1]
-    flow = result["drive.rate"][-1] * Drive().displacement + leaking
+    flow = result["drive.speed"][-1] * Drive().displacement + leaking
     assert p == pytest.approx(180e5 - 10e5 * flow / 1e-3, rel=1e-4)
     assert result["power.level"].max() <= 180e5 * (1 + 1e-9)

@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 FACTORS = {"m": 1.0, "mm": 1e-3, "us": 1e-6, "ms": 1e-3, "deg": math.pi / 180, "kN": 1e3, "mm/s": 1e-3}
-PLACE = {"Mass": ("x", "v"), "Inertia": ("turned", "rate"), "MotionSource": ("x", "v")}
+PLACE = {"Mass": ("x", "v"), "Inertia": ("angle", "speed"), "MotionSource": ("x", "v")}
 """Outputs of a component that are the place and the speed of the node it is joined to."""
 FIXED = ("Ground", "Housing")
 TIED = {"Rack": ("pinion", "rack", "radius"), "Gear": ("a", "b", "ratio"), "RigidLink": ("a", "b", None)}

@@ -20,7 +20,7 @@ REFUSED = ("Cam", "Crank", "Rod", "Route")
 """Types that have no mirror image made of themselves."""
 
 
-SHOWN = (".x", ".v", ".turned", ".rate")
+SHOWN = (".x", ".v", ".angle", ".speed")
 """Ends of the names of signals that are the opposite in the mirror image."""
 
 

@@ -180,8 +180,8 @@ def test_an_inertia_on_a_torsion_spring_swings_at_its_frequency(simulate, librar
         run: {stop: 3 s, accuracy: 1e-8}
     """
     result = simulate(text, libraries=(library(ROTATIONAL),))
-    np.testing.assert_allclose(result["disc.turned"], 0.1 * np.cos(4.0 * result.t), atol=1e-7)
-    np.testing.assert_allclose(result["disc.rate"], -0.4 * np.sin(4.0 * result.t), atol=1e-6)
+    np.testing.assert_allclose(result["disc.angle"], 0.1 * np.cos(4.0 * result.t), atol=1e-7)
+    np.testing.assert_allclose(result["disc.speed"], -0.4 * np.sin(4.0 * result.t), atol=1e-6)
 
 
 def test_ports_of_two_domains_cannot_be_joined(scene, library):

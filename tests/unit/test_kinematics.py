@@ -76,8 +76,8 @@ def test_a_geared_pair_swings_at_its_frequency(simulate):
     """k r^2 phi = -(J1 + i^2 J2) phi'' at the motor, a spring of stiffness k on a rack of radius r."""
     result = simulate(GEARED)
     frequency = math.sqrt(500 * 0.1**2 / (0.02 + 9 * 0.05))
-    np.testing.assert_allclose(result["motor.turned"], 0.1 * np.cos(frequency * result.t), atol=1e-7)
-    np.testing.assert_allclose(result["wheel.turned"], -3 * result["motor.turned"], rtol=1e-13)
+    np.testing.assert_allclose(result["motor.angle"], 0.1 * np.cos(frequency * result.t), atol=1e-7)
+    np.testing.assert_allclose(result["wheel.angle"], -3 * result["motor.angle"], rtol=1e-13)
 
 
 @pytest.mark.parametrize("ratio", [-3.0, 0.5, 20.0])

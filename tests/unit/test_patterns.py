@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from fairlead.patterns import LONGEST, matcher
+from fairlead.patterns import LONGEST, as_today, matcher, picked
 from fairlead.results.signal import matching
 
 PARTS = ("a", "b", ".", "*", "?", "[1]", "1", "[")
@@ -47,3 +47,14 @@ def test_what_is_read_from_results_takes_the_same_patterns():
     names = ["line.core[1].tension", "line.core[12].tension", "line.core[1].slip"]
     assert matching(names, "line.core.tension") == names[:2]
     assert matching(names, "*" * 300 + "!") == []
+
+
+@pytest.mark.parametrize(
+    ("pattern", "today"),
+    [("rotor.rate", "rotor.speed"), ("line.twist[3].turned", "line.twist[3].angle"),
+     ("line.twist[*].turned", "line.twist[*].angle"), ("pad.rate", ""), ("rotor.speed", ""), ("rate", "")],
+)  # fmt: skip
+def test_the_old_name_of_an_output_means_that_of_today_where_nothing_else_has_it(pattern, today):
+    names = {"rotor.speed": None, "line.twist[3].angle": None, "pad.rate": None, "pad.speed": None}
+    assert as_today(names, pattern) == today
+    assert picked(names, pattern) == (picked(names, today) if today else [pattern] if pattern in names else [])

@@ -97,7 +97,7 @@ def test_a_force_at_the_rack_turns_the_pinion_with_its_radius(tmp_path):
     assert said["eye.x"] == pytest.approx(0.2)
     assert said["eye.v"] == pytest.approx(1.5)
     assert said["eye.a"] == pytest.approx(0.5 * -10.0 / 8.0)
-    assert said["wheel.rate"] == pytest.approx(-12.0)
+    assert said["wheel.speed"] == pytest.approx(-12.0)
 
 
 @pytest.mark.parametrize(

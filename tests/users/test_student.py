@@ -105,7 +105,7 @@ connections:
   - [string.b, bit.shaft, cutting.b]
   - [rock.shaft, cutting.a]
 run: {{stop: 80 s, accuracy: 1e-5}}
-record: {{signals: [bit.rate, string.torque, cutting.slip, cutting.torque]}}
+record: {{signals: [bit.speed, string.torque, cutting.slip, cutting.torque]}}
 """
 
 
@@ -137,7 +137,7 @@ def test_below_the_critical_speed_the_bit_sticks_and_slips(scene):
     rate = 0.7 * CRITICAL
     result = scene(DRILL, rate=f"{rate} rad/s").run(out=None)
     assert max(sticks(result)) > 70
-    assert result.extremes("bit.rate").highest == pytest.approx(slowest_and_fastest(rate)[1], rel=1e-3)
+    assert result.extremes("bit.speed").highest == pytest.approx(slowest_and_fastest(rate)[1], rel=1e-3)
 
 
 def test_above_the_critical_speed_it_never_sticks_again(scene):
@@ -146,7 +146,7 @@ def test_above_the_critical_speed_it_never_sticks_again(scene):
     broke = min(event.t for event in result.events if event.zone_from == "held")
     assert broke == pytest.approx((BREAKAWAY - LOSS * rate) / STRING / rate, rel=1e-3)  # the twist that breaks it away
     assert not [t for t in sticks(result) if t > broke]
-    assert result["bit.rate"][-1] == pytest.approx(rate, rel=1e-2)
+    assert result["bit.speed"][-1] == pytest.approx(rate, rel=1e-2)
     assert result["string.torque"][-1] == pytest.approx(-SLIDING, rel=1e-2)  # the table turns the bit forward
 
 
@@ -172,7 +172,7 @@ connections:
   - [press.signal, clutch.normal]
   - [pedal.signal, brake.normal]
 run: {{stop: 3 s, accuracy: 1e-6}}
-record: {{signals: [engine.rate, load.rate, clutch.torque, brake.torque, clutch.slip]}}
+record: {{signals: [engine.speed, load.speed, clutch.torque, brake.torque, clutch.slip]}}
 """
 
 
@@ -185,12 +185,12 @@ def test_a_clutch_locks_and_a_brake_stops_the_train_when_their_torques_say(scene
     result = scene(TRAIN).run(out=None)
     lock = 0.1 + ENGINE * LOAD / (ENGINE + LOAD) * SPEED / GRIP  # the ramp of 0.2 s counts half
     assert locks(result, "clutch") == pytest.approx(lock, rel=1e-4)
-    assert result.at("engine.rate", 0.9) == pytest.approx(TOGETHER, rel=1e-4)
-    assert result.at("load.rate", 0.9) == pytest.approx(TOGETHER, rel=1e-4)
+    assert result.at("engine.speed", 0.9) == pytest.approx(TOGETHER, rel=1e-4)
+    assert result.at("load.speed", 0.9) == pytest.approx(TOGETHER, rel=1e-4)
     assert BRAKING * ENGINE / (ENGINE + LOAD) < GRIP  # what slows the engine, so that the clutch stays locked
     stopped = 1 + (ENGINE + LOAD) * TOGETHER / BRAKING
-    assert result.at("load.rate", stopped - 0.01) == pytest.approx(BRAKING * 0.01 / (ENGINE + LOAD), rel=1e-2)
-    assert result["load.rate"][-1] == pytest.approx(0, abs=1e-6)
+    assert result.at("load.speed", stopped - 0.01) == pytest.approx(BRAKING * 0.01 / (ENGINE + LOAD), rel=1e-2)
+    assert result["load.speed"][-1] == pytest.approx(0, abs=1e-6)
     assert joules(result, "dissipated") == pytest.approx(ENGINE * SPEED**2 / 2, rel=1e-4)
 
 

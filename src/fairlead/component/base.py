@@ -194,12 +194,13 @@ def _collect(members: dict[str, Any]) -> Declaration:
         laws.update(dict.fromkeys(marked.zones, marked.law))
     if inspect.isfunction(members.get("law")) and zones is None:
         laws["always"] = members["law"]
+    outputs = {output.name or name: output for name, output in of(Output).items()}
     effects = of(Effect)
     parameters = {name: one for name, one in of(PARAMETER_KINDS).items() if name not in effects}
     if effects:  # written as a map of their own
         parameters["effects"] = Block(effects, "What to leave out.")
     return Declaration(
-        effects=effects, ports=of(Port), parameters=parameters, inputs=of(Input), outputs=of(Output), states=of(State),
+        effects=effects, ports=of(Port), parameters=parameters, inputs=of(Input), outputs=outputs, states=of(State),
         unknowns=of(Unknown), discrete=of(Discrete), samples=of(Sampled), derived=of(Derived),
         shared=of(Shared), zones=zones or Zones("always"), laws=laws, guards=guards,
         carries=next(iter(of(Carries).values()), None),
@@ -225,6 +226,8 @@ def _check(cls: type[Declared]) -> None:
     for name, output in has.outputs.items():
         known = output.role in ("", *ROLES)
         _demand(cls, known, f"{name!r} has the role {output.role!r}; roles are {', '.join(ROLES)}")
+        clash = name in {**has.ports, **has.states, **has.unknowns, **has.inputs, **has.discrete}
+        _demand(cls, not clash, f"the output {name!r} has the name of a port, an input or an unknown of the class")
     _check_named_numbers(cls)
     _check_limits(cls)
     if issubclass(cls, Composite):
@@ -301,10 +304,10 @@ def _check_units(cls: type[Declared]) -> None:
         _demand(cls, False, what)
     for name, mark in has.guards.items():
         _check_unit(cls, f"guard {name!r}", mark.unit)
-    declared = {**has.parameters, **has.inputs, **has.outputs, **has.states, **has.unknowns, **has.discrete}
-    for block in [d for d in declared.values() if isinstance(d, Block)]:
-        declared |= block.parameters
-    for name, one in declared.items():
+    kinds = (has.parameters, has.inputs, has.outputs, has.states, has.unknowns, has.discrete)
+    declared = [pair for kind in kinds for pair in kind.items()]
+    declared += [pair for _, one in declared if isinstance(one, Block) for pair in one.parameters.items()]
+    for name, one in declared:
         units = (one.x, one.y) if isinstance(one, Table) else (getattr(one, "unit", "1"),)
         for unit in units:
             _check_unit(cls, repr(name), unit)

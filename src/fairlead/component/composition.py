@@ -10,6 +10,7 @@ from fairlead.component.declaration import Declaration
 from fairlead.component.replies import EXPANSION, AnswerError, is_bundled, place_of
 from fairlead.component.values import Values
 from fairlead.errors import Fault, did_you_mean, listing, shown
+from fairlead.renamed import word_of_today
 
 
 def expanded(values: Values, scene: Any) -> Expansion:
@@ -80,5 +81,5 @@ def _wrong_end(end: Any, said: Expansion) -> Iterator[str]:
         return
     of = child.type.declaration
     known = {**of.ports, **of.inputs, **of.outputs}
-    if port not in known:
+    if port not in known and word_of_today(port) not in known:
         yield f"joins {end}, and {child.type.__name__} has {listing(known)}. {did_you_mean(port, known)}".rstrip()

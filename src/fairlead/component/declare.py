@@ -105,11 +105,13 @@ class Output:
     run tells the worst. SHARE is what an element or a node of a line takes in, which belongs to its length: with finer
     elements there are more and smaller ones, so two meshes are not compared by it. Creep is not compared either.
     STRAIN is that of an element, over its length without load; a run watches it, see `compressible` of a component.
+    `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
     """
 
     unit: str
     doc: str = ""
     role: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,8 @@ NEVER_PASSED = ("p", "t", "zone", "direction")
 
 def odd_kinds(has: Declaration) -> Iterator[str]:
     """Declarations made of something else than what they take, before anybody looks into them."""
-    named = {**has.parameters, **has.inputs, **has.outputs, **has.states, **has.unknowns, **has.discrete}
-    for name, one in named.items():
+    kinds = (has.parameters, has.inputs, has.outputs, has.states, has.unknowns, has.discrete)
+    for name, one in (pair for kind in kinds for pair in kind.items()):
         units = (one.x, one.y) if isinstance(one, Table) else (getattr(one, "unit", "1"),)
         if not all(isinstance(unit, str) for unit in units):
             yield f"{name!r} has the unit {units[0]!r}; a unit is a text such as 'N/m'"

@@ -35,11 +35,11 @@ def dependencies(variant: Variant) -> str:
 def _looked_at(kind: Any) -> str:
     """What a user's class declares that decides no code, and is looked at when its laws are traced: units."""
     has = kind.declaration
-    units = {
-        name: (one.x, one.y) if hasattr(one, "x") else getattr(one, "unit", "")
+    units = [
+        (name, (one.x, one.y) if hasattr(one, "x") else getattr(one, "unit", ""))
         for named in (has.parameters, has.inputs, has.outputs, has.states, has.unknowns, has.discrete)
         for name, one in named.items()
-    }
+    ]
     return repr((units, "units" in kind.answers.exempt))
 
 

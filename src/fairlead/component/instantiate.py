@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.composition import expanded
+from fairlead.component.declaration import Declaration
 from fairlead.component.declare import PATH, Input, Output, Port
 from fairlead.component.effects import switch
 from fairlead.component.friction_block import sound
@@ -26,6 +27,7 @@ from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
+from fairlead.renamed import word_of_today
 
 
 @dataclass(frozen=True)
@@ -241,8 +243,9 @@ def _place(assembly: Assembly, path: str, values: Values, where: Location) -> No
 
 
 def _inner(assembly: Assembly, text: str) -> PortRef:
-    instance, _, port = text.rpartition(".")
-    return assembly.aliases.get(text) or PortRef(instance, port)
+    owner, _, port = text.rpartition(".")
+    port = _as_today(assembly, owner, port)
+    return assembly.aliases.get(f"{owner}.{port}") or PortRef(owner, port)
 
 
 def _connect(assembly: Assembly, ends: tuple[EndPoint, ...]) -> list[Fault]:
@@ -291,6 +294,8 @@ def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
     owner, _, port = end.text.rpartition(".")
     line = assembly.lines.get(owner)
     declared = line.values.type.declaration.ports.get(port) if line is not None else None
+    port = _as_today(assembly, owner, port)
+    end = replace(end, text=f"{owner}.{port}") if owner else end
     if declared is not None and declared.domain == PATH:
         return owner
     if end.text in assembly.aliases:
@@ -305,6 +310,16 @@ def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
         near = did_you_mean(port, connectable) or _only_free(assembly, owner, has.ports)
         return Fault(end.where, f"{what} {near.replace('mean ', f'mean {owner}.')}".rstrip())
     return PortRef(owner, port)
+
+
+def _as_today(assembly: Assembly, owner: str, port: str) -> str:
+    """What a component calls an output that the netlist gives its old name; else the name as it is."""
+    today = word_of_today(port)
+    if not today or f"{owner}.{port}" in assembly.aliases:
+        return port
+    has = assembly.instances[owner].type.declaration if owner in assembly.instances else Declaration()
+    known = {**has.ports, **has.inputs, **has.outputs}
+    return today if port not in known and (today in known or f"{owner}.{today}" in assembly.aliases) else port
 
 
 def _only_free(assembly: Assembly, owner: str, ports: Iterable[str]) -> str:

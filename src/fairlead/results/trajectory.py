@@ -14,6 +14,7 @@ How it is used:
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -23,7 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
-from fairlead.errors import FairleadError, UsageError, did_you_mean, listing, shown
+from fairlead.errors import FairleadError, RunWarning, UsageError, did_you_mean, listing, shown
+from fairlead.renamed import of_today
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
@@ -200,7 +202,7 @@ class Result:
         return self.status == "finished"
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
-        return self._columns([name])[:, 0]
+        return self._columns([self._signal(name).name])[:, 0]
 
     def __contains__(self, name: object) -> bool:
         return name in self._signals
@@ -214,7 +216,15 @@ class Result:
 
     def match(self, pattern: str) -> list[str]:
         """Return the recorded names that fit a pattern such as `line.*.tension` (see `signal.matching`)."""
-        return matching(self._signals, pattern)
+        return matching(self._signals, pattern) or self._of_old(pattern)
+
+    def _of_old(self, pattern: str) -> list[str]:
+        """The signals that an old name of an output means; it warns of that."""
+        today = of_today(pattern) if isinstance(pattern, str) else ""
+        found = matching(self._signals, today) if today else []
+        if found:
+            warnings.warn(f"{pattern} is called {today} now; write that.", RunWarning, stacklevel=4)
+        return found
 
     def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
         """Return the value of a signal at the times `t` [s] (a number or an array).
@@ -354,7 +364,7 @@ class Result:
         return list(dict.fromkeys(found))
 
     def _fitting(self, pattern: str) -> list[str]:
-        if not isinstance(pattern, str) or not (found := matching(self._signals, pattern)):
+        if not isinstance(pattern, str) or not (found := self.match(pattern)):
             return [self._signal(pattern).name]
         return found
 
@@ -363,6 +373,8 @@ class Result:
             raise UnknownSignalError(f"{shown(name)} is not the name of a signal, which is a text.")
         if name in self._signals:
             return self._signals[name]
+        if len(old := self._of_old(name)) == 1:
+            return self._signals[old[0]]
         several = matching(self._signals, name)
         if several:
             advice = f'It stands for {len(several)} signals: use result.match("{name}").'

@@ -42,13 +42,13 @@ def valve_closed_in_one_sample(play: Play, dynamics: str) -> None:
     result = play.run(scene("valve_shut"), effects__valve_dynamics=dynamics)
     displacement, inertia, volume = 125e-6 / (2 * np.pi), 1.025, 1e-3
     rate = displacement * np.sqrt(2 * BULK / (volume * inertia))
-    running = result.at("drive.rate", 1.0, side="left")
+    running = result.at("drive.speed", 1.0, side="left")
     after = result.t > 1.05
     share = 1e-3 if dynamics == "off" else 0.05
     peak = np.abs(result["drive.load_pressure"][after]).max()
     want = running * inertia * rate / displacement
     play.near("peak of pressure", peak, want, max(share, 2e-3) * want)
-    play.near("swing of the speed", np.abs(result["drive.rate"][after]).max(), running, max(share, 2e-3) * running)
-    signs = np.flatnonzero(np.diff(np.sign(result["drive.rate"][after])))
-    half = np.diff(result["drive.rate"][after][signs] * 0 + result.t[after][signs])
+    play.near("swing of the speed", np.abs(result["drive.speed"][after]).max(), running, max(share, 2e-3) * running)
+    signs = np.flatnonzero(np.diff(np.sign(result["drive.speed"][after])))
+    half = np.diff(result["drive.speed"][after][signs] * 0 + result.t[after][signs])
     play.near("half a swing", half.mean(), np.pi / rate, 0.01 * np.pi / rate)

@@ -67,8 +67,8 @@ def equal_shafts_turned_against_each_other(play: Play, goes: str, when: str) -> 
     Oracle: the shaft in the middle has no way to turn; the ends turn alike.
     """
     result = play.run(SHAFTS.replace("@GOES@", goes).replace("@WHEN@", when))
-    play.near("middle", result["r2.rate"][-1], 0.0, 1e-6)
-    play.near("ends", result["r1.rate"][-1] + result["r3.rate"][-1], 0.0, 1e-6)
+    play.near("middle", result["r2.speed"][-1], 0.0, 1e-6)
+    play.near("ends", result["r1.speed"][-1] + result["r3.speed"][-1], 0.0, 1e-6)
     if goes == "step":
         kept = 0.4 * 97 * 0.13
-        play.near("speed", result["r1.rate"][-1], (10 - kept) / 0.7 * 0.7, 1e-4)
+        play.near("speed", result["r1.speed"][-1], (10 - kept) / 0.7 * 0.7, 1e-4)

@@ -189,7 +189,7 @@ def cases() -> tuple[PeerCase, ...]:
                  lambda t: np.repeat((0.075 * np.maximum(t - 0.1, 0) ** 2)[:, None], 3, axis=1), 1e-6),
         PeerCase("equal shafts turned against each other", _shafts(),
                  everything(SHAFTS.replace("@GOES@", "step").replace("@WHEN@", "at: 0.3 s")),
-                 ("r1.turned", "r2.turned", "r3.turned"), grid(1.0), _shafts_turn, 1e-4, "rad"),
+                 ("r1.angle", "r2.angle", "r3.angle"), grid(1.0), _shafts_turn, 1e-4, "rad"),
         PeerCase("normal force to zero and back", _lifted(),
                  everything(LIFTED.replace("effects: {energy: off}", "").replace(
                      "@PRESS@", "{table: [" + ", ".join(f"[{t} s, {n} N]" for t, n in POINTS) + "]}")),

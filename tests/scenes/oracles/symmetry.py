@@ -17,7 +17,7 @@ PER_ACCURACY = 30.0
 def symmetry(run: Observed, twins: Twins) -> str:
     """Which twins part; nothing if none do."""
     for one, (other, sign) in twins.items():
-        for end in ("v", "rate"):
+        for end in ("v", "speed"):
             if f"{one}.{end}" not in run.columns:
                 continue
             a, b = run.columns[f"{one}.{end}"], sign * run.columns[f"{other}.{end}"]

@@ -21,7 +21,7 @@ def unknown_signals(assembly: Assembly) -> list[Fault]:
     """Mistakes in `record` and `limits`, told from what the components declare; nothing is compiled for it."""
     signals = signals_of(assembly)
     names = {signal.name: None for signal in signals}
-    unknown = ((value, text) for value, text in _recorded(assembly) if not picked(names, text))
+    unknown = ((value, text) for value, text in recorded_names(assembly) if not picked(names, text))
     faults = [_no_such(value, text, [*names]) for value, text in itertools.islice(unknown, MOST_FAULTS)]
     judged = {text: value for text, value in assembly.netlist.limits.items() if not _excused(assembly, text)}
     try:
@@ -44,7 +44,7 @@ def signals_of(assembly: Assembly) -> list[OutputSignal]:
     return found + [OutputSignal(f"energy.{line}", "J", "", 0) for line in LEDGER]
 
 
-def _recorded(assembly: Assembly) -> Iterator[tuple[Value, str]]:
+def recorded_names(assembly: Assembly) -> Iterator[tuple[Value, str]]:
     """The patterns under record.signals and record.plots, each with its place."""
     block = assembly.netlist.written["record"]
     lists = [block.get("signals")]

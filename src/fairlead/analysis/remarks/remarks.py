@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from fairlead.analysis.remarks.old_names import old_names
 from fairlead.analysis.remarks.recording import sparse
 from fairlead.analysis.remarks.rigid_seas import rigid_seas
 from fairlead.analysis.remarks.slow_drives import slow_drives
@@ -21,13 +22,14 @@ def remarks(flat: FlatModel) -> list[Fault]:
     """What is odd but not wrong.
 
     Contacts too wide, weak clamps, tight curves, winches without line, rigid seas that are not, slow drives, records
-    of nothing but both ends, values that are hardly meant.
+    of nothing but both ends, values that are hardly meant, outputs by a name of old.
     """
     solved = statics(flat)
     found = list(too_wide(flat))
     for one in solved:
         found += [*weak_clamps(one), *side_walls(one), *off_the_drum(one.route), *rigid_seas(one.route)]
-    return [*found, *slow_drives(flat, solved), *sparse(flat.assembly.netlist), *unusual(flat.assembly)]
+    return [*found, *slow_drives(flat, solved), *sparse(flat.assembly.netlist), *unusual(flat.assembly),
+            *old_names(flat.assembly)]  # fmt: skip
 
 
 def weak_clamps(found: Statics) -> Iterator[Fault]:

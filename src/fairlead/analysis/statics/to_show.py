@@ -13,9 +13,9 @@ from fairlead.analysis.statics.laid_route import laid_routes
 from fairlead.analysis.statics.route_record import route_records
 from fairlead.results.signal import family
 
-POSITIONS = {"m": "x", "rad": "turned"}
+POSITIONS = {"m": "x", "rad": "angle"}
 """By unit, the outputs that tell where something is, as the library calls them."""
-OF_LINES = ("tension", "torque", "d", "slip", "turned")
+OF_LINES = ("tension", "torque", "d", "slip", "angle")
 """Outputs of the parts of a line that are looked at along it, by last name."""
 MOST_ADDED = 6000
 """Signals that are recorded besides; of more, only those of single parts."""

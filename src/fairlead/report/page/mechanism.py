@@ -55,7 +55,7 @@ def mechanism_data(result: Result) -> dict[str, Any] | None:
     places = place(drawn)
     boxes = [
         {"name": box.name, "type": box.type, "fixed": box.anchored, **_at(places["box", k]),
-         "x": _own(known, box.name, "m", "x"), "angle": _own(known, box.name, "rad", "turned"),
+         "x": _own(known, box.name, "m", "x"), "angle": _own(known, box.name, "rad", "angle"),
          "zone": box.name, "shown": _shown(known, box.name)}
         for k, box in enumerate(drawn.boxes)
     ]  # fmt: skip
@@ -89,4 +89,4 @@ def _strips(known: Mapping[str, list[Signal]]) -> list[dict[str, Any]]:
     """Families of places of many elements."""
     many = ((name, each) for name, each in known.items() if "[*]" in name and len(each) > 2)
     return [{"family": name, "count": len(each)} for name, each in many
-            if each[0].unit in ("m", "rad") and name.rpartition(".")[2] in ("x", "turned")]  # fmt: skip
+            if each[0].unit in ("m", "rad") and name.rpartition(".")[2] in ("x", "angle")]  # fmt: skip

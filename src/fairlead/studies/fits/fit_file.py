@@ -2,7 +2,7 @@
 
 model: servo.yaml
 records:
-  slow: {file: slow.csv, time: t, signals: {arm.turned: angle}, set: {load.mass: 0.5 kg}}
+  slow: {file: slow.csv, time: t, signals: {arm.angle: angle}, set: {load.mass: 0.5 kg}}
 parameters:
   mu: {start: 0.3, low: 0.05, high: 1, log: true}
 """

@@ -116,7 +116,7 @@ function maps(runs) {
 }
 function mapped(run) {
   const line = run.lines[0];
-  return line ? line.along.filter(n => /\.(tension|torque|d|slip|turned)$/.test(n) && run.family.get(n).elements.length > 3).slice(0, 5) : [];
+  return line ? line.along.filter(n => /\.(tension|torque|d|slip|angle|turned)$/.test(n) && run.family.get(n).elements.length > 3).slice(0, 5) : [];
 }
 
 async function begin() {

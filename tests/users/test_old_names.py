@@ -1,0 +1,69 @@
+"""Outputs by the names they had: they still work, and today's is told, in a netlist, a class and from Python."""
+
+import pytest
+
+import fairlead
+from fairlead.errors import RunWarning
+from tests.mistakes.bases import DRILL
+
+OLD = DRILL.replace("run: {stop: 10 s}", 'run: {stop: 0.1 s}\nlimits: {"bit.turned": {below: 1 rad}}').replace(
+    "[bit.speed, table.speed, string.torque]", "[bit.rate, table.rate, bit.turned]"
+)
+
+OWN = '''\
+from fairlead.component import Composite, Expansion, Output, Rotational
+from fairlead.components.rotation.inertia import Inertia
+
+
+class Disc(Composite):
+    """A disc that tells its speed."""
+
+    shaft = Rotational()
+    rate = Output("rad/s", "Its speed.")
+
+    def expand(p, scene):
+        return Expansion({"body": scene.make(Inertia, moment=2.0)}, [], {"shaft": "body.shaft"}, {"rate": "body.rate"})
+'''
+
+
+@pytest.fixture
+def model(tmp_path):
+    (tmp_path / "drill.yaml").write_text(OLD, encoding="utf-8")
+    return fairlead.load(tmp_path / "drill.yaml")
+
+
+def test_a_netlist_by_old_names_runs_and_is_told_those_of_today(model):
+    told = {str(fault).split(": ", 1)[1] for fault in model.check() if "is called" in fault.what}
+    names = {"bit.rate": "bit.speed", "table.rate": "table.speed", "bit.turned": "bit.angle"}
+    expected = {f"{old} is called {new} now; the old name still works.\n    Write {new}." for old, new in names.items()}
+    assert told == expected
+    result = model.run(out=None)
+    assert [signal.name for signal in result.signals] == ["table.speed", "bit.angle", "bit.speed"]
+    assert [limit["signal"] for limit in result.limits] == ["bit.angle"]
+    with pytest.warns(RunWarning, match=r"bit\.rate is called bit\.speed now"):
+        assert (result["bit.rate"] == result["bit.speed"]).all()
+    with pytest.warns(RunWarning, match=r"\*\.turned is called \*\.angle now"):
+        assert result.match("*.turned") == ["bit.angle"]
+    with pytest.raises(KeyError, match=r"bit\.turns was not recorded"):
+        result["bit.turns"]
+
+
+def test_a_signal_of_the_old_name_can_be_joined_and_stepped(tmp_path):
+    text = OLD.replace("[press.signal, clutch.normal]", "[press.signal, clutch.normal]\n  - [bit.rate, gain.value]")
+    text = text.replace("  press:", "  gain: {type: SignalGain, gain: 2}\n  press:")
+    text = text.replace("signals: [", "signals: [gain.signal, ")
+    (tmp_path / "drill.yaml").write_text(text, encoding="utf-8")
+    run = fairlead.load(tmp_path / "drill.yaml").start()
+    run.advance(0.05)
+    assert run.get("bit.rate") == run.get("bit.speed") == run.get("gain.signal") / 2
+
+
+def test_a_class_of_ones_own_may_call_an_output_as_it_likes(tmp_path):
+    (tmp_path / "own.py").write_text(OWN, encoding="utf-8")
+    text = DRILL.replace("bit: {type: Inertia, moment: 1 kg*m^2, angle: 0 rad, speed: 0 rad/s}", "bit: {type: Disc}")
+    text = text.replace("bit.speed", "bit.rate, bit.body.speed").replace("stop: 10 s", "stop: 0.1 s")
+    (tmp_path / "drill.yaml").write_text(text, encoding="utf-8")
+    model = fairlead.load(tmp_path / "drill.yaml", libraries=[tmp_path / "own.py"])
+    assert model.check() == []
+    result = model.run(out=None)
+    assert (result["bit.rate"] == result["bit.body.speed"]).all()
