@@ -1,0 +1,33 @@
+"""A flow given in time, and by a signal."""
+
+from fairlead.component import Component, Hydraulic, Input, Law, Output, Waveform
+
+
+class FlowSource(Component):
+    """Moves a given flow from its inlet to its outlet, at any pressure."""
+
+    inlet = Hydraulic("from the tank")
+    outlet = Hydraulic("where it goes")
+    flow = Waveform("m^3/s", "Flow in time.")
+    given = Output("m^3/s", "The flow.")
+    power = Output("W", "Hydraulic power given.")
+
+    def law(p, inlet, outlet, t):
+        """What moves it supplies what the pressure takes."""
+        flow = p.flow(t)
+        power = flow * (outlet.pressure - inlet.pressure)
+        return Law(inlet=flow, outlet=-flow, given=flow, power=power, supplied=power)
+
+
+class FlowActuator(Component):
+    """Moves the flow that a signal says from its inlet to its outlet: an ideal pump of variable displacement."""
+
+    inlet = Hydraulic("from the tank")
+    outlet = Hydraulic("where it goes")
+    flow = Input("m^3/s", "Flow.", signed=True)
+    power = Output("W", "Hydraulic power given.")
+
+    def law(p, inlet, outlet, flow):
+        """What moves it supplies what the pressure takes."""
+        power = flow * (outlet.pressure - inlet.pressure)
+        return Law(inlet=flow, outlet=-flow, power=power, supplied=power)
