@@ -19,7 +19,7 @@ from fairlead.component import (
 
 
 class LiftValve(Component, abstract=True):
-    """Half-model: `lift` is the pressure that lifts the poppet; its opening grows from `cracking` to `cracking + range`.
+    """Half-model: `lift` is the pressure that lifts the poppet; it opens from `cracking` to `cracking + range`.
 
     closed    lift < cracking             flow = 0
     partly    in between                  area in proportion to lift - cracking
@@ -112,8 +112,8 @@ class PilotedRelief(PilotCheckValve):
 class CounterbalanceValve(Composite):
     """Holds a load and lets it down as its pilot asks; oil that lifts the load passes freely.
 
-    It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on; a check valve beside it leads from `valve`
-    to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes: that is
+    It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on; a check valve beside it leads from
+    `valve` to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes: that is
     how it brakes. Set it some 1.3 times the pressure of the largest load. Limits: no dynamics of the poppet; the
     spring's chamber is joined with `valve`, so pressure there acts against it.
     """

@@ -27,24 +27,24 @@ def switched(result, where, to):
 def test_a_freewheel_takes_a_wheel_along_and_lets_it_run_on():
     result = run("one_way_clutch")
     together = 6 / 0.05 * (1 - np.exp(-0.05 * 2 / 0.3))
-    assert result.at("wheel.rate", 2.0) == pytest.approx(together, rel=1e-5)
+    assert result.at("wheel.speed", 2.0) == pytest.approx(together, rel=1e-5)
     alone = 0.2 * 6 / 0.3 * np.exp(-0.05 / 0.3) + 0.05 * 6 / 0.05 * (1 - np.exp(-0.05 / 0.3))
     assert result.at("freewheel.torque", 1.0) == pytest.approx(alone, rel=1e-4)
-    parted = result.at("wheel.rate", 2.1)
-    assert result.at("wheel.rate", 4.0) == pytest.approx(parted * np.exp(-0.05 * 1.9 / 0.2), rel=1e-4)
-    assert result.at("rotor.rate", 4.0) - result.at("rotor.rate", 3.0) == pytest.approx(-30, rel=1e-4)
+    parted = result.at("wheel.speed", 2.1)
+    assert result.at("wheel.speed", 4.0) == pytest.approx(parted * np.exp(-0.05 * 1.9 / 0.2), rel=1e-4)
+    assert result.at("rotor.speed", 4.0) - result.at("rotor.speed", 3.0) == pytest.approx(-30, rel=1e-4)
 
 
 def test_a_freewheel_that_is_overtaken_at_the_start_keeps_the_momentum():
     result = run("one_way_clutch", **{"rotor.speed": "30 rad/s", "wheel.speed": "3 rad/s"})
-    assert result["wheel.rate"][0] == result["rotor.rate"][0] == pytest.approx((0.1 * 30 + 0.2 * 3) / 0.3)
+    assert result["wheel.speed"][0] == result["rotor.speed"][0] == pytest.approx((0.1 * 30 + 0.2 * 3) / 0.3)
 
 
 def test_dogs_go_in_at_nearly_one_speed_and_keep_the_momentum():
     result = run("dog_clutch")
     assert switched(result, "dog", "closed") == pytest.approx((20 - 0.5) / 20, abs=1e-6)
     both = (0.1 * 19.5 + 0.3 * 20) / 0.4
-    assert result.at("wheel.rate", 2.0) == pytest.approx(both + 2 / 0.4 * (2 - 0.975), rel=1e-6)
+    assert result.at("wheel.speed", 2.0) == pytest.approx(both + 2 / 0.4 * (2 - 0.975), rel=1e-6)
     later = run("dog_clutch", **{"rotor.speed": "60 rad/s", "wheel.speed": "20 rad/s", "motor.torque": "-2 N*m"})
     assert switched(later, "dog", "closed") == pytest.approx((40 - 0.5) / 20, abs=1e-6)  # the other way round
 
@@ -55,8 +55,8 @@ def test_a_planetary_gear_turns_its_ring_where_the_band_gives_way():
     share = 0.5 / 16 / (0.01 + 0.5 / 16)
     slips = 0.1 * 0.3 * 500 / (3 * share * 10 / 2)
     assert switched(result, "band.contact", "backward") == pytest.approx(slips, rel=1e-6)
-    assert result.at("carrier.rate", 1.0) == pytest.approx(result.at("sun.rate", 1.0) / 4, rel=1e-6)
-    assert result.at("sun.rate", 1.0) == pytest.approx(10 / 2 / 2 / (0.01 + 0.5 / 16), rel=1e-5)
+    assert result.at("carrier.speed", 1.0) == pytest.approx(result.at("sun.speed", 1.0) / 4, rel=1e-6)
+    assert result.at("sun.speed", 1.0) == pytest.approx(10 / 2 / 2 / (0.01 + 0.5 / 16), rel=1e-5)
 
 
 @pytest.mark.slow
@@ -64,8 +64,8 @@ def test_a_differential_gives_both_sides_one_torque():
     result = run("differential")
     torque = (20 + 0.1 * 3) / 2.1  # 20 = 0.1 (T - 3) + 2 T
     assert result.at("axle.torque", 1.0) == pytest.approx(torque, rel=1e-6)
-    assert result.at("left.rate", 2.0) == pytest.approx(2 * torque, rel=1e-6)
-    assert result.at("right.rate", 2.0) == pytest.approx(2 * (torque - 6), rel=1e-6)
+    assert result.at("left.speed", 2.0) == pytest.approx(2 * torque, rel=1e-6)
+    assert result.at("right.speed", 2.0) == pytest.approx(2 * (torque - 6), rel=1e-6)
 
 
 @pytest.mark.slow
@@ -74,7 +74,7 @@ def test_a_gear_with_a_support_hands_it_what_the_shafts_leave_over():
     turning = 1 / (0.01 + 2 * 0.1**2)  # of the rotor, once the arm is at rest
     assert abs(result["arm.torque"][-1]) == pytest.approx(2 * 0.1 * turning * (1 - 0.1), rel=1e-4)
     fixed = run("supported_gear", **{"arm.stiffness": "1e9 N*m/rad"})
-    assert fixed.at("rotor.rate", 2.0) == pytest.approx(2 * turning, rel=1e-4)
+    assert fixed.at("rotor.speed", 2.0) == pytest.approx(2 * turning, rel=1e-4)
 
 
 @pytest.mark.parametrize(("half_angle", "mu"), [(0.26, 0.1), (0.0, 0.2)])
@@ -128,9 +128,9 @@ def test_a_belt_slips_at_the_torque_of_the_textbook(wrap_a, wrap_b, mass):
 def test_a_stop_is_met_in_time_and_carries_the_torque_at_rest():
     result = run("rotational_stop", **{"run.stop": "8 s"})
     assert switched(result, "stop", "upper") == pytest.approx(np.sqrt(2 * np.pi / 3 / (0.5 / 0.02)), rel=1e-5)
-    assert result["flap.turned"][-1] == pytest.approx(np.pi / 3 + 0.5 / 500, rel=1e-4)
+    assert result["flap.angle"][-1] == pytest.approx(np.pi / 3 + 0.5 / 500, rel=1e-4)
     back = run("rotational_stop", **{"motor.torque": "-0.5 N*m", "run.stop": "20 s"})
-    assert back["flap.turned"][-1] == pytest.approx(-np.pi / 18 - 0.5 / 500, rel=1e-3)
+    assert back["flap.angle"][-1] == pytest.approx(-np.pi / 18 - 0.5 / 500, rel=1e-3)
 
 
 @pytest.mark.slow
