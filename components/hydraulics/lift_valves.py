@@ -112,10 +112,10 @@ class PilotedRelief(PilotCheckValve):
 class CounterbalanceValve(Composite):
     """Holds a load and lets it down as its pilot asks; oil that lifts the load passes freely.
 
-    It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on; a check valve beside it leads from
-    `valve` to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes: that is
-    how it brakes. Set it some 1.3 times the pressure of the largest load. Limits: no dynamics of the poppet; the
-    spring's chamber is joined with `valve`, so pressure there acts against it.
+    It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on. A check valve beside it leads from `valve`
+    to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes and brakes
+    it. Set it some 1.3 times the pressure of the largest load. Limits: the poppet has no dynamics; the spring's chamber
+    is joined with `valve`, so pressure there acts against it.
     """
 
     load = Hydraulic("side of the load")
