@@ -112,7 +112,7 @@ class PilotedRelief(PilotCheckValve):
 class CounterbalanceValve(Composite):
     """Holds a load and lets it down as its pilot asks; oil that lifts the load passes freely.
 
-    It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on. A check valve beside it leads from `valve`
+    It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on. A check valve beside leads from `valve`
     to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes and brakes
     it. Set it some 1.3 times the pressure of the largest load. Limits: the poppet has no dynamics; the spring's chamber
     is joined with `valve`, so pressure there acts against it.
