@@ -11,6 +11,9 @@ BENCH ?= everything.py
 HARD ?=
 INVARIANCE ?=
 WORKERS ?= auto
+# Some machines forbid Python to keep what it compiled. Here it may: each process of a test, or of a command, would
+# otherwise compile fairlead and its libraries again, two seconds at a time. `make clean` removes it.
+export PYTHONDONTWRITEBYTECODE :=
 AS_ROOT := $(if $(filter 0,$(shell id -u)),,sudo -n)
 
 .PHONY: help demo test test-all browser hard invariance lint types bench docs pictures clean

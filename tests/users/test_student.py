@@ -3,6 +3,7 @@
 What is expected is worked out here, from force balances and linear equations between two events.
 """
 
+import functools
 import math
 
 import numpy as np
@@ -125,7 +126,10 @@ def slowest_and_fastest(rate):
     return min(speeds[top:]), speeds[top]
 
 
-CRITICAL = brentq(lambda rate: slowest_and_fastest(rate)[0], 1.0, 60.0)  # rad/s; slower, the bit comes to rest again
+@functools.cache
+def critical():
+    """Speed of the table [rad/s] below which the bit comes to rest again."""
+    return brentq(lambda rate: slowest_and_fastest(rate)[0], 1.0, 60.0)
 
 
 def sticks(result):
@@ -134,14 +138,14 @@ def sticks(result):
 
 
 def test_below_the_critical_speed_the_bit_sticks_and_slips(scene):
-    rate = 0.7 * CRITICAL
+    rate = 0.7 * critical()
     result = scene(DRILL, rate=f"{rate} rad/s").run(out=None)
     assert max(sticks(result)) > 70
     assert result.extremes("bit.speed").highest == pytest.approx(slowest_and_fastest(rate)[1], rel=1e-3)
 
 
 def test_above_the_critical_speed_it_never_sticks_again(scene):
-    rate = 1.3 * CRITICAL
+    rate = 1.3 * critical()
     result = scene(DRILL, rate=f"{rate} rad/s").run(out=None)
     broke = min(event.t for event in result.events if event.zone_from == "held")
     assert broke == pytest.approx((BREAKAWAY - LOSS * rate) / STRING / rate, rel=1e-3)  # the twist that breaks it away
