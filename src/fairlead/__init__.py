@@ -16,10 +16,11 @@ from fairlead.simulate import Model, describe_type, json_schema, load
 
 if TYPE_CHECKING:
     from fairlead.result import Result
+    from fairlead.studies.modes.modes import modes
     from fairlead.studies.sensitivities.sensitivity import sensitivity
 
 __all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInterrupted", "RunWarning",
-           "SteppingError", "UsageError", "describe_type", "json_schema", "load", "sensitivity"]  # fmt: skip
+           "SteppingError", "UsageError", "describe_type", "json_schema", "load", "modes", "sensitivity"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:
@@ -27,6 +28,10 @@ def __getattr__(name: str) -> Any:
         from fairlead.result import Result
 
         return Result
+    if name == "modes":
+        from fairlead.studies.modes.modes import modes
+
+        return modes
     if name == "sensitivity":
         from fairlead.studies.sensitivities.sensitivity import sensitivity
 

@@ -166,6 +166,11 @@ class Stepping:
                 raise SteppingError(*self._ended())
         return self.t
 
+    def standing(self) -> tuple[float, np.ndarray, Instance]:
+        """Where the run is: time [s], a copy of the unknowns, and its equations with their zones."""
+        self._begin()
+        return self.t, self._memory.array["y"].copy(), self._instance
+
     def save(self) -> State:
         """Where the run is, with what was set."""
         self._begin()

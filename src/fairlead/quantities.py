@@ -313,6 +313,14 @@ def unit_text(dimension: Dimension) -> str:
     return (above or "1") + below if named else ""
 
 
+def quotient(unit: str, by: str) -> str:
+    """One unit over another: `s/N`, `m/(N*s)`, `1` where both measure the same."""
+    one, other = (parse_unit(each).dimension for each in (unit, by))
+    if one == other:
+        return "1"
+    return unit if by == "1" else f"{unit}/({by})" if "/" in by or "*" in by else f"{unit}/{by}"
+
+
 def _power_text(base: str, power: Fraction | int) -> str:
     return base if power == 1 else f"{base}^{power}"
 

@@ -20,6 +20,7 @@ from fairlead.cli import (
     friction,
     graph,
     margins,
+    modes,
     new,
     plot,
     report,
@@ -45,8 +46,8 @@ app = typer.Typer(
 )
 for verb in (
     check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
-    margins.margins, compare.compare, sweep.sweep, fit.fit, sensitivity.sensitivity, cost.cost, effects.effects,
-    schema.schema, new.new, doctor.doctor,
+    margins.margins, compare.compare, sweep.sweep, fit.fit, sensitivity.sensitivity, modes.modes, cost.cost,
+    effects.effects, schema.schema, new.new, doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)
 

@@ -28,7 +28,8 @@ def sensitivity(
     to: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAMES", help="Parameters: mu,pad.normal_force, or NAME=SIZE of one that is 0. Repeatable.",
+            metavar="NAMES",
+            help="Parameters: mu,pad.normal_force, or NAME=SIZE of one that is 0. Repeatable.",
             autocompletion=completion.parameters,
         ),
     ] = None,

@@ -6,6 +6,7 @@
     pictures        of sweeps
     fits            parameters from measured records
     sensitivities   derivatives of figures to parameters
+    modes           a model linearised in its zones
 
 Contract: a study knows models only through `simulate.Model` and `run.run`; no stage of the pipeline knows a study.
 """

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fairlead.errors import FairleadError, Fault, ModelError
-from fairlead.quantities import parse_unit
+from fairlead.quantities import quotient
 from fairlead.studies.cases.cases import Cases
 from fairlead.studies.cases.figures import Function
 from fairlead.studies.differences.steps import LADDER, NEAR, near, noise_of
@@ -55,14 +55,6 @@ def sensitivity(
     )  # fmt: skip
     return Sensitivities(cases.name, rows, first.figures, cases.units, noise, {one.name: one.value for one in varied},
                          len(runs.made))  # fmt: skip
-
-
-def quotient(unit: str, by: str) -> str:
-    """The unit of a derivative: `s/N`, `1` where both are the same."""
-    one, other = (parse_unit(each).dimension for each in (unit, by))
-    if one == other:
-        return "1"
-    return unit if by == "1" else f"{unit}/({by})" if "/" in by or "*" in by else f"{unit}/{by}"
 
 
 def _asked(

@@ -27,9 +27,7 @@ def parting(one: Sequence[Event], other: Sequence[Event], names: tuple[str, str]
     return f"{component}, zone change {count}: {sides[0]}, {sides[1]}"
 
 
-def _parted(
-    one: Sequence[Event], other: Sequence[Event]
-) -> tuple[str, int, Event | None, Event | None] | None:
+def _parted(one: Sequence[Event], other: Sequence[Event]) -> tuple[str, int, Event | None, Event | None] | None:
     found = []
     mine, others = _by_component(one), _by_component(other)
     for component in {**mine, **others}:

@@ -1,0 +1,84 @@
+"""Eigenvalues of a linearised model: frequency, damping, and which component takes part.
+
+The participation of a state in a mode is |w_k v_k| with the left and the right eigenvector, w'v = 1 (Perez-Arriaga,
+Verghese and Schweppe, IEEE Trans. PAS-101, 1982). It does not depend on units. States of one component are added up,
+and the shares of a mode make 1. Of bodies that hold together positions share by stiffness, and speeds by inertia.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.studies.modes.linear import Linear
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+AT_REST = 4 * math.sqrt(np.finfo(float).eps)
+"""Of the largest eigenvalue or pace: a smaller one counts as zero, since rounding makes so much of a double zero."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A mode of motion: its eigenvalue [1/s] with an imaginary part of 0 or above, and who takes part.
+
+    `shape` is the change of every unknown, in the unit of each, the largest speed or state with size 1.
+    """
+
+    value: complex
+    participation: dict[str, float]
+    """Share of every component, the largest first; they make 1."""
+    shape: Complex = field(repr=False, compare=False)
+
+    @property
+    def frequency(self) -> float:
+        """Of the oscillation [Hz]; 0 for what creeps back or away."""
+        return abs(self.value.imag) / (2 * math.pi)
+
+    @property
+    def damping(self) -> float:
+        """Damping ratio: below 0 the mode grows, at 1 and above it does not oscillate."""
+        return -self.value.real / abs(self.value)
+
+    @property
+    def growth(self) -> float:
+        """Real part [1/s]: above 0 the mode grows by exp(growth t)."""
+        return self.value.real
+
+
+def modes_of(found: Linear) -> tuple[list[Mode], int]:
+    """The modes by falling period, and how many eigenvalues are zero."""
+    from scipy.linalg import eig, matrix_balance
+
+    if not len(found.matrix):
+        return [], 0
+    balanced, scale = matrix_balance(found.matrix, permute=False)
+    values, left, right = eig(balanced, left=True, right=True)
+    scale = np.diag(scale)[:, None]
+    left, right = found.onto.T @ (left / scale), found.basis @ (right * scale)
+    zero = np.abs(values) <= AT_REST * max(np.abs(values).max(), found.pace)
+    wanted = np.flatnonzero(~zero & (values.imag >= 0))
+    wanted = wanted[np.argsort(np.abs(values[wanted]), kind="stable")]
+    made = [Mode(complex(values[k]), _participation(found, left[:, k], right[:, k]), _shape(found, right[:, k]))
+            for k in wanted]  # fmt: skip
+    return made, int(zero.sum())
+
+
+def _participation(found: Linear, left: Complex, right: Complex) -> dict[str, float]:
+    sizes = np.abs(left.conj() * right)
+    owners = [name.rpartition(".")[0] for name, d in zip(found.equations.names, found.equations.differential,
+                                                         strict=True) if d]  # fmt: skip
+    shares: dict[str, float] = {}
+    for owner, size in zip(owners, (sizes / sizes.sum()).tolist(), strict=True):
+        shares[owner] = shares.get(owner, 0.0) + size
+    return dict(sorted(shares.items(), key=lambda one: -one[1]))
+
+
+def _shape(found: Linear, right: Complex) -> Complex:
+    """The change of every unknown."""
+    y: Complex = found.spread @ (found.onto @ right)
+    largest = y[np.argmax(np.abs(np.where(found.equations.differential, y, 0)))]
+    return y / largest

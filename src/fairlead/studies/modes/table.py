@@ -1,0 +1,132 @@
+"""Modes as they are handed back, and as lines of text: the pattern of zones, a table, patterns by damping."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fairlead.studies.modes.linear import Linear
+from fairlead.studies.modes.response import Response
+from fairlead.studies.modes.spectrum import Mode
+from fairlead.studies.modes.squeal import Pattern
+
+COLUMNS = ("mode", "frequency Hz", "damping", "growth 1/s", "time constant s", "who takes part")
+RANKED = ("changed", "damping", "frequency Hz", "growth 1/s", "who takes part")
+FEW, LITTLE = 3, 0.02
+"""Components that a row names, and the share from which on."""
+MOST_ROWS = 40
+"""Modes and patterns that a table shows; `--json` and `--csv` have all."""
+UNDAMPED = 1e-9
+"""Damping that is rounding."""
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Modes by falling period, and what they belong to; it goes over the modes in a loop."""
+
+    model: str
+    t: float
+    zones: dict[str, str]
+    """Zone of every part that has several."""
+    pattern: str
+    """The same in words."""
+    modes: tuple[Mode, ...]
+    at_rest: int
+    """Eigenvalues that are zero: places that may be any, as of a contact that holds, and free motion."""
+    held: int
+    """Slips that are kept at zero."""
+    response: Response | None
+    patterns: tuple[Pattern, ...]
+    remarks: tuple[str, ...]
+    linear: Linear = field(repr=False)
+
+    def __iter__(self) -> Iterator[Mode]:
+        return iter(self.modes)
+
+    def __len__(self) -> int:
+        """How many modes."""
+        return len(self.modes)
+
+    def __getitem__(self, index: int) -> Mode:
+        """A mode."""
+        return self.modes[index]
+
+    @property
+    def unstable(self) -> tuple[Mode, ...]:
+        """Modes that grow."""
+        return tuple(one for one in self.modes if one.growth > 0)
+
+    def __str__(self) -> str:
+        return "\n".join(lines_of(self))
+
+
+def cells(number: int, mode: Mode) -> list[str]:
+    """A mode as the texts of COLUMNS."""
+    damping, growth = _clean(mode.damping), _clean(mode.growth, abs(mode.value))
+    swings = (f"{mode.frequency:.5g}", f"{damping:.4g}") if mode.frequency else ("-", "-")
+    return [str(number), *swings, f"{growth:.4g}", f"{1 / abs(growth):.4g}" if growth else "-", takes_part(mode)]
+
+
+def ranked_cells(one: Pattern) -> list[str]:
+    """A pattern as the texts of RANKED."""
+    words = ", ".join(one.changes) or "as it is"
+    if one.mode is None:
+        return [words, "", "", "", one.sentence or "no mode but rest"]
+    mode = one.mode
+    return [words, f"{_clean(mode.damping):.4g}", f"{mode.frequency:.5g}",
+            f"{_clean(mode.growth, abs(mode.value)):.4g}", takes_part(mode)]  # fmt: skip
+
+
+def takes_part(mode: Mode) -> str:
+    """Components with the largest shares."""
+    shares = [(name, share) for name, share in mode.participation.items() if share >= LITTLE]
+    return ", ".join(f"{name} {share:.0%}" for name, share in shares[:FEW])
+
+
+def notes(found: Modes) -> Iterator[str]:
+    """What is to be said beside the table."""
+    if found.pattern:
+        yield found.pattern
+    if found.at_rest:
+        yield f"{found.at_rest} eigenvalues are zero: places that stay where they are put, or free motion."
+    for mode in found.unstable:
+        if _clean(mode.damping) != 0:
+            how = f"swings up at {mode.frequency:.4g} Hz" if mode.frequency else "runs away"
+            yield f"Unstable: {takes_part(mode)} {how}, by a factor of e in {1 / mode.growth:.3g} s."
+    yield from found.remarks
+    if found.response is not None:
+        yield of_response(found.response)
+
+
+def of_response(one: Response) -> str:
+    """Where the response is largest."""
+    sizes = np.abs(one.values)
+    k = int(np.argmax(sizes))
+    lowest = f"{one.out} over {one.acting}: {sizes[0]:.4g} {one.unit} at {one.frequencies[0]:.3g} Hz"
+    return f"{lowest}, largest {sizes[k]:.4g} at {one.frequencies[k]:.4g} Hz."
+
+
+def lines_of(found: Modes) -> Iterator[str]:
+    """All of it as lines of aligned text."""
+    yield f"{found.model} at {found.t:.6g} s"
+    yield from notes(found)
+    if found.modes:
+        yield from _aligned([list(COLUMNS), *(cells(k, one) for k, one in enumerate(found.modes[:MOST_ROWS], 1))])
+    if len(found.modes) > MOST_ROWS:
+        yield f"... and {len(found.modes) - MOST_ROWS} more"
+    if found.patterns:
+        yield from _aligned([list(RANKED), *map(ranked_cells, found.patterns[:MOST_ROWS])])
+
+
+def _aligned(rows: list[list[str]]) -> Iterator[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
+
+
+def _clean(value: float, size: float = 1.0) -> float:
+    """A number without what is rounding."""
+    return 0.0 if abs(value) <= UNDAMPED * size or math.isnan(value) else value
