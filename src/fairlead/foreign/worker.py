@@ -17,11 +17,13 @@ import threading
 import zipfile
 from typing import Any
 
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
 Named = list[list[Any]]  # [kind, value reference] of variables
 FLOATS = ("Real", "Float64", "Float32")
+DISCARD, TERMINATED = 2, 3  # fmi2Status and fmi2StatusKind, FMI 2.0.4, sections 2.1.3 and 4.2.3
 
 
 class Instance:
@@ -48,7 +50,7 @@ class Instance:
         if not self.begun:
             self.start(begin, inputs)
         elif at is not None:
-            ended = self.fmu.doStep(at, step, not self.past)
+            ended = self.do_step(at, step)
             if ended is not None and ended[1]:
                 return {"error": f"it asks to end the simulation at {at + step:.9g} s"}
             if ended is not None and ended[2]:
@@ -58,9 +60,19 @@ class Instance:
         for kind, references, places in self.outputs:
             for place, value in zip(places, self.get(kind, references), strict=True):
                 found[place] = float(value)
-                if kind not in FLOATS and abs(int(value)) > 2**53:
+                if kind not in FLOATS and int(found[place]) != int(value):
                     return {"error": f"a {kind} output is {value}, which no signal holds exactly"}
         return {"outputs": found}
+
+    def do_step(self, at: float, step: float) -> tuple[Any, ...] | None:
+        """Step; of FMI 3 what it says: event, end, early return, time. FMI 2 discards a step at which it ends."""
+        try:
+            said: tuple[Any, ...] | None = self.fmu.doStep(at, step, not self.past)
+            return said
+        except FMICallException as error:
+            if self.version == 2 and error.status == DISCARD and self.fmu.getBooleanStatus(TERMINATED):
+                return False, True, False, at
+            raise
 
     def start(self, begin: float, inputs: list[Any]) -> None:
         """Initialise at `begin`."""
