@@ -45,8 +45,9 @@ class StandIn:
         self.netlist = SimpleNamespace(record=SimpleNamespace(plots=[]))
         self.remarks: list[Fault] = []
 
-    def load(self, path: str, set: dict[str, str], libraries: list[str]) -> "StandIn":
+    def load(self, path: str, set: dict[str, str], libraries: list[str], *, allow_fmu: bool = False) -> "StandIn":
         self.calls.append(("load", path, set, libraries))
+        self.allow_fmu = allow_fmu
         return self
 
     def _answer(self, *call: Any) -> None:
@@ -89,6 +90,7 @@ def test_settings_and_libraries_reach_the_loader_as_typed(command: Command) -> N
     command("check", "belt", *settings, "--library", "a.py", "--library", "b.py", model=model)
     libraries = ["a.py", "b.py"]
     assert model.calls[0] == ("load", "belt", {"mu": "0.6", "v": "2 m/s"}, libraries)
+    assert not model.allow_fmu
 
 
 @pytest.mark.parametrize("setting", ["mu", "mu=", "=0.6", ""])
