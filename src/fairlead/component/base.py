@@ -106,7 +106,8 @@ class Family(Declared, abstract=True):
     """Kinds that can stand in one place, told apart by one word in the netlist.
 
     The head of a family is abstract and names the word: `key = "curve"`. A member is known by its
-    `word` (its class name in lower_snake unless it says so), and becomes available by being imported.
+    `word` (its class name in lower_snake unless it says so), and becomes available by being imported; one of a library
+    is in view while a model with that library is read, see `members.py`.
     `bare` names the parameter that a value without a map stands for, in the member `bare_word`.
     """
 
@@ -116,7 +117,8 @@ class Family(Declared, abstract=True):
     offered: ClassVar[tuple[str, ...]] = ()  # words that messages name first
     bare: ClassVar[tuple[str, str] | None] = None  # (word, parameter)
     members: ClassVar[dict[str, type[Family]]]
-    joined: ClassVar[int] = 0  # members of all families so far
+    everyone: ClassVar[list[type[Family]]] = []  # members of all families, in the order in which they joined
+    shown: ClassVar[tuple[int, ...]] = ()  # numbers of the libraries whose members are in view
     needs: ClassVar[dict[str, str]] = {}  # methods that every member has: how it is called, with what it gives
     gives: ClassVar[dict[str, str]] = {}  # methods that give a number: which, in words; it may end with None
 
@@ -134,7 +136,7 @@ class Family(Declared, abstract=True):
                 _demand(cls, not wrong, f"{name} {wrong}")
             cls.word = cls.__dict__.get("word") or _snake(cls.__name__)
             cls.members[cls.word] = cls
-            Family.joined += 1
+            Family.everyone.append(cls)
 
 
 def _snake(name: str) -> str:

@@ -35,6 +35,7 @@ from fairlead.component.given import (
     Table,
     Waveform,
 )  # fmt: skip
+from fairlead.component.members import view
 from fairlead.component.mistakes import explain
 from fairlead.component.replies import AnswerError
 from fairlead.component.tables import file_inside, read_table, table_schema
@@ -81,12 +82,12 @@ def make(kind: type[Declared], **given: Any) -> Values:
 
 def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
-    return _model(cast(Any, kind), Family.joined)  # mypy takes the __hash__ of instances for that of the class
+    return _model(cast(Any, kind), view())  # mypy takes the __hash__ of instances for that of the class
 
 
 @functools.cache
-def _model(kind: type[Declared], joined: int) -> type[BaseModel]:
-    """A member that joins a family later, from a library, makes other models of all that may have it as a part."""
+def _model(kind: type[Declared], seen: tuple[int, tuple[int, ...]]) -> type[BaseModel]:
+    """A member that joins a family later, or is of another library, makes other models of all that may have it."""
     fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
     if issubclass(kind, Family) and kind.key:
         fields[kind.key] = (

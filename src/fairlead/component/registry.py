@@ -16,11 +16,16 @@ from collections.abc import Iterable, Mapping
 from types import ModuleType
 
 from fairlead.component.base import Component, Composite, Declared, Family
+from fairlead.component.members import defined_by_a_library, hide_libraries, show
 from fairlead.errors import Fault, ModelError
 
 ENTRY_POINTS = "fairlead.components"
 WRITTEN = "__written__"
 """In the module of a library: what its files were when it was loaded."""
+NUMBER = "__number__"
+"""In the module of a library: under which number its members of families are kept."""
+_loaded: dict[str, ModuleType] = {}
+"""Libraries as they were loaded last, by path; those of one name in two folders do not disturb each other."""
 Types = Mapping[str, type[Declared]]
 
 
@@ -36,6 +41,7 @@ def known_types(libraries: Iterable[str] = ()) -> dict[str, type[Declared]]:
             types.update(_types_in(point.load()))
         except Exception as error:  # noqa: BLE001 - any failure of foreign code must not stop the start
             warnings.warn(f"plug-in {point.name} ({point.value}) is left out: {error}", stacklevel=2)
+    hide_libraries()
     for path in libraries:
         types.update(_types_in(load_library(path)))
     return types
@@ -90,10 +96,14 @@ def load_library(path: str) -> ModuleType:
     if not target.is_file():
         raise ModelError((Fault(None, f"--library {path}: there is no such file", "Give a .py file."),))
     name = f"fairlead_library_{target.parent.name if file.is_dir() else target.stem}"
-    loaded, written = sys.modules.get(name), _written(file)
-    if loaded is not None and getattr(loaded, "__file__", None) == str(target):
-        if loaded.__dict__.get(WRITTEN) == written:
-            return loaded
+    loaded, written = _loaded.get(str(target)), _written(file)
+    if loaded is not None and loaded.__dict__.get(WRITTEN) == written:
+        if sys.modules.get(name) is not loaded:
+            _forget(name, ())
+            sys.modules[name] = loaded
+        show(loaded.__dict__[NUMBER])
+        return loaded
+    if loaded is not None or name in sys.modules:  # edited, or of another folder
         _forget(name, written)
     spec = importlib.util.spec_from_file_location(name, target)
     if spec is None or spec.loader is None:
@@ -102,12 +112,15 @@ def load_library(path: str) -> ModuleType:
     sys.modules[name] = module
     module.__dict__[WRITTEN] = written
     try:
-        spec.loader.exec_module(module)
+        with defined_by_a_library() as module.__dict__[NUMBER]:
+            spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:  # a script that ends Python would end fairlead without a word
         del sys.modules[name]
         raise ModelError(
             (Fault(None, f"--library {path} cannot be loaded: {_place(error, target)}{error}"),)
         ) from error
+    _loaded[str(target)] = module
+    show(module.__dict__[NUMBER])
     return module
 
 

@@ -1,0 +1,57 @@
+"""Which members of families are in view: what was defined or imported, and what the libraries of one model define.
+
+Two models may have libraries that define a member of the same word. Whoever reads a netlist hides those of all
+libraries first, and shows those of its own (`registry.known_types`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from fairlead.component.base import Family
+
+_libraries: list[list[type[Family]]] = []
+"""What each load of a library defined, by its number."""
+
+
+@contextmanager
+def defined_by_a_library() -> Iterator[int]:
+    """Take what joins meanwhile for members of one library; gives its number. They are not in view yet."""
+    before = len(Family.everyone)
+    number = len(_libraries)
+    _libraries.append([])
+    try:
+        yield number
+    finally:
+        _libraries[number] += Family.everyone[before:]
+        _put_in_view(Family.shown)
+
+
+def hide_libraries() -> None:
+    """Leave what was defined or imported without a library in view."""
+    _put_in_view(())
+
+
+def show(number: int) -> None:
+    """Add the members of one library; they go before others of the same word."""
+    _put_in_view((*(one for one in Family.shown if one != number), number))
+
+
+def view() -> tuple[int, tuple[int, ...]]:
+    """What tells one view from another."""
+    return len(Family.everyone), Family.shown
+
+
+def _put_in_view(shown: tuple[int, ...]) -> None:
+    apart = {member for members in _libraries for member in members}
+    free = [member for member in Family.everyone if member not in apart]
+    for head in {_head(member): None for member in Family.everyone}:
+        head.members.clear()
+    for member in (*free, *(member for number in shown for member in _libraries[number])):
+        member.members[member.word] = member
+    Family.shown = shown
+
+
+def _head(member: type[Family]) -> type[Family]:
+    return next(kind for kind in member.__mro__ if "members" in kind.__dict__)
