@@ -33,11 +33,16 @@ endif
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
 # Neighbours share runs, so each worker takes a stretch of the tests and steals from the end of another's.
-test: $(VENV)/test.done  ## install with what the tests need, run the tests (WORKERS=0 in one process)
+test: engine  ## install with what the tests need, run the tests (WORKERS=0 in one process)
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m "not slow" $(TESTS)
 
-test-all: $(VENV)/test.done  ## the rest of the tests, those that take long
+test-all: engine  ## the rest of the tests, those that take long
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
+
+# A worker would wait for the loop that another one compiles; here every core has one of its own to compile.
+.PHONY: engine
+engine: $(VENV)/test.done
+	$(RUN) -m fairlead.integrate.compile_all
 
 browser:  ## install Debian's chromium, which the tests of pages drive; without it they are skipped
 	@if command -v chromium >/dev/null && command -v chromedriver >/dev/null; then echo "chromium is installed"; \
@@ -81,7 +86,7 @@ link-tree:
 
 # A stamp per set of dependencies: a second call installs nothing unless pyproject.toml changed.
 # --no-compile halves the time: Python compiles what is imported, when it is first imported.
-$(VENV)/fairlead.done: EXTRAS :=
+$(VENV)/fairlead.done: EXTRAS := [compile]
 $(VENV)/test.done: EXTRAS := [test]
 $(VENV)/lint.done: EXTRAS := [lint]
 $(VENV)/bench.done: EXTRAS := [bench]

@@ -91,7 +91,7 @@ def digest(*parts: str) -> str:
 
 @functools.cache
 def _environment() -> tuple[str, ...]:
-    versions = tuple(importlib.metadata.version(name) for name in ("numba", "llvmlite", "numpy"))
+    versions = tuple(importlib.metadata.version(name) for name in ("llvmlite", "numpy"))
     chosen = processor()
     own = pathlib.Path(__file__).read_text(encoding="utf-8")
     return (*versions, chosen.cpu, chosen.features, platform.platform(), platform.machine(), sys.version, own)

@@ -32,7 +32,7 @@ ALLOWED = {
     "system": {"errors", "quantities", "netlist", "component", "components", "flatten", "kernels", "native",
                "patterns"},
     "describe": {"errors", "quantities", "component", "flatten", "kernels", "system"},
-    "integrate": {"errors", "native", "processor"},
+    "integrate": {"errors", "native", "processor", "sealed"},
     "results": {"brief", "errors", "quantities", "patterns", "renamed"},
     "analysis": {"arguments", "brief", "errors", "quantities", "netlist", "component", "flatten", "kernels", "system",
                  "results", "patterns", "renamed", "sealed"},

@@ -72,7 +72,7 @@ def succeed(*command: str | pathlib.Path, **settings: Any) -> str:
 def build_wheel(folder: pathlib.Path) -> pathlib.Path:
     """A wheel made from a copy of the sources: setuptools would leave a `build/` in the tree and reuse it."""
     copy = folder / "sources"
-    for name in ("src", "components", "models"):
+    for name in ("src", "components", "models", "building"):
         shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     for name in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, copy)
@@ -83,7 +83,13 @@ def build_wheel(folder: pathlib.Path) -> pathlib.Path:
 
 
 @pytest.fixture(scope="module")
-def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """Our wheel; building it compiles the engine, so it is built once."""
+    return build_wheel(tmp_path_factory.mktemp("wheel"))
+
+
+@pytest.fixture(scope="module")
+def elsewhere(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Elsewhere:
     """Our wheel in a clean environment; its folder has a blank in its name, as folders have."""
     place = Elsewhere(tmp_path_factory.mktemp("else where"))
     place.user.mkdir()
@@ -92,7 +98,8 @@ def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
     answer = subprocess.run([*fetch, "setuptools"], capture_output=True, text=True)
     if answer.returncode:
         pytest.skip(f"no package index can be reached: {answer.stderr[-300:]}")
-    place.call("-m", "pip", "install", "--quiet", build_wheel(place.folder))
+    wheel = request.getfixturevalue("wheel")
+    place.call("-m", "pip", "install", "--quiet", f"{wheel}[ida]")
     return place
 
 
@@ -134,6 +141,23 @@ def test_an_installed_wheel_runs_a_bundled_model_by_name(elsewhere: Elsewhere) -
     assert {"run.json", "series.nc"} <= {file.name for file in (elsewhere.user / "belt result").iterdir()}
 
 
+WITHOUT_NUMBA = """
+import importlib.util
+import fairlead
+
+assert importlib.util.find_spec("numba") is None
+for engine in ("rodas", "stepping", "ida"):
+    result = fairlead.load("belt", set={"run.engine": engine}).run(out=None)
+    print(engine, result.status, result.run["switches"] > 0)
+"""
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_runs_each_engine_without_numba(elsewhere: Elsewhere) -> None:
+    said = elsewhere.call("-c", WITHOUT_NUMBA)
+    assert said.splitlines() == [f"{engine} finished True" for engine in ("rodas", "stepping", "ida")]
+
+
 @pytest.mark.slow
 def test_an_installed_wheel_takes_a_component_from_a_users_file(elsewhere: Elsewhere) -> None:
     (elsewhere.user / "parts.py").write_text(OWN_COMPONENT)
@@ -156,7 +180,9 @@ reveal_type(fairlead.RunError)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("mode", ["wheel", "editable"])
-def test_a_type_checker_resolves_an_installed_and_an_editable_package(tmp_path: pathlib.Path, mode: str) -> None:
+def test_a_type_checker_resolves_an_installed_and_an_editable_package(
+    tmp_path: pathlib.Path, mode: str, request: pytest.FixtureRequest
+) -> None:
     """The editable one as docs/python.md installs it: mypy cannot follow the import hook of setuptools' usual mode."""
     pytest.importorskip("mypy", reason="mypy comes with the extra lint")
     venv.create(tmp_path / "env", with_pip=True)
@@ -165,8 +191,8 @@ def test_a_type_checker_resolves_an_installed_and_an_editable_package(tmp_path: 
     fetch = [place.python, "-m", "pip", "download", "--no-deps", "--dest", tmp_path / "fetched", "setuptools"]
     if subprocess.run(fetch, capture_output=True).returncode:
         pytest.skip("no package index can be reached")
-    wheel = build_wheel(tmp_path)
-    strict = ("--config-settings", "editable_mode=strict", "--editable", tmp_path / "sources")
+    wheel = request.getfixturevalue("wheel")
+    strict = ("--config-settings", "editable_mode=strict", "--editable", wheel.parent / "sources")
     place.call("-m", "pip", "install", "--quiet", "--no-deps", *((wheel,) if mode == "wheel" else strict))
     (place.user / "use.py").write_text(USES_IT, encoding="utf-8")
     command = [sys.executable, "-m", "mypy", "--python-executable", place.python, "--cache-dir", tmp_path, "use.py"]

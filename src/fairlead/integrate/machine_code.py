@@ -1,16 +1,24 @@
-"""The compiled loop as a C function: from the cache, or compiled by numba on a miss."""
+"""The compiled loop as a C function: from the cache; else from bitcode compiled ahead, or compiled by numba.
+
+    compiled_loop(engine)       the loop with the method of an engine
+"""
 
 from __future__ import annotations
 
 import ctypes
 import functools
-import importlib
+import hashlib
+import importlib.metadata
+import importlib.util
 import os
 import pathlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
+import fairlead.integrate.ahead as ahead
 import fairlead.native as native
+from fairlead.errors import UsageError
 from fairlead.integrate.engine import Advance, Engine
 from fairlead.integrate.memory.layout import CHECK
 from fairlead.processor import tell_numba
@@ -21,26 +29,77 @@ FILES = ("codes.py", "one_step.py", "loop.py", "link_once.py")
 """Files of this folder beside them."""
 
 
-def compiled_loop(engine: Engine) -> Advance:
-    """advance(address of the structs, attempts) -> status, as loop.py has it, with the method of this engine.
+@dataclass(frozen=True)
+class Compiled:
+    """A module that is compiled on its own, and an entry of its own in the cache: only what is used gets compiled."""
 
-    Each engine is an entry of its own in the cache, so that only what is used gets compiled.
-    """
-    return _compiled_loop(engine.module, engine.sources)
+    module: str
+    """Where `METHOD` of a loop is; or KERNELS, whose functions are called one by one."""
+    sources: tuple[str, ...]
+    """What it is made of beside that of every loop."""
+
+    def fingerprint(self) -> str:
+        """Hash of the sources of the machine code: these rooms or files, and those of every loop."""
+        state = hashlib.sha256(self.module.encode())
+        for name in (*ROOMS, *FILES, *self.sources):
+            for file in sources_of(name):
+                state.update(hashlib.sha256(file.read_bytes().replace(b"\r\n", b"\n")).digest())
+        return state.hexdigest()
+
+    def native(self) -> native.Native:
+        """Machine code from the cache, else from bitcode compiled ahead, else by numba.
+
+        Raises UsageError where it has to be compiled and numba is missing.
+        """
+        sources, check = self.fingerprint(), os.environ.get(CHECK, "")
+        stored, reason = (None, f"{CHECK} is set") if check else ahead.find(self.module, sources)
+        if stored:
+            return native.load_or_compile(native.digest("ahead", str(stored.llvm), sources), stored.native)
+        key = native.digest("integrate", _version_of_numba(), sources, check)
+        return native.load_or_compile(key, lambda: self.build(reason))
+
+    def native_is_there(self) -> bool:
+        """Have the machine code in the cache; True if it was."""
+        return self.native().cached
+
+    def build(self, reason: str = "") -> native.Build:
+        """The functions, compiled by numba now; `reason` says why it must be."""
+        numba_or_reason(self.module, reason)
+        return _build_sundials() if self.module == KERNELS else _build(self.module)
+
+
+def numba_or_reason(module: str, reason: str) -> None:
+    """Nothing, where numba is installed. Raises UsageError that names the module, and why it has to be compiled."""
+    if importlib.util.find_spec("numba") is None:
+        raise UsageError(
+            f"{module} has to be compiled, and numba is not installed: {reason or 'it is compiled anew'}.\n"
+            "    Install it with: pip install 'fairlead[compile]'."
+        )
+
+
+def _version_of_numba() -> str:
+    try:
+        return importlib.metadata.version("numba")
+    except importlib.metadata.PackageNotFoundError:
+        return ""
+
+
+def loop_code(engine: Engine) -> Compiled:
+    """What the loop with the method of this engine is compiled from."""
+    return Compiled(engine.module, engine.sources)
+
+
+def compiled_loop(engine: Engine) -> Advance:
+    """advance(address of the structs, attempts) -> status, as loop.py has it, with the method of this engine."""
+    return _compiled_loop(loop_code(engine))
 
 
 @functools.cache
-def _compiled_loop(module: str, sources: tuple[str, ...]) -> Advance:
-    code = native.load_or_compile(_key(module, *sources), lambda: _build(module))
+def _compiled_loop(loop: Compiled) -> Advance:
+    code = loop.native()
     call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(code.address["advance"])
     call.keep_alive = code  # type: ignore[attr-defined]
     return call
-
-
-def _key(module: str, *sources: str) -> str:
-    """Hash of what the machine code of a module depends on: these rooms or files, and those of every loop."""
-    texts = (file.read_text("utf-8") for name in (*ROOMS, *FILES, *sources) for file in sources_of(name))
-    return native.digest("integrate", module, os.environ.get(CHECK, ""), *texts)
 
 
 def sources_of(name: str) -> list[pathlib.Path]:
@@ -63,6 +122,8 @@ def _build(module: str) -> native.Build:
     return native.Build(meta={}, functions={"advance": function})
 
 
+KERNELS = "fairlead.integrate.ida.kernels"
+SUNDIALS = Compiled(KERNELS, ("rodas", "ida/kernels.py"))
 SUNDIALS_KERNELS = {
     "residual": "vidiii", "prepare": "iidid", "solve_prepared": "viii", "multiply": "vidii", "guards": "vidii",
     "judge_step": "iidiiiid", "find_culprit": "ii",
@@ -73,7 +134,7 @@ SUNDIALS_KERNELS = {
 @functools.cache
 def compiled_sundials() -> dict[str, Callable[..., int]]:
     """The functions of ida/kernels.py by name."""
-    code = native.load_or_compile(_key("ida", "rodas", "ida/kernels.py"), _build_sundials)
+    code = SUNDIALS.native()
     kinds: dict[str, Any] = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
     calls: dict[str, Callable[..., int]] = {}
     for name, types in SUNDIALS_KERNELS.items():
@@ -89,7 +150,7 @@ def _build_sundials() -> native.Build:
     tell_numba()
     from fairlead.integrate.link_once import linked_once
 
-    kernels = importlib.import_module("fairlead.integrate.ida.kernels")
+    kernels = importlib.import_module(KERNELS)
     kinds = {"v": numba.void, "i": numba.int64, "d": numba.float64}
     functions = {}
     with linked_once():
