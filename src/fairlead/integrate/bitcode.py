@@ -78,6 +78,7 @@ def make_here(code: Compiled, path: pathlib.Path) -> None:
     }
     system, version = ahead.this_system(), llvm.llvm_version_info[0]
     ahead.write(path, ahead.Bitcode(code.fingerprint(), system, version, functions))
+    path.chmod(0o644)  # others read what is installed for all
 
 
 def make_all(folder: pathlib.Path) -> None:
