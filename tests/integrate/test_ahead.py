@@ -58,7 +58,7 @@ def squares_of(code):
 
 def test_bitcode_runs_here_and_is_made_native_once(installed, without_numba):
     installed(bitcode(LOOP.fingerprint()))
-    first, second = LOOP.native(), LOOP.native()
+    first, second = LOOP.loaded(), LOOP.loaded()
     assert (first.cached, second.cached) == (False, True)
     assert squares_of(first) == squares_of(second) == [0.5 + k * k for k in range(9)]
 
@@ -74,7 +74,7 @@ def test_bitcode_runs_here_and_is_made_native_once(installed, without_numba):
 def test_bitcode_that_does_not_fit_is_named_where_numba_is_missing(installed, without_numba, change, told):
     installed(dataclasses.replace(bitcode(LOOP.fingerprint()), **change))
     with pytest.raises(UsageError, match=told) as caught:
-        LOOP.native()
+        LOOP.loaded()
     assert "nowhere.method" in str(caught.value)
     assert "fairlead[compile]" in str(caught.value)
 
@@ -83,22 +83,22 @@ def test_bitcode_that_does_not_fit_is_compiled_anew_where_numba_is(installed, mo
     installed(bitcode("others"))
     made = lower(SQUARES, "f", ("int", "I8", "F8", "F8"))
     monkeypatch.setattr(machine_code, "_build", lambda module: native.Build({}, {"f": made}))
-    assert squares_of(LOOP.native())[3] == 9.5
+    assert squares_of(LOOP.loaded())[3] == 9.5
 
 
 def test_torn_bitcode_and_none_are_named(installed, without_numba):
     with pytest.raises(UsageError, match="no code compiled ahead is installed"):
-        LOOP.native()
+        LOOP.loaded()
     path = installed(bitcode(LOOP.fingerprint()))
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(sealed.BrokenSealError):
         ahead.read(path)
     with pytest.raises(UsageError, match="torn"):
-        LOOP.native()
+        LOOP.loaded()
 
 
 def test_a_loop_that_asks_for_its_indices_is_not_the_one_compiled_ahead(installed, without_numba, monkeypatch):
     installed(bitcode(LOOP.fingerprint()))
     monkeypatch.setenv("FAIRLEAD_CHECK_INDICES", "1")
     with pytest.raises(UsageError, match="FAIRLEAD_CHECK_INDICES is set"):
-        LOOP.native()
+        LOOP.loaded()

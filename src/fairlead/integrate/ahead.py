@@ -1,7 +1,7 @@
 """Code that was compiled ahead: LLVM bitcode for any processor of an architecture, which llvmlite makes native.
 
     stored = find(module, sources)         what the installed package holds for a module of the loop, if it fits
-    build = stored.native()                optimised for this processor; takes seconds, and no numba
+    build = stored.for_here()              optimised for this processor; takes seconds, and no numba
 
 A wheel holds one file for each module that is compiled on its own, beside this one (`bitcode.py` makes them). A file
 tells the sources it was made of, the system and the LLVM. One that does not fit is not used: numba compiles anew, and
@@ -53,7 +53,7 @@ class Bitcode:
             return f"the code compiled ahead needs LLVM {self.llvm}, and this llvmlite has LLVM {here}"
         return ""
 
-    def native(self) -> native.Build:
+    def for_here(self) -> native.Build:
         """The functions, optimised for the chosen processor (`processor.py`)."""
         return native.Build({}, {name: _Optimised(*given) for name, given in self.functions.items()})
 

@@ -64,7 +64,7 @@ def _kept(code: Compiled, reason: str) -> ahead.Bitcode:
 
 def _make(code: Compiled, path: pathlib.Path) -> None:
     """Have another process compile it. Raises CalledProcessError; what it said is on the standard error."""
-    command = [sys.executable, "-m", "fairlead.integrate.bitcode", path, code.module, *code.sources]
+    command = [sys.executable, "-m", "fairlead.integrate.bitcode", str(path), code.module, *code.sources]
     subprocess.run(command, env=os.environ | SETTINGS, check=True)
 
 

@@ -21,7 +21,7 @@ def all_compiled() -> tuple[Compiled, ...]:
 def compile_all() -> None:
     """Put the machine code of all engines into the cache."""
     with ProcessPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(Compiled.native_is_there, all_compiled()))
+        list(pool.map(Compiled.is_cached, all_compiled()))
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ class Compiled:
                 state.update(hashlib.sha256(file.read_bytes().replace(b"\r\n", b"\n")).digest())
         return state.hexdigest()
 
-    def native(self) -> native.Native:
+    def loaded(self) -> native.Native:
         """Machine code from the cache, else from bitcode compiled ahead, else by numba.
 
         Raises UsageError where it has to be compiled and numba is missing.
@@ -54,13 +54,13 @@ class Compiled:
         sources, check = self.fingerprint(), os.environ.get(CHECK, "")
         stored, reason = (None, f"{CHECK} is set") if check else ahead.find(self.module, sources)
         if stored:
-            return native.load_or_compile(native.digest("ahead", str(stored.llvm), sources), stored.native)
+            return native.load_or_compile(native.digest("ahead", str(stored.llvm), sources), stored.for_here)
         key = native.digest("integrate", _version_of_numba(), sources, check)
         return native.load_or_compile(key, lambda: self.build(reason))
 
-    def native_is_there(self) -> bool:
+    def is_cached(self) -> bool:
         """Have the machine code in the cache; True if it was."""
-        return self.native().cached
+        return self.loaded().cached
 
     def build(self, reason: str = "") -> native.Build:
         """The functions, compiled by numba now; `reason` says why it must be."""
@@ -96,7 +96,7 @@ def compiled_loop(engine: Engine) -> Advance:
 
 @functools.cache
 def _compiled_loop(loop: Compiled) -> Advance:
-    code = loop.native()
+    code = loop.loaded()
     call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(code.address["advance"])
     call.keep_alive = code  # type: ignore[attr-defined]
     return call
@@ -134,7 +134,7 @@ SUNDIALS_KERNELS = {
 @functools.cache
 def compiled_sundials() -> dict[str, Callable[..., int]]:
     """The functions of ida/kernels.py by name."""
-    code = SUNDIALS.native()
+    code = SUNDIALS.loaded()
     kinds: dict[str, Any] = {"v": None, "i": ctypes.c_int64, "d": ctypes.c_double}
     calls: dict[str, Callable[..., int]] = {}
     for name, types in SUNDIALS_KERNELS.items():
