@@ -11,7 +11,7 @@ from fairlead import native, sealed
 from fairlead.errors import UsageError
 from fairlead.integrate import ahead, machine_code
 from fairlead.integrate.engine import Engine
-from fairlead.system.lowering import lower
+from fairlead.kernels.lowering import lower
 
 SQUARES = "def f(n, whole, x, out):\n    for i in range(0, n):\n        out[i] = out[i] + x[i] * x[i]\n"
 LOOP = machine_code.loop_code(Engine("own", "nowhere.method"))
