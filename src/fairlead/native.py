@@ -33,12 +33,12 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import fairlead.sealed as sealed
 from fairlead.processor import processor
 
-MAGIC = b"fairlead-native-2\n"
+MAGIC = b"fairlead-native-3\n"
 PATIENCE = 300.0
 """Seconds that a process waits for another that compiles the same; the loop takes a minute on a slow machine."""
 # numba refers to these only on paths that raise or count references; compiled laws do neither.
@@ -53,10 +53,19 @@ class CacheWarning(UserWarning):
 
 
 @dataclass(frozen=True)
+class Optimised:
+    """One function as LLVM bitcode that has been through LLVM's passes: its symbol, and the module that defines it."""
+
+    native_name: str
+    bitcode: bytes
+
+
+@dataclass(frozen=True)
 class Build:
     """What a builder returns: facts to remember (JSON) and functions by name.
 
-    A function is a numba `cfunc`, or anything with its `inspect_llvm()` and `native_name`.
+    A function is a numba `cfunc`, or anything with its `inspect_llvm()` and `native_name`; or it is `Optimised`.
+    Functions with the same text lie in one module, of which machine code is made once.
     """
 
     meta: dict[str, Any]
@@ -75,9 +84,9 @@ class Native:
 
 @dataclass(frozen=True)
 class _ObjectCode:
-    """One compiled function: its symbol and the relocatable object that defines it."""
+    """A relocatable object, and the functions that it defines: symbols by name."""
 
-    symbol: str
+    symbols: dict[str, str]
     code: bytes
 
 
@@ -141,8 +150,12 @@ def _alone(path: pathlib.Path) -> Iterator[None]:
         lock.release()
 
 
-def _compiled(made: Build) -> tuple[dict[str, Any], dict[str, _ObjectCode]]:
-    return made.meta, {name: _compile(function) for name, function in made.functions.items()}
+def _compiled(made: Build) -> tuple[dict[str, Any], list[_ObjectCode]]:
+    symbols: dict[str | bytes, dict[str, str]] = {}
+    for name, function in made.functions.items():
+        source = function.bitcode if isinstance(function, Optimised) else function.inspect_llvm()
+        symbols.setdefault(source, {})[name] = function.native_name
+    return made.meta, [_ObjectCode(names, object_code(source)) for source, names in symbols.items()]
 
 
 def cache_folder() -> pathlib.Path | None:
@@ -167,7 +180,7 @@ def cache_folder() -> pathlib.Path | None:
     return folder
 
 
-def _read(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, _ObjectCode]] | None:
+def _read(path: pathlib.Path) -> tuple[dict[str, Any], list[_ObjectCode]] | None:
     """Entry at `path`, or None when it is absent or not whole."""
     try:
         body = sealed.read(path, MAGIC)
@@ -181,17 +194,17 @@ def _read(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, _ObjectCode]] |
         return None
     (length,) = struct.unpack_from("<Q", body)
     header = json.loads(body[8 : 8 + length])
-    objects, position = {}, 8 + length
-    for name, symbol, size in header["objects"]:
-        objects[name] = _ObjectCode(symbol, body[position : position + size])
+    objects, position = [], 8 + length
+    for symbols, size in header["objects"]:
+        objects.append(_ObjectCode(symbols, body[position : position + size]))
         position += size
     return header["meta"], objects
 
 
-def _write(path: pathlib.Path, meta: dict[str, Any], objects: dict[str, _ObjectCode]) -> None:
+def _write(path: pathlib.Path, meta: dict[str, Any], objects: list[_ObjectCode]) -> None:
     """Store an entry; a disk that refuses means a warning."""
-    header = json.dumps({"meta": meta, "objects": [(n, o.symbol, len(o.code)) for n, o in objects.items()]}).encode()
-    body = struct.pack("<Q", len(header)) + header + b"".join(o.code for o in objects.values())
+    header = json.dumps({"meta": meta, "objects": [(o.symbols, len(o.code)) for o in objects]}).encode()
+    body = struct.pack("<Q", len(header)) + header + b"".join(o.code for o in objects)
     try:
         sealed.write(path, MAGIC, body)
     except OSError as error:
@@ -221,24 +234,25 @@ def target_machine() -> Any:
     )
 
 
-def _compile(function: Any) -> _ObjectCode:
-    """Object code of a numba `cfunc`, from the optimised LLVM text that numba publishes."""
+def object_code(source: str | bytes) -> bytes:
+    """Machine code of a module, from optimised LLVM text such as numba publishes, or from bitcode."""
     import llvmlite.binding as llvm
 
     machine = target_machine()
-    module = llvm.parse_assembly(function.inspect_llvm())
-    return _ObjectCode(function.native_name, machine.emit_object(module))
+    module = llvm.parse_assembly(source) if isinstance(source, str) else llvm.parse_bitcode(source)
+    return cast(bytes, machine.emit_object(module))
 
 
-def _load(meta: dict[str, Any], objects: dict[str, _ObjectCode], *, cached: bool) -> Native:
+def _load(meta: dict[str, Any], objects: list[_ObjectCode], *, cached: bool) -> Native:
     import llvmlite.binding as llvm
 
-    addresses, engines = {}, []
-    for name, stored in objects.items():
+    addresses: dict[str, int] = {}
+    engines = []
+    for stored in objects:
         engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target_machine())
         engine.add_object_file(llvm.ObjectFileRef.from_data(stored.code))
         engine.finalize_object()
-        addresses[name] = engine.get_function_address(stored.symbol)
+        addresses |= {name: engine.get_function_address(symbol) for name, symbol in stored.symbols.items()}
         engines.append(engine)
     return Native(addresses, meta, cached, engines)
 

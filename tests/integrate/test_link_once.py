@@ -30,7 +30,7 @@ def inner_and_outer():
 
 
 def called(function) -> float:
-    loaded = native._load({}, {"outer": native._compile(function)}, cached=False)
+    loaded = native._load(*native._compiled(native.Build({}, {"outer": function})), cached=False)
     return ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int64)(loaded.address["outer"])(1000)
 
 

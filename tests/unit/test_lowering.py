@@ -9,8 +9,9 @@ import random
 import numpy as np
 import pytest
 
+import fairlead.native as native
 from fairlead.kernels.lowered_values import INTRINSIC, LIBRARY, LoweringError
-from fairlead.kernels.lowering import lower
+from fairlead.kernels.lowering import lower, lower_together
 from fairlead.native import Build, load_or_compile
 
 KINDS = ("int", "I8", "F8", "F8")
@@ -36,9 +37,9 @@ def both(monkeypatch, tmp_path):
         exec(compile(source, "text", "exec"), names)  # the text of this test
         said = [list(whole), list(x), [0.0] * size]
         names["f"](n, *said)
-        native = load_or_compile(f"lowering{next(numbers)}", lambda: Build({}, {"f": lower(source, "f", KINDS)}))
+        made = load_or_compile(f"lowering{next(numbers)}", lambda: Build({}, {"f": lower(source, "f", KINDS)}))
         arrays = [np.array(whole, dtype=np.int64), np.array(x, dtype=float), np.zeros(size)]
-        call = ctypes.CFUNCTYPE(None, ctypes.c_int64, *[ctypes.c_void_p] * 3)(native.address["f"])
+        call = ctypes.CFUNCTYPE(None, ctypes.c_int64, *[ctypes.c_void_p] * 3)(made.address["f"])
         call(n, *(array.ctypes.data for array in arrays))
         return (said[2], said[0]), (arrays[2].tolist(), arrays[0].tolist())
 
@@ -409,6 +410,39 @@ def test_a_function_is_refused_at_its_own_place():
     line = steps_by_two.__code__.co_firstlineno + 2
     with pytest.raises(LoweringError, match=rf"test_lowering.py:{line}: for k in range\(0, 9, 2\):: range takes"):
         lower(steps_by_two, "f", ("F8",))
+
+
+def squares(out, w):
+    for k in range(0, 3):
+        w[k] = out[k] * out[k]
+
+
+def doubled(out, w):
+    squares(out, w)
+    for k in range(0, 3):
+        w[k] = 2.0 * w[k]
+
+
+def negated(out, w):
+    squares(out, w)
+    for k in range(0, 3):
+        w[k] = -w[k]
+
+
+def test_functions_lowered_together_share_one_module_that_is_compiled_once(monkeypatch, tmp_path):
+    monkeypatch.setenv("FAIRLEAD_CACHE", str(tmp_path))
+    make, compiled = native.object_code, []
+    monkeypatch.setattr(native, "object_code", lambda source: compiled.append(source) or make(source))
+    functions = {"doubled": doubled, "negated": negated}
+    code = lower_together({name: (given, ("F8", "F8"), "None") for name, given in functions.items()}, [squares])
+    for cached in (False, True):
+        loaded = load_or_compile("together", lambda: Build({}, dict(code)))
+        assert loaded.cached == cached
+        x, out = np.array([1.0, -2.0, 3.0]), np.zeros(3)
+        for name, factor in (("doubled", 2), ("negated", -1)):
+            ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 2)(loaded.address[name])(x.ctypes.data, out.ctypes.data)
+            assert out.tolist() == [factor, 4 * factor, 9 * factor]
+    assert len(compiled) == 1
 
 
 @pytest.mark.parametrize("returned", ["if n > 0:\n        return 1", "return"])

@@ -1,7 +1,9 @@
 """Code that was compiled ahead: LLVM bitcode for any processor of an architecture, which llvmlite makes native.
 
     stored = find(module, sources)         what the installed package holds for a module of the loop, if it fits
-    build = stored.for_here()              optimised for this processor; takes seconds, and no numba
+    build = stored.for_here()              to be made native for this processor; takes a second, and no numba
+
+LLVM's passes ran when it was made, so here only machine code is left to make.
 
 A wheel holds one file for each module that is compiled on its own, beside this one (`bitcode.py` makes them). A file
 tells the sources it was made of, the system and the LLVM. One that does not fit is not used: numba compiles anew, and
@@ -54,28 +56,8 @@ class Bitcode:
         return ""
 
     def for_here(self) -> native.Build:
-        """The functions, optimised for the chosen processor (`processor.py`)."""
-        return native.Build({}, {name: _Optimised(*given) for name, given in self.functions.items()})
-
-
-@dataclass(frozen=True)
-class _Optimised:
-    """One function, as `native.Build` wants it."""
-
-    native_name: str
-    code: bytes
-
-    def inspect_llvm(self) -> str:
-        """Its text after LLVM's passes, the ones numba asks for."""
-        import llvmlite.binding as llvm
-
-        machine = native.target_machine()
-        module = llvm.parse_bitcode(self.code)
-        options = llvm.create_pipeline_tuning_options(speed_level=3)
-        options.loop_vectorization = options.slp_vectorization = True
-        passes = llvm.create_pass_builder(machine, options)
-        passes.getModulePassManager().run(module, passes)
-        return str(module)
+        """The functions, to be made native for the chosen processor (`processor.py`)."""
+        return native.Build({}, {name: native.Optimised(*given) for name, given in self.functions.items()})
 
 
 def this_system() -> str:

@@ -20,7 +20,7 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,7 +42,7 @@ Source = str | Callable[..., Any]
 
 @dataclass(frozen=True)
 class Lowered:
-    """Optimised LLVM text of one function, in the shape `native.Build` wants."""
+    """One function in optimised LLVM text, in the shape `native.Build` wants."""
 
     native_name: str
     text: str
@@ -66,14 +66,26 @@ def lower(
     are the functions it may call, in the order of their use. Raises LoweringError, with file and line, for
     text that would not do what it does in Python.
     """
-    module = ir.Module(name)
+    return lower_together({name: (source, kinds, returns)}, shared, file)[name]
+
+
+def lower_together(
+    functions: Mapping[str, tuple[Source, Sequence[str], str]], shared: Sequence[Source] = (), file: str = "<text>"
+) -> dict[str, Lowered]:
+    """LLVM of several functions in one module, by name: of each its source, arguments and result, as `lower` has them.
+
+    What they share is compiled once. Raises LoweringError.
+    """
+    module = ir.Module("fairlead")
     for text in shared:
         tree, where = _parsed(text, file)
         names = [argument.arg for argument in tree.args.args]
         _define(module, tree, where, "", [SHARED[name] for name in names], "None").linkage = "internal"
-    tree, where = _parsed(source, file)
-    _define(module, tree, where, name, kinds, returns)
-    return Lowered(name, _optimised(str(module)))
+    for name, (source, kinds, returns) in functions.items():
+        tree, where = _parsed(source, file)
+        _define(module, tree, where, name, kinds, returns)
+    text = _optimised(str(module))
+    return {name: Lowered(name, text) for name in functions}
 
 
 def _parsed(source: Source, file: str) -> tuple[ast.FunctionDef, Where]:

@@ -395,11 +395,8 @@ def callbacks() -> Native:
 
 
 def _build() -> Build:
-    from fairlead.kernels.lowering import lower
+    from fairlead.kernels.lowering import lower_together
 
     here = globals()
-    made = {
-        name: lower(here[name], name, kinds, returns, shared=SHARED)
-        for name, (kinds, returns) in SIGNATURES.items()
-    }
-    return Build({}, made)
+    functions = {name: (here[name], *signature) for name, signature in SIGNATURES.items()}
+    return Build({}, dict(lower_together(functions, SHARED)))
