@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -40,6 +40,7 @@ from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
 
 if TYPE_CHECKING:
+    from fairlead.integrate.engine import Engine
     from fairlead.netlist.netlist import Netlist
     from fairlead.netlist.settings import RunSettings
     from fairlead.system.compiled.system import Instance, System
@@ -68,12 +69,16 @@ class State(NamedTuple):
 class Stepping:
     """A run that is advanced, set and read from outside. `Model.start` makes it; it stands settled at its start."""
 
-    def __init__(self, netlist: Netlist, settings: RunSettings, system: System, inputs: Iterable[str]) -> None:
-        """Begin; nothing is evaluated yet. Raises ModelError for inputs and outputs that do not exist."""
+    def __init__(self, netlist: Netlist, settings: RunSettings, system: System, inputs: Iterable[str],
+                 record: Sequence[str] = EVERYTHING) -> None:  # fmt: skip
+        """Begin; nothing is evaluated yet. Raises ModelError for inputs and outputs that do not exist.
+
+        What can be read: signals whose names fit a pattern in `record`.
+        """
         self.changes: list[Change] = []
         """Zone changes in the last `advance`, in order."""
         self._of = system
-        recorded = system.recording(EVERYTHING).recorded
+        recorded = system.recording(record).recorded
         self._inputs, faults = find_inputs(netlist, system, inputs)
         self._columns, outputs, more = find_outputs(netlist, recorded)
         if faults + more:
@@ -84,7 +89,7 @@ class Stepping:
         """Inputs and outputs with unit, start value, nominal size and description."""
         if (fault := refused(settings, system) or not_allowed(system)) is not None:
             raise UsageError(f"{fault.what} {fault.way_out}")
-        asked = engine_settings(netlist, settings, system, list(EVERYTHING))
+        asked = engine_settings(netlist, settings, system, list(record))
         if why := engine_of(asked).not_saved:
             raise UsageError(f"{why}; a run that is stepped from outside takes rodas or stepping.")
         asked = dataclasses.replace(asked, every=NO_GRID, between=False)
@@ -250,3 +255,18 @@ class Stepping:
 
     def __repr__(self) -> str:
         return f"<Stepping at t = {self.t:.9g} s: inputs {listing(self._inputs) or 'none'}>"
+
+
+class LaidOpen(NamedTuple):
+    """What a run is made of, for who makes a copy that goes on elsewhere (fmu/)."""
+
+    memory: Memory
+    problem: Instance
+    engine: Engine
+    columns: Mapping[str, int]
+    """Where among the recorded values a signal or an output is, by name."""
+
+
+def laid_open(run: Stepping) -> LaidOpen:
+    """What a run is made of."""
+    return LaidOpen(run._memory, run._instance, run._going.engine, run._columns)

@@ -44,7 +44,7 @@ ALLOWED = {
 }
 # May import all that lies before:
 LAST = {"", "model_page", "result", "run", "outside", "outer", "renewal", "simulate", "statics", "studies", "cases",
-        "testing", "cli", "__main__", "models"}  # fmt: skip
+        "testing", "fmu", "cli", "__main__", "models"}  # fmt: skip
 
 
 def source_files() -> dict[str, pathlib.Path]:

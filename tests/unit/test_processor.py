@@ -11,7 +11,7 @@ from fairlead import native
 from fairlead.cli import health
 from fairlead.errors import UsageError
 from fairlead.kernels.lowering import lower
-from fairlead.processor import processor
+from fairlead.processor import chosen
 
 INTEL = pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="names of x86-64 registers")
 WIDE = ("ymm", "zmm", "vfmadd", "vaddsd", "vmulsd")  # instructions that came after SSE2
@@ -23,7 +23,7 @@ def built_for(monkeypatch):
     """built_for(word) sets FAIRLEAD_CPU as if the process had begun with it."""
 
     def clear():
-        for function in (processor, native._environment):
+        for function in (chosen, native._environment):
             function.cache_clear()
 
     def choose(word):

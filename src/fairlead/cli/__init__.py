@@ -17,6 +17,7 @@ from fairlead.cli import (
     doctor,
     effects,
     fit,
+    fmu,
     friction,
     graph,
     margins,
@@ -47,7 +48,7 @@ app = typer.Typer(
 for verb in (
     check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
     margins.margins, compare.compare, sweep.sweep, fit.fit, sensitivity.sensitivity, modes.modes, cost.cost,
-    effects.effects, schema.schema, new.new, doctor.doctor,
+    effects.effects, fmu.fmu, schema.schema, new.new, doctor.doctor,
 ):  # fmt: skip
     app.command(cls=Verb)(verb)
 

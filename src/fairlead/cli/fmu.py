@@ -1,0 +1,63 @@
+"""`fairlead fmu`: a model as a functional mock-up unit."""
+
+import enum
+import pathlib
+from typing import Annotated
+
+import typer
+
+import fairlead.cli.completion as completion
+from fairlead.cli.options import Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.terminal import echo
+
+
+class Action(enum.StrEnum):
+    """What is to be done."""
+
+    EXPORT = "export"
+
+
+class Version(enum.StrEnum):
+    """Versions of the standard."""
+
+    TWO = "2"
+    THREE = "3"
+
+
+Inputs = Annotated[
+    list[str],
+    typer.Option("--in", metavar="SIGNAL", help="A signal input that is set from outside. Repeatable.",
+                 default_factory=list, show_default=False),
+]  # fmt: skip
+Outputs = Annotated[
+    list[str],
+    typer.Option("--out", metavar="SIGNAL", help="A signal that is read from outside; * and ? as in plots. Repeatable.",
+                 default_factory=list, show_default=False, autocompletion=completion.signals),
+]  # fmt: skip
+
+
+def fmu(
+    action: Annotated[Action, typer.Argument(help="export: write the FMU.")],
+    netlist: Netlist,
+    settings: Settings,
+    libraries: Libraries,
+    inputs: Inputs,
+    outputs: Outputs,
+    version: Annotated[Version, typer.Option("--fmi", help="Version of the standard.")] = Version.THREE,
+    out: Annotated[
+        pathlib.Path | None, typer.Option("-o", metavar="FILE", help="Write this file. Default: NAME.fmu here.")
+    ] = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Write a model as a co-simulation FMU for Linux on x86-64, which needs no Python (docs/fmu.md).
+
+    Inputs and outputs are those of the netlist's interface block and of --in and --out. A C compiler links it.
+    """
+    import fairlead
+    from fairlead.fmu import export
+
+    model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
+    written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs)
+    if not quiet:
+        echo(f"FMI {version.value}.0 for co-simulation in {written}")

@@ -1,0 +1,229 @@
+/* See run.h. The same calls of the same loop on the same memory as fairlead/outside.py. */
+#include "run.h"
+#include "image.h"
+#include "model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGE = 1024, LINE = 64 };
+
+struct Run {
+    unsigned char *memory, *room;
+    int begun;
+    int ended;   /* a status that ends a run, or 0 */
+    int changes; /* zone changes since they were last counted */
+    char message[MESSAGE];
+};
+
+/* Beside the arena a state has what the run itself knows, and what model it is of. */
+typedef struct {
+    char token[sizeof MODEL_TOKEN];
+    int32_t begun, ended;
+} Header;
+
+static int64_t *whole(const Run *run, int64_t at) { return (int64_t *)(run->memory + at); }
+static double *real(const Run *run, int64_t at) { return (double *)(run->memory + at); }
+
+static void link_up(Run *run) {
+    for (int64_t k = 0; k < N_LINKS; k++) {
+        const Link *link = &fairlead_links[k];
+        const void *target = link->kind == LINK_MEMORY   ? (const void *)(run->memory + link->target)
+                             : link->kind == LINK_SHARED ? (const void *)(fairlead_shared + link->target)
+                                                         : (const void *)model_functions[link->target];
+        *whole(run, link->at) = (int64_t)(intptr_t)target;
+    }
+}
+
+static void fill(Run *run) {
+    for (int64_t k = 0; k < N_RUNS; k++)
+        memcpy(run->memory + fairlead_runs[k].at, fairlead_bytes + fairlead_runs[k].from, fairlead_runs[k].length);
+    link_up(run);
+    run->begun = run->ended = run->changes = 0;
+    run->message[0] = 0;
+}
+
+Run *run_new(void) {
+    Run *run = calloc(1, sizeof *run);
+    if (run == NULL) return NULL;
+    run->room = calloc(1, MEMORY_BYTES + LINE);
+    if (run->room == NULL) {
+        free(run);
+        return NULL;
+    }
+    run->memory = run->room + (LINE - (uintptr_t)run->room % LINE) % LINE;
+    fill(run);
+    return run;
+}
+
+void run_free(Run *run) {
+    if (run == NULL) return;
+    free(run->room);
+    free(run);
+}
+
+void run_reset(Run *run) {
+    memset(run->memory, 0, MEMORY_BYTES);
+    fill(run);
+}
+
+double run_time(const Run *run) { return *real(run, AT_T); }
+
+void run_set(Run *run, int input, double value) {
+    real(run, AT_SET_VALUES)[input] = value;
+    *whole(run, AT_SET_DUE) = 1;
+}
+
+double run_input(const Run *run, int input) { return real(run, AT_SET_VALUES)[input]; }
+
+const char *run_message(const Run *run) { return run->message; }
+
+/* Why a run ends, with what to look at first (fairlead/integrate/sentences.py). */
+static void tell(Run *run, int status) {
+    const char *unknown = N_UNKNOWNS > 0 ? model_unknowns[*whole(run, AT_WORST)] : "";
+    const int64_t culprit = *whole(run, AT_CULPRIT);
+    double t = run_time(run);
+    switch (status) {
+    case STATUS_STEP_FLOOR:
+        snprintf(run->message, MESSAGE, "t = %.6g s: the step size fell to its floor because of the error of %s. "
+                 "A law may jump inside its zone.", t, unknown);
+        break;
+    case STATUS_NOT_FINITE:
+        snprintf(run->message, MESSAGE, "t = %.6g s: %s is not a finite number, whatever the step. A law divides by "
+                 "zero, overflows, or is read beyond the range in which it has values.", t, unknown);
+        break;
+    case STATUS_UNSETTLED:
+        snprintf(run->message, MESSAGE, "t = %.6g s: zones did not settle. Two laws contradict each other there.", t);
+        break;
+    case STATUS_INCONSISTENT:
+        snprintf(run->message, MESSAGE, "t = %.6g s: no consistent values found for the algebraic unknowns, least of "
+                 "all for %s.", t, unknown);
+        break;
+    case STATUS_SINGULAR:
+        snprintf(run->message, MESSAGE, "t = %.6g s: the equations do not determine %s.", t,
+                 culprit >= 0 && culprit < N_UNKNOWNS ? model_unknowns[culprit] : "all unknowns");
+        break;
+    case STATUS_CHATTER:
+        snprintf(run->message, MESSAGE, "t = %.6g s: %s switches to and fro faster than its dwell.", t,
+                 culprit >= 0 && culprit < N_MACHINES ? model_machines[culprit] : "a contact");
+        break;
+    case STATUS_MAX_STEPS:
+        snprintf(run->message, MESSAGE, "t = %.6g s: the budget of steps (run.max_steps) is used up.", t);
+        break;
+    case STATUS_MAX_EVENTS:
+        snprintf(run->message, MESSAGE, "t = %.6g s: the budget of events (run.max_events) is used up.", t);
+        break;
+    case STATUS_REBOUND_RUBS:
+        snprintf(run->message, MESSAGE, "t = %.6g s: a stop rebounds while friction takes part in the impact.", t);
+        break;
+    case STATUS_REPLAN:
+        snprintf(run->message, MESSAGE, "t = %.6g s: the order of pivots that was planned loses accuracy here, and an "
+                 "FMU cannot choose another one. Run the model with fairlead, which does.", t);
+        break;
+    default:
+        snprintf(run->message, MESSAGE, "t = %.6g s: the run ended with status %d.", t, status);
+    }
+}
+
+static int end(Run *run, int status) {
+    run->ended = status;
+    tell(run, status);
+    return -1;
+}
+
+/* Enter the loop for at most so many trial steps, and empty what it recorded. */
+static int enter(Run *run, int64_t attempts) {
+    int status = (int)fairlead_advance((int64_t)(intptr_t)run->memory, attempts);
+    run->changes += (int)*whole(run, AT_EVENTS);
+    *whole(run, AT_ROWS) = *whole(run, AT_EVENTS) = 0;
+    switch (status) {
+    case STATUS_PAUSED:
+    case STATUS_BUFFER_FULL:
+        return 0;
+    case STATUS_REPLAN:
+        if (!*whole(run, AT_DENSE)) return end(run, STATUS_REPLAN);
+        if (!*whole(run, AT_MIDWAY)) return end(run, STATUS_SINGULAR); /* a full matrix has all pivots to choose */
+        *whole(run, AT_REPLANNED) = 1;
+        return 0;
+    default:
+        return end(run, status);
+    }
+}
+
+/* One trial step that does not go beyond `goal`. */
+static int step(Run *run, double goal) {
+    double due = *real(run, AT_T_NEXT);
+    *real(run, AT_T_NEXT) = goal < due ? goal : due;
+    int said = enter(run, 1);
+    if (*real(run, AT_T_NEXT) == goal && goal < due) *real(run, AT_T_NEXT) = due;
+    return said;
+}
+
+int run_begin(Run *run) {
+    if (run->begun) return 0;
+    run->begun = 1;
+    while (run_time(run) == *real(run, AT_START) && *whole(run, AT_PHASE) != PHASE_TRY)
+        if (enter(run, 0)) return -1;
+    return 0;
+}
+
+int run_settle(Run *run) {
+    if (run_begin(run)) return -1;
+    while (*whole(run, AT_SET_DUE))
+        if (step(run, run_time(run))) return -1;
+    while (*whole(run, AT_PHASE) != PHASE_TRY)
+        if (enter(run, 0)) return -1;
+    return 0;
+}
+
+int run_advance(Run *run, double goal, int until_change, int *changed) {
+    *changed = 0;
+    if (run_begin(run)) return -1;
+    if (goal == run_time(run)) return run_settle(run);
+    if (goal >= *real(run, AT_STOP)) /* the span is a scale of times, and its end no event */
+        *real(run, AT_STOP) = *real(run, AT_START) + 2.0 * (goal - *real(run, AT_START));
+    if (run_settle(run)) return -1;
+    run->changes = 0;
+    while (run_time(run) < goal && !(until_change && run->changes > 0))
+        if (step(run, goal)) return -1;
+    *changed = run->changes > 0;
+    return 0;
+}
+
+int run_outputs(Run *run, double *values) {
+    typedef void (*Outputs)(int64_t, double, const double *, double *);
+    if (run_begin(run)) return -1;
+    Outputs outputs = (Outputs)(intptr_t)*whole(run, AT_CALL_OUTPUTS);
+    double all[N_RECORDED + 1];
+    outputs(*whole(run, AT_CONTEXT), run_time(run), (const double *)(intptr_t)*whole(run, AT_AT_Y), all);
+    for (int k = 0; k < N_OUTPUTS; k++) values[k] = all[model_columns[k]];
+    return 0;
+}
+
+size_t run_state_size(void) { return sizeof(Header) + STATE_BYTES; }
+
+void run_save(const Run *run, unsigned char *state) {
+    Header header;
+    memset(&header, 0, sizeof header);
+    memcpy(header.token, MODEL_TOKEN, sizeof MODEL_TOKEN);
+    header.begun = run->begun;
+    header.ended = run->ended;
+    memcpy(state, &header, sizeof header);
+    memcpy(state + sizeof header, run->memory, STATE_BYTES);
+    for (int64_t k = 0; k < N_LINKS; k++) /* addresses belong to a run, and are no part of its state */
+        if (fairlead_links[k].at < STATE_BYTES) memset(state + sizeof header + fairlead_links[k].at, 0, 8);
+}
+
+int run_restore(Run *run, const unsigned char *state) {
+    Header header;
+    memcpy(&header, state, sizeof header);
+    if (memcmp(header.token, MODEL_TOKEN, sizeof MODEL_TOKEN)) return -1;
+    memcpy(run->memory, state + sizeof header, STATE_BYTES);
+    link_up(run);
+    run->begun = header.begun;
+    run->ended = header.ended;
+    run->message[0] = 0;
+    return 0;
+}

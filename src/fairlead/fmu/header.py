@@ -1,0 +1,69 @@
+"""model.h: the constants of one model, as `c/run.c` and `c/wrapper.c` read them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import fairlead.integrate.codes as codes
+from fairlead.fmu.image import Image
+from fairlead.fmu.machine_code import Code
+from fairlead.integrate.memory.arena import Memory
+from fairlead.integrate.memory.layout import PLACES
+from fairlead.integrate.problem import Status
+from fairlead.system.compiled.system import Instance
+
+FIELDS = (
+    "t", "t_next", "start", "stop", "phase", "rows", "events", "at_y", "context", "call_outputs", "worst", "culprit",
+    "dense", "midway", "replanned",
+)  # fmt: skip
+"""Single values of the structs that the wrapper reads or writes."""
+
+
+def header(
+    memory: Memory, own: Instance, image: Image, code: Code, *, columns: Sequence[int], inputs: Sequence[str],
+    token: str, identifier: str,
+) -> str:  # fmt: skip
+    """The text. `columns` says which recorded values the outputs are; `inputs` are names."""
+    piece = {name: own.working.places[name].at for name in ("set_due", "set_values")}
+    numbers = {
+        "MEMORY_BYTES": image.size, "STATE_BYTES": image.state, "N_LINKS": len(image.links),
+        "N_RUNS": len(image.runs), "N_UNKNOWNS": own.n, "N_MACHINES": len(own.machine_names),
+        "N_RECORDED": own.n_outputs, "N_OUTPUTS": len(columns), "N_INPUTS": len(inputs),
+        **{f"AT_{name.upper()}": PLACES[name][0] for name in FIELDS},
+        **{f"AT_{name.upper()}": image.piece + at for name, at in piece.items()},
+        **{f"STATUS_{name}": value for name, value in _statuses().items()}, "PHASE_TRY": codes.TRY,
+    }  # fmt: skip
+    lines = ["/* Made by fairlead fmu export. */", '#include "image.h"']
+    lines += [f"#define {name} {value}" for name, value in numbers.items()]
+    lines += [f"#define MODEL_TOKEN {_text(token)}", f"#define MODEL_IDENTIFIER {_text(identifier)}"]
+    lines += [f"extern HIDDEN void {name}(void);" for name in code.functions]
+    lines.append(_array("void (*const model_functions[])(void)", code.functions))
+    lines.append(_array("const int model_columns[]", map(str, columns)))
+    names = {"unknowns": own.unknown_names, "machines": own.machine_names, "inputs": inputs}
+    lines += [_array(f"const char *const model_{what}[]", map(_text, those)) for what, those in names.items()]
+    return "\n".join(lines) + "\n"
+
+
+def stubs(code: Code) -> str:
+    """C of what the loop names and never reaches."""
+    begin = '__attribute__((visibility("hidden"))) void'
+    lines = [f"{begin} {name}(void) {{ __builtin_trap(); }}" for name in code.unreached]
+    return "\n".join(["/* Named by numba on paths that raise, which the loop does not. */", *lines, ""])
+
+
+def _statuses() -> Mapping[str, int]:
+    """Statuses by the names that the wrapper has for them."""
+    named = ("PAUSED", "BUFFER_FULL", "REPLAN", "STEP_FLOOR", "NOT_FINITE", "UNSETTLED", "INCONSISTENT", "CHATTER",
+             "MAX_STEPS", "MAX_EVENTS", "REBOUND_RUBS")  # fmt: skip
+    return {name: getattr(codes, name) for name in named} | {"SINGULAR": int(Status.SINGULAR)}
+
+
+def _array(declared: str, values: Iterable[str]) -> str:
+    """An array of constants; one entry more, so that none is empty."""
+    return f"static __attribute__((unused)) {declared} = {{{', '.join([*values, '0'])}}};"
+
+
+def _text(text: str) -> str:
+    """A string of C: what is no plain letter stands as the octal numbers of its bytes in UTF-8."""
+    safe = (chr(byte) if 32 <= byte < 127 and chr(byte) not in '"\\?%' else f"\\{byte:03o}" for byte in text.encode())
+    return f'"{"".join(safe)}"'
