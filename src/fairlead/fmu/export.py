@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 FOLDERS = {2: "linux64", 3: "x86_64-linux"}
 """Where the library is, by version of the standard."""
-SOURCES = ("run.h", "run.c", "image.h", "wrapper.h", "wrapper.c")
+SOURCES = ("run.h", "run.c", "image.h", "wrapper.h", "wrapper.c", "pivots.h", "pivots.c")
 LICENCE = "The engine of fairlead: MIT (documentation/licenses/license.txt). The model: as its author says."
 
 

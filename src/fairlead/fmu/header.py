@@ -14,9 +14,16 @@ from fairlead.system.compiled.system import Instance
 
 FIELDS = (
     "t", "t_next", "start", "stop", "phase", "rows", "events", "at_y", "context", "call_outputs", "worst", "culprit",
-    "dense", "midway", "replanned",
+    "dense", "midway", "replanned", "replans", "factorisations", "core_valid", "n", "n_core", "n_matrix",
+    "at_matrix_starts", "at_matrix_rows", "at_matrix", "at_row_scale", "at_column_scale", "at_row_order",
+    "at_column_order",
 )  # fmt: skip
-"""Single values of the structs that the wrapper reads or writes."""
+"""Single values of the structs, and addresses in them, that the wrapper reads or writes."""
+REPLACED = (
+    "row_order", "row_place", "matrix_rows", "lower_starts", "lower_rows", "upper_starts", "upper_rows",
+    "using_starts", "using_columns", "lower", "upper",
+)  # fmt: skip
+"""What another order of pivots replaces, as `c/pivots.h` numbers it."""
 
 
 def header(
@@ -38,6 +45,8 @@ def header(
     lines += [f"#define MODEL_TOKEN {_text(token)}", f"#define MODEL_IDENTIFIER {_text(identifier)}"]
     lines += [f"extern HIDDEN void {name}(void);" for name in code.functions]
     lines.append(_array("void (*const model_functions[])(void)", code.functions))
+    replaced = [f"{{{k}, {at}}}" for k, name in enumerate(REPLACED) for at in PLACES[f"at_{name}"]]
+    lines.append(f"static __attribute__((unused)) const int64_t model_replaced[][2] = {{{', '.join(replaced)}}};")
     lines.append(_array("const int model_columns[]", map(str, columns)))
     names = {"unknowns": own.unknown_names, "machines": own.machine_names, "inputs": inputs}
     lines += [_array(f"const char *const model_{what}[]", map(_text, those)) for what, those in names.items()]

@@ -124,9 +124,9 @@ OFFERED Status fmi2FreeFMUstate(Component c, void **state) {
 }
 
 OFFERED Status fmi2SerializedFMUstateSize(Component c, void *state, size_t *size) {
-    (void)state;
     EXPECT(ALIVE);
-    *size = saved_size();
+    if (state == NULL) return (Status)refuse(c, __func__, "there is no state.");
+    *size = saved_size(state);
     return OK;
 }
 

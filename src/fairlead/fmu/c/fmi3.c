@@ -139,9 +139,9 @@ OFFERED Status fmi3FreeFMUState(Component c, void **state) {
 }
 
 OFFERED Status fmi3SerializedFMUStateSize(Component c, void *state, size_t *size) {
-    (void)state;
     EXPECT(ALIVE);
-    *size = saved_size();
+    if (state == NULL) return (Status)refuse(c, __func__, "there is no state.");
+    *size = saved_size(state);
     return OK;
 }
 

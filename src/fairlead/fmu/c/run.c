@@ -2,8 +2,8 @@
 #include "run.h"
 #include "image.h"
 #include "model.h"
+#include "pivots.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +15,8 @@ struct Run {
     int begun;
     int ended;   /* a status that ends a run, or 0 */
     int changes; /* zone changes since they were last counted */
+    Pivots *pivots;       /* that the run has come upon, or NULL */
+    int64_t replanned_at; /* how often was factorised when it did */
     char message[MESSAGE];
 };
 
@@ -22,6 +24,8 @@ struct Run {
 typedef struct {
     char token[sizeof MODEL_TOKEN];
     int32_t begun, ended;
+    int64_t replanned_at;
+    int64_t n_lower, n_upper; /* of its pivots, which follow the arena; -1 for those of the plan */
 } Header;
 
 static int64_t *whole(const Run *run, int64_t at) { return (int64_t *)(run->memory + at); }
@@ -42,7 +46,13 @@ static void fill(Run *run) {
         memcpy(run->memory + fairlead_runs[k].at, fairlead_bytes + fairlead_runs[k].from, fairlead_runs[k].length);
     link_up(run);
     run->begun = run->ended = run->changes = 0;
+    run->replanned_at = -1;
     run->message[0] = 0;
+}
+
+static void forget_pivots(Run *run) {
+    free(run->pivots);
+    run->pivots = NULL;
 }
 
 Run *run_new(void) {
@@ -60,11 +70,13 @@ Run *run_new(void) {
 
 void run_free(Run *run) {
     if (run == NULL) return;
+    free(run->pivots);
     free(run->room);
     free(run);
 }
 
 void run_reset(Run *run) {
+    forget_pivots(run);
     memset(run->memory, 0, MEMORY_BYTES);
     fill(run);
 }
@@ -119,8 +131,7 @@ static void tell(Run *run, int status) {
         snprintf(run->message, MESSAGE, "t = %.6g s: a stop rebounds while friction takes part in the impact.", t);
         break;
     case STATUS_REPLAN:
-        snprintf(run->message, MESSAGE, "t = %.6g s: the order of pivots that was planned loses accuracy here, and an "
-                 "FMU cannot choose another one. Run the model with fairlead, which does.", t);
+        snprintf(run->message, MESSAGE, "t = %.6g s: there is no memory to choose another order of pivots.", t);
         break;
     default:
         snprintf(run->message, MESSAGE, "t = %.6g s: the run ended with status %d.", t, status);
@@ -133,6 +144,28 @@ static int end(Run *run, int status) {
     return -1;
 }
 
+/* Other pivots; without any the equations are singular (underway.py). */
+static int replan(Run *run) {
+    int again = *whole(run, AT_FACTORISATIONS) <= run->replanned_at + 1;
+    enum Found said = PIVOTS_SINGULAR; /* a full matrix has all pivots to choose */
+    if (!again && !*whole(run, AT_DENSE)) {
+        Pivots *found = NULL;
+        said = pivots_choose(run->memory, &found);
+        if (said == PIVOTS_FOUND) {
+            forget_pivots(run);
+            run->pivots = found;
+            pivots_link(run->memory, found);
+            *whole(run, AT_CORE_VALID) = 0;
+            *whole(run, AT_REPLANS) += 1;
+        }
+    }
+    run->replanned_at = *whole(run, AT_FACTORISATIONS);
+    if (said == PIVOTS_NO_ROOM) return end(run, STATUS_REPLAN);
+    if (*whole(run, AT_MIDWAY)) *whole(run, AT_REPLANNED) = 1;
+    else if (said == PIVOTS_SINGULAR) return end(run, STATUS_SINGULAR);
+    return 0;
+}
+
 /* Enter the loop for at most so many trial steps, and empty what it recorded. */
 static int enter(Run *run, int64_t attempts) {
     int status = (int)fairlead_advance((int64_t)(intptr_t)run->memory, attempts);
@@ -143,10 +176,7 @@ static int enter(Run *run, int64_t attempts) {
     case STATUS_BUFFER_FULL:
         return 0;
     case STATUS_REPLAN:
-        if (!*whole(run, AT_DENSE)) return end(run, STATUS_REPLAN);
-        if (!*whole(run, AT_MIDWAY)) return end(run, STATUS_SINGULAR); /* a full matrix has all pivots to choose */
-        *whole(run, AT_REPLANNED) = 1;
-        return 0;
+        return replan(run);
     default:
         return end(run, status);
     }
@@ -202,7 +232,14 @@ int run_outputs(Run *run, double *values) {
     return 0;
 }
 
-size_t run_state_size(void) { return sizeof(Header) + STATE_BYTES; }
+static size_t pivots_of(const Run *run, int64_t n_lower, int64_t n_upper) {
+    return n_lower < 0 ? 0 : pivots_bytes(run->memory, n_lower, n_upper);
+}
+
+size_t run_state_size(const Run *run) {
+    const Pivots *pivots = run->pivots;
+    return sizeof(Header) + STATE_BYTES + (pivots == NULL ? 0 : pivots_of(run, pivots->n_lower, pivots->n_upper));
+}
 
 void run_save(const Run *run, unsigned char *state) {
     Header header;
@@ -210,20 +247,38 @@ void run_save(const Run *run, unsigned char *state) {
     memcpy(header.token, MODEL_TOKEN, sizeof MODEL_TOKEN);
     header.begun = run->begun;
     header.ended = run->ended;
+    header.replanned_at = run->replanned_at;
+    header.n_lower = run->pivots == NULL ? -1 : run->pivots->n_lower;
+    header.n_upper = run->pivots == NULL ? -1 : run->pivots->n_upper;
     memcpy(state, &header, sizeof header);
     memcpy(state + sizeof header, run->memory, STATE_BYTES);
     for (int64_t k = 0; k < N_LINKS; k++) /* addresses belong to a run, and are no part of its state */
         if (fairlead_links[k].at < STATE_BYTES) memset(state + sizeof header + fairlead_links[k].at, 0, 8);
+    if (run->pivots != NULL)
+        memcpy(state + sizeof header + STATE_BYTES, run->pivots, pivots_of(run, header.n_lower, header.n_upper));
 }
 
-int run_restore(Run *run, const unsigned char *state) {
+int run_restore(Run *run, const unsigned char *state, size_t size) {
     Header header;
+    Pivots *pivots = NULL;
+    if (size < sizeof header + STATE_BYTES) return -1;
     memcpy(&header, state, sizeof header);
+    size_t more = size - sizeof header - STATE_BYTES;
     if (memcmp(header.token, MODEL_TOKEN, sizeof MODEL_TOKEN)) return -1;
+    if (more != pivots_of(run, header.n_lower, header.n_upper)) return -1;
+    if (more > 0) {
+        pivots = malloc(more);
+        if (pivots == NULL) return -1;
+        memcpy(pivots, state + sizeof header + STATE_BYTES, more);
+    }
     memcpy(run->memory, state + sizeof header, STATE_BYTES);
     link_up(run);
+    forget_pivots(run);
+    run->pivots = pivots;
+    if (pivots != NULL) pivots_link(run->memory, pivots);
     run->begun = header.begun;
     run->ended = header.ended;
+    run->replanned_at = header.replanned_at;
     run->message[0] = 0;
     return 0;
 }

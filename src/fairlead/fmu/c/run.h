@@ -34,10 +34,10 @@ int run_advance(Run *run, double goal, int until_change, int *changed);
 int run_outputs(Run *run, double *values);
 const char *run_message(const Run *run);
 
-/* The state of a run that has begun, in run_state_size() bytes that any run of this library can go on from. */
-size_t run_state_size(void);
+/* The state of a run that has begun, in run_state_size(run) bytes that any run of this library can go on from. */
+size_t run_state_size(const Run *run);
 void run_save(const Run *run, unsigned char *state);
-/* -1 for bytes that are no state of this model. */
-int run_restore(Run *run, const unsigned char *state);
+/* -1 for bytes that are no state of this model, or without memory for it. */
+int run_restore(Run *run, const unsigned char *state, size_t size);
 
 #endif

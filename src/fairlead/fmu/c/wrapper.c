@@ -166,19 +166,22 @@ enum Said do_step(Instance *instance, double now, double step, int *changed) {
 /* On what was set in event mode. */
 enum Said settle(Instance *instance) { return run_settle(instance->run) ? failed(instance) : SAID_OK; }
 
-size_t saved_size(void) { return sizeof(Saved) + run_state_size(); }
+size_t saved_size(const void *state) { return ((const Saved *)state)->size; }
 
 enum Said save_state(Instance *instance, void **state) {
-    Saved *saved = *state != NULL ? *state : calloc(1, saved_size());
-    if (saved == NULL) return refuse(instance, "get state", "there is no memory for it.");
-    saved->stage = instance->stage;
     if (instance->stage == MADE || instance->stage == INITIALISING) {
         enum Said said = begin(instance);
-        if (said != SAID_OK) {
-            if (*state == NULL) free(saved);
-            return said;
-        }
+        if (said != SAID_OK) return said;
     }
+    size_t size = sizeof(Saved) + run_state_size(instance->run);
+    Saved *saved = *state;
+    if (saved == NULL || saved->size != size) {
+        saved = realloc(saved, size);
+        if (saved == NULL) return refuse(instance, "get state", "there is no memory for it.");
+        memset(saved, 0, size);
+    }
+    saved->stage = instance->stage;
+    saved->size = size;
     run_save(instance->run, saved->bytes);
     *state = saved;
     return SAID_OK;
@@ -187,27 +190,28 @@ enum Said save_state(Instance *instance, void **state) {
 enum Said restore_state(Instance *instance, const void *state) {
     const Saved *saved = state;
     if (saved == NULL) return refuse(instance, "set state", "there is no state.");
-    if (run_restore(instance->run, saved->bytes)) return refuse(instance, "set state", "it is not of this model.");
+    if (run_restore(instance->run, saved->bytes, saved->size - sizeof *saved))
+        return refuse(instance, "set state", "it is not of this model, or there is no memory for it.");
     instance->stage = saved->stage;
     instance->begun_anew = 0;
     return SAID_OK;
 }
 
 enum Said write_state(Instance *instance, const void *state, unsigned char bytes[], size_t size) {
-    if (state == NULL || size < saved_size()) return refuse(instance, "serialise", "there is no room for the state.");
-    memcpy(bytes, state, saved_size());
+    if (state == NULL || size < saved_size(state)) return refuse(instance, "serialise", "there is no room for the state.");
+    memcpy(bytes, state, saved_size(state));
     return SAID_OK;
 }
 
 enum Said read_state(Instance *instance, const unsigned char bytes[], size_t size, void **state) {
-    if (size != saved_size()) return refuse(instance, "deserialise", "these bytes are no state of this model.");
-    Saved *saved = calloc(1, saved_size());
+    Saved head;
+    if (size < sizeof head) return refuse(instance, "deserialise", "these bytes are no state.");
+    memcpy(&head, bytes, sizeof head);
+    if (head.size != size || (unsigned)head.stage > TERMINATED)
+        return refuse(instance, "deserialise", "these bytes are no state.");
+    Saved *saved = malloc(size);
     if (saved == NULL) return refuse(instance, "deserialise", "there is no memory for it.");
     memcpy(saved, bytes, size);
-    if ((unsigned)saved->stage > TERMINATED) {
-        free(saved);
-        return refuse(instance, "deserialise", "these bytes are no state of this model.");
-    }
     *state = saved;
     return SAID_OK;
 }

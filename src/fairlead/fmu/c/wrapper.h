@@ -25,6 +25,7 @@ struct Instance {
 
 typedef struct {
     enum Stage stage;
+    size_t size; /* of all of it */
     unsigned char bytes[];
 } Saved;
 
@@ -46,7 +47,7 @@ enum Said set_reals(Instance *instance, const unsigned references[], size_t n, c
 enum Said settle(Instance *instance);
 enum Said do_step(Instance *instance, double now, double step, int *changed);
 
-size_t saved_size(void);
+size_t saved_size(const void *state);
 enum Said save_state(Instance *instance, void **state);
 enum Said restore_state(Instance *instance, const void *state);
 enum Said write_state(Instance *instance, const void *state, unsigned char bytes[], size_t size);
