@@ -12,28 +12,24 @@ from collections.abc import Iterable, Iterator
 from tests.hard.attempt import Attempt
 from tests.hard.registry import Row
 
-BETWEEN = "stepping: rows inside a step show the force of a law that creeps to a thousandth"
+LIGHT = "stepping: 1.5e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
 BRISTLES = "stepping: what carries a bristle to and fro is metered too high between turns; less so at a finer accuracy"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
 SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 AT_LIMIT = "a contact that lets go twice within a dwell is shown with 1.3e-5 more than its limit; 1e-5 is allowed"
-CREEPS = "the slip of what creeps is 0.2 % off in one row, so that its force is 0.1 % above stiction"
-ROUTE = "stepping: one short route ends with an energy closure of 0.29, which the run remarks; the cause is not known"
-PUSHES = "stepping: a row inside a step shows a core that goes slack pushing with 0.9 N"
-QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since quadratures go by secants"
+ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
+QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
 ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and this engine with hold"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),
     ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
     ("block on a shaken table, carried", "stepping", "lugre", BRISTLES),
-    ("random networks, 20", "stepping", "binding", BETWEEN),
-    ("random networks, 200", "stepping", "binding", BETWEEN),
+    ("random networks, 20", "stepping", "binding", LIGHT),
+    ("random networks, 200", "stepping", "binding", LIGHT),
     ("random networks, 200", "rodas", "hold", AT_LIMIT),
-    ("random networks, 200", "rodas", "binding", CREEPS),
     ("random routes, 10", "stepping", "hold", ROUTE),
-    ("core that goes slack", "stepping", "hold", PUSHES),
 )
 """(case, engine, treatment, why); the first three as patterns."""
 
@@ -44,7 +40,10 @@ LEFT: tuple[tuple[str, str, str, str], ...] = (
 """Rows that the tests leave to `make hard`, as in KNOWN; `left_out` adds those that take long."""
 
 
-MENDED: tuple[tuple[str, str, str], ...] = ()
+MENDED: tuple[tuple[str, str, str], ...] = (
+    ("core that goes slack", "stepping", "hold"),
+    ("random networks, 200", "rodas", "binding"),
+)
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made
 anew."""
 

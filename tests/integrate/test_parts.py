@@ -7,7 +7,7 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
     "most_perturbed", "most_inside", "has_limits", "weighs_guards", "rebounds", "takes_impulses",
-    "falling", "dissipated_at", "supplied_at", "samples", "max_passes", "gamma", "error_exponent",
+    "falling", "dissipated_at", "supplied_at", "samples", "mean_at", "max_passes", "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
@@ -23,7 +23,8 @@ OF_A_SETTLEMENT = {
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
     "core_kind",
-    "core_valid", "core_scale", "factored_h", "factored_theta", "zones_differ", "rows_alone", "guessed", "distrusted",
+    "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "guessed",
+    "distrusted",
     "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
     "searched", "midway", "replanned", "t_switch", "theta_now",
 }  # fmt: skip

@@ -35,14 +35,13 @@ def refined():
 @functools.cache
 def metered():
     """call(memory, h): `meter_piece` with the factors of 2M/h - J."""
-    from fairlead.integrate.linear.systems import assemble_step, factorise_dense
+    from fairlead.integrate.linear.systems import factorise_step
     from fairlead.integrate.memory.foreign import compiled
     from fairlead.integrate.point.meters import meter_piece
 
     @compiled
     def meter(m, h):
-        assemble_step(m.linear, 2.0 / h)
-        if factorise_dense(m.linear.factors) == 0:
+        if factorise_step(m.linear, 2.0 / h) == 0:
             meter_piece(m, h)
 
     return entry(meter, ("",), "d")
@@ -138,3 +137,15 @@ def test_the_work_of_a_bond_that_grows_within_a_step_is_metered(theta, grows):
     metered()(at, H)
     # The rate is a square of time, which the rule gets exactly; the slope that D shows is off by 4e-6 of its size.
     assert at.array["y_piece"][1] == pytest.approx(m * a**2 * (theta * H) ** 2 / 2, rel=1e-4)
+
+
+@pytest.mark.parametrize("way", [0.3, -2.0])
+def test_what_follows_nothing_is_moved_once_for_its_residual(way):
+    """The dense output goes `way` in a step at rest, so its residual is -way/H, and W = 2/H moves it by -way/2.
+
+    A meter of the place shows where it was moved to: to rest, at its mean.
+    """
+    at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [0.0, y[0]], meters=[1])
+    at.array["y_end"][:], at.array["weight"][:], at.number["cut_at"] = [way, 77.0], 1e-9, 1.0
+    metered()(at, H)
+    assert at.array["y_piece"][1] == pytest.approx(H * (way / 2 - way / 2), abs=1e-12)

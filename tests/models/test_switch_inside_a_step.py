@@ -183,3 +183,26 @@ def test_a_stop_is_met_without_going_to_and_fro(tmp_path, accuracy):
     assert outcome.counters.switches > 10
     assert outcome.counters.settling_passes < 6 * outcome.counters.switches
     assert outcome.counters.unsolved == 0
+
+
+def test_rows_before_a_rope_comes_taut_show_it_loose(simulate):
+    """In its end zone it would push, with 1 N here. With few machines no step has a switch inside."""
+    bodies = range(45)
+    parts = "".join(
+        f"\n          body{k}: {{type: Mass, mass: 100 kg, position: {-0.02 - 0.011 * k:.3f} m, velocity: 1 m/s}}"
+        f"\n          rope{k}: {{type: Tether, stiffness: 10 N/m}}"
+        for k in bodies
+    )
+    joins = "".join(f"\n          - [rope{k}.b, body{k}.flange]" for k in bodies)
+    result = simulate(f"""
+        components:
+          ground: {{type: Ground}}{parts}
+        connections:
+          - [ground.flange, {", ".join(f"rope{k}.a" for k in bodies)}]{joins}
+        run: {{stop: 0.6 s, accuracy: 1e-3, engine: stepping}}
+        record: {{every: 2 ms, signals: ["*"]}}
+    """)
+    assert len(result.events) == len(bodies)
+    for k in bodies:
+        tension, stretch = result[f"rope{k}.tension"], np.maximum(result[f"body{k}.x"], 0.0)
+        assert tension == pytest.approx(10.0 * stretch, abs=1e-9)

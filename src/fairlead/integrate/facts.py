@@ -105,6 +105,14 @@ class Facts(Protocol):
         """[nz]: 1 for a contact whose friction falls with a jump as it lets go: the order may matter (release.py)."""
 
     @property
+    def mean(self) -> Floats:
+        """[5] or [0]: live memory that f and the guards read where motions are given in time, empty where none are.
+
+        Times t0 and t1, weights w0 and w1: while their sum is above zero, positions and speeds that are given count
+        with w0 x(t0) + w1 x(t1) + (1 - w0 - w1) x(t), and the last is 1 where that is another number than x(t).
+        """
+
+    @property
     def samples(self) -> bool:
         """True if `at_time` takes samples of the unknowns: they are then made consistent before."""
 
@@ -141,6 +149,11 @@ class Plain:
     longest_step = np.inf
     ledger = (-1, -1)
     narrowing = None
+
+    @property
+    def mean(self) -> Floats:
+        """No motion is given."""
+        return np.zeros(0)
 
     @property
     def stiff(self) -> Booleans:

@@ -163,6 +163,11 @@ N_SET = 108  # numbers that are set from outside, see compiled/opened.py
 SET_DUE = 109  # int64 (1,)            1 once one of them was set
 SET_AT = 110  # int64 (set,)          their addresses
 SET_VALUES = 111  # float64 (set,)        what they are from the next time event on
-CONTEXT = 112
+N_GIVEN = 112  # of the calls for signals, the first ones: motions that are given in time
+N_GIVEN_PLACES = 113
+GIVEN_PLACES = 114  # int64 (given,)       where in z their positions and speeds lie
+GIVEN_MEAN = 115  # float64 (given,)       scratch
+MEAN = 116  # float64 (5,)           two times; the weights of what is given then; whether the mean differs
+CONTEXT = 117
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on

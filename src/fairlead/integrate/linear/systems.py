@@ -24,6 +24,7 @@ def factorise_step(linear, scale):
     """Factorise scale M - J; DONE, SINGULAR or INACCURATE. On SINGULAR, `culprit` is the unknown to blame."""
     factors = linear.factors
     factors.factorisations += 1
+    factors.mass_factor = scale
     if factors.dense == 0:
         return factorise_core(linear, scale, False)
     assemble_step(linear, scale)

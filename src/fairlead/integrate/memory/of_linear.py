@@ -54,7 +54,7 @@ FACTORS = Struct(
         "n_redone", "n_perturbed", "most_perturbed", "factorisations", "solves", "replans",
     ),
     numbers=(
-        "factored_h", "factored_theta",
+        "factored_h", "factored_theta", "mass_factor",
     ),
     reals={
         "column_scale": "n", "row_scale": "n", "factor_work": "n", "matrix": "n_matrix", "lower": "n_lower",

@@ -18,6 +18,8 @@ PROBLEM = Struct(
         "takes_impulses", "rebounds", "n_moves", "n_balanced", "dissipated_at", "supplied_at",
         # whether friction of a contact falls as it lets go
         "falling", "linear", "n_quadratures", "samples",
+        # address of what the callbacks read of means of given motions, 0 where none is given
+        "mean_at",
         # how often it was asked
         "rhs", "jacobians", "guards",
     ),

@@ -18,7 +18,9 @@ is an end of the piece, since there the slope of the dense output is rough. Else
 
 W is of the start of the step. A bond that takes hold of a node grows by several times within a step, and a move by W
 then goes so many times too far, each further off than the one before. So each unknown goes by the secant of its own
-last two moves: exact after one of them where a law is linear in its speed, whatever its strength has become.
+last two moves: exact after one of them where a law is linear in its speed, whatever its strength has become. One whose
+residual a move hardly changes follows no law within the step: it stays where it is, since it would be asked for the
+same move for ever.
 """
 
 from __future__ import annotations
@@ -37,7 +39,7 @@ LITTLE = 0.1
 TURNS = 4
 """Most moves at a node; after the second the secants have met what is linear in its speed."""
 FURTHEST = 10.0
-"""Times the move by W that a secant may go, where a law is less stiff at the node than at the start of the step."""
+"""Times that a law may be less stiff at the node than at the start of the step; beyond, it counts as none."""
 APART = 0.5 * 0.6**0.5
 """Distance of the outer nodes from the middle of the piece, in pieces."""
 
@@ -125,11 +127,14 @@ def settled(point, matrices, h, share):
 
 @compiled
 def secant(asked, left, moved):
-    """Times the move by W to go: it asked for `asked`, `moved` was made, and it asks for `left` now."""
+    """Times the move by W to go: it asked for `asked`, `moved` was made, and it asks for `left` now.
+
+    None where that did not make the residual smaller, or by less than 1/FURTHEST of what W foretold.
+    """
     done = asked - left
-    if moved * done <= 0.0:
-        return 1.0
-    return min(moved / done, FURTHEST)
+    if moved * done <= 0.0 or abs(moved) > FURTHEST * abs(done):
+        return 0.0
+    return moved / done
 
 
 @compiled

@@ -2,6 +2,9 @@
 
 It would else seem to creep: a body that is caught in the step has a slip at its start, bodies that hold on to each
 other have parabolas of their own, and one that is carried along has another than the surface, which follows its law.
+A rope or a stop that came into force inside the step is shown in the zone it had before as long as a guard of its end
+zone says so (`zones_inside`).
+
 The slip r of held contacts, whatever network they form, is taken away by an impulse spread over the step,
 
     (M/(h theta) - J) (dv, Lambda) = r/(h theta)    r = -slip in the rows that hold
@@ -64,6 +67,36 @@ def hold_inside(m):
 
 
 @compiled
+def zones_inside(m, t, at_y):
+    """Put laws without a force of their own that switched in the step in the zone they have at (t, y) inside it.
+
+    The zone of the end, unless a guard of it is above zero there: then that of the start. A rope that came taut later
+    would else push. `zones_probed` keeps the zones of the end (`zones_of_end`).
+    """
+    problem, guards, contacts = m.problem, m.events.guards, m.stepping.contacts
+    zones, before = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_at_start, problem.n_zones)
+    rows, first = indices(contacts.at_hold_row, problem.n_zones), indices(contacts.at_first_guard, problem.n_zones)
+    switched, g = indices(contacts.at_switched, problem.n_zones), reals(guards.at_g_probe, guards.n_guards)
+    machine = indices(problem.at_guard_machine, guards.n_guards)
+    copy(zones, indices(contacts.at_zones_probed, problem.n_zones))
+    field_at(problem.call_guards, (problem.context, t, at_y, guards.at_g_probe))
+    problem.guards += 1
+    for k in range(contacts.n_switched):
+        z = switched[k]
+        i = first[z]
+        while rows[z] < 0 and i < guards.n_guards and machine[i] == z:
+            if g[i] > 0.0:
+                zones[z] = before[z]
+            i += 1
+
+
+@compiled
+def zones_of_end(problem, contacts):
+    """Take back what `zones_inside` did."""
+    copy(indices(contacts.at_zones_probed, problem.n_zones), indices(problem.at_zones, problem.n_zones))
+
+
+@compiled
 def take_slip_away(problem, point, linear, exchange, t, at_y):
     """Correct the speeds at (t, y) by the slip of contacts that hold."""
     field_at(problem.call_drift, (problem.context, t, at_y, point.at_residual))
@@ -88,7 +121,7 @@ def end_massless(problem, point, linear, exchange, h):
     for e in range(exchange.n_hold_mass):
         k = row[e]
         if holds[k] == 1 and of_massless[k] == 1 and slip[k] != 0.0:
-            b[k] = slip[k] / (factors.factored_h * factors.factored_theta)
+            b[k] = slip[k] * factors.mass_factor
             found = True
     if not found:
         return
@@ -109,7 +142,7 @@ def remove_slip(point, linear, exchange, at_v):
         b[k] = 0.0
     for e in range(exchange.n_hold_mass):
         if holds[row[e]] == 1 and slip[row[e]] != 0.0:
-            b[row[e]] = slip[row[e]] / (factors.factored_h * factors.factored_theta)
+            b[row[e]] = slip[row[e]] * factors.mass_factor
             found = True
     if not found:
         return
@@ -143,11 +176,12 @@ def balance_stiff(m, t, theta, at_y):
     """Give unknowns that follow a stiff law at theta, in y, the values at which it balances: f(y) = M y'.
 
     The midpoint rule leaves a third of a difference ringing in them, and the dense output inside a step knows
-    nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and says little here.
+    nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and what moves by d
+    gains s d in it, with W = s M - J: bodies that follow each other would else show the error of their acceleration.
     How far to go along the move that the factors of the step give follows from the residuals before and after it.
     """
     problem, point, core = m.problem, m.point, m.linear.core
-    n, per_step = problem.n, 1.0 / m.run.h
+    n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
     start, end, D, y = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n), reals(at_y, n)
     f, v, b, inert, before = (
         reals(point.at_f, n), reals(point.at_v, n), reals(point.at_b, n), reals(point.at_x, n),
@@ -169,8 +203,11 @@ def balance_stiff(m, t, theta, at_y):
     solve(m.linear, point.at_b)
     core.skip_meters = 0
     for k in range(n):
+        inert[k] = 0.0
         if stiff[k] == 1:
             y[k] += b[k]
+            v[k] -= gain * b[k]
+    add_mass_times(m.linear.matrices, point.at_v, point.at_x)
     field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
     problem.rhs += 2
     for k in range(n):

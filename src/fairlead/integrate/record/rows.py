@@ -7,7 +7,7 @@ from math import inf
 from fairlead.integrate.codes import GRID, INSIDE, INSIDE_PASSED, ORDINARY, PARABOLA, PASSED
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.interpolant import interpolate
-from fairlead.integrate.record.between import balance_stiff, take_slip_away
+from fairlead.integrate.record.between import balance_stiff, take_slip_away, zones_inside, zones_of_end
 
 
 @compiled
@@ -92,7 +92,12 @@ def write_between(m, t, side):
         take_slip_away(problem, point, m.linear, m.stepping.exchange, t, point.at_y_probe)
     if recorder.any_stiff == 1:
         balance_stiff(m, t, (t - point.t) / run.h, point.at_y_probe)
+    if m.stepping.contacts.n_switched == 0:
+        write_row(problem, recorder, t, point.at_y_probe, side)
+        return
+    zones_inside(m, t, point.at_y_probe)
     write_row(problem, recorder, t, point.at_y_probe, side)
+    zones_of_end(problem, m.stepping.contacts)
 
 
 @compiled

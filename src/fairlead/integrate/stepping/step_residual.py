@@ -22,6 +22,38 @@ def theta_point(point, rule):
 
 
 @compiled
+def take_mean(problem, point, theta, h):
+    """Have the laws read given motions as they read the unknowns, on the chord of the step; until `take_moment`.
+
+    A spring between a point that is moved and a body that follows would else be compared with its other end at another
+    place: of a motion that speeds up by a the chord is a h^2/8 ahead in the middle, which times a stiffness is much.
+    """
+    weigh_ends(problem, point, h, 1.0 - theta, theta)
+
+
+@compiled
+def weigh_ends(problem, point, h, of_start, of_end):
+    """Have the laws read given motions with these weights of the ends of the step."""
+    if problem.mean_at != 0:
+        mean = reals(problem.mean_at, 5)
+        mean[0], mean[1], mean[2], mean[3] = point.t, point.t + h, of_start, of_end
+
+
+@compiled
+def take_moment(problem):
+    """Have the laws read given motions at the time they are asked for."""
+    if problem.mean_at != 0:
+        mean = reals(problem.mean_at, 5)
+        mean[2], mean[3] = 0.0, 0.0
+
+
+@compiled
+def differs(problem):
+    """Whether the last mean was another number than the motion itself: one of constant speed is on its chord."""
+    return problem.mean_at != 0 and reals(problem.mean_at, 5)[4] == 1.0
+
+
+@compiled
 def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     """Set b = f - M (y1 - y0)/h, and -slip/h at the end of the step in the rows of held contacts.
 
@@ -32,10 +64,12 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     rule, exchange = stepping.rule, stepping.exchange
     n = problem.n
     theta_point(point, rule)
+    take_mean(problem, point, rule.theta_now, h)
     if may_be_last and problem.n_quadratures > 0 and rule.theta_now != MIDDLE:
         field_at(problem.call_rhs, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
     else:
         field_at(problem.call_forces, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
+    take_moment(problem)
     problem.rhs += 1
     y, y_end, v, b = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_v, n), reals(point.at_b, n)
     f = reals(point.at_f, n)

@@ -39,7 +39,15 @@ from fairlead.integrate.stepping.jumps import all_continuous, find_jump, law_jum
 from fairlead.integrate.stepping.known_rows import learn_constants, learn_rows, rows_tell
 from fairlead.integrate.stepping.line_search import GIVEN_UP, MOST_SEARCHED, SEARCHED, remember_move, search_line
 from fairlead.integrate.stepping.missed_impulse import forget_switches, note_switches
-from fairlead.integrate.stepping.step_residual import PASSED, move_end, residual_of_step, scaled_residual, theta_point
+from fairlead.integrate.stepping.step_residual import (
+    PASSED,
+    move_end,
+    residual_of_step,
+    scaled_residual,
+    take_mean,
+    take_moment,
+    theta_point,
+)
 
 CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
 SLOW = 0.01
@@ -226,7 +234,9 @@ def evaluate_slopes(problem, point, linear, stepping, h):
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
     theta_point(point, rule)
     t = point.t + rule.theta_now * h
+    take_mean(problem, point, rule.theta_now, h)
     jacobian_at(problem.call_slopes, (problem.context, t, point.at_u, matrices.at_jacobian, point.at_ft))
+    take_moment(problem)
     problem.jacobians += 1
     find_holds(point, matrices, stepping.exchange)
     if factors.dense == 0:
@@ -294,7 +304,9 @@ def guards_of_step(m, h):
     if exchange.massless == 0 and (contacts.has_limits == 0 or seldom):
         return
     theta_point(point, rule)
+    take_mean(problem, point, rule.theta_now, h)
     evaluate_guards(problem, run, guards, point.t + rule.theta_now * h, point.at_u, guards.at_g_probe)
+    take_moment(problem)
     g, at_theta, is_limit = (
         reals(guards.at_g_end, problem.n_guards), reals(guards.at_g_probe, problem.n_guards),
         indices(contacts.at_limit_guard, problem.n_guards),
@@ -319,7 +331,9 @@ def add_quadratures(problem, point, rule, h):
     """The rise of the quadratures over the step that was taken; the iteration leaves them out."""
     if problem.n_quadratures > 0 and rule.theta_now != MIDDLE:
         theta_point(point, rule)
+        take_mean(problem, point, rule.theta_now, h)
         field_at(problem.call_rhs, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
+        take_moment(problem)
         problem.rhs += 1
         move_quadratures(point, h)
 

@@ -9,6 +9,11 @@ difference away, and e comes from the difference of the ends by another, both th
 
     W (e/2) = f1 - f0          W (d/2) = q/3 - J e/12          y1 <- y1 + d
 
+The step reads motions that are given on their chord. What that makes of f, c = f(u) - f(u at the time of its middle),
+is not in the formula, and h^2 times the second derivative of such a motion is not in e:
+
+    W (e/2) = f1 - f0 + 4 c            W (d/2) = q/3 - J e/12 - 2 c/3
+
 f is linear enough for that inside a step, whose zones are frozen; q tells what depends on time or is curved. Contacts
 that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12:
 never by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away,
@@ -22,6 +27,7 @@ from __future__ import annotations
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.stepping.step_residual import differs, take_mean, take_moment, weigh_ends
 
 
 @compiled
@@ -32,11 +38,12 @@ def refine_end(problem, point, linear, exchange, h):
     f0, f1, b, v = reals(point.at_x, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_v, n)
     y, y_end, bend = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_u, n)
     holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
-    moving = indices(problem.at_differential, n)
+    moving, ahead = indices(problem.at_differential, n), reals(point.at_error_vector, n)
+    chord_ahead(problem, point, h)
     forces_at_ends(problem, point, h)
     core.skip_meters = 1
     for k in range(n):
-        b[k] = f1[k] - f0[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
+        b[k] = f1[k] - f0[k] + 4.0 * ahead[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
     if exchange.driven == 1:
         follow_surfaces(problem, point, exchange, h)
     solve(linear, point.at_b)
@@ -44,7 +51,7 @@ def refine_end(problem, point, linear, exchange, h):
         moves = moving[k] == 1 and quadrature[k] == 0
         bend[k] = b[k] / 6.0 if moves else 0.0
         v[k] = (y[k] - y_end[k]) / (3.0 * h) if moves else 0.0
-        b[k] = (f0[k] + f1[k]) / 6.0
+        b[k] = (f0[k] + f1[k]) / 6.0 - ahead[k] / 1.5
     add_mass_times(matrices, point.at_v, point.at_b)
     add_jacobian_times(matrices, -1.0, point.at_u, point.at_b)
     for k in range(n):
@@ -57,6 +64,26 @@ def refine_end(problem, point, linear, exchange, h):
             y_end[k] += 2.0 * b[k]
     if problem.n_quadratures > 0:
         meter_step(problem, point, h)
+
+
+@compiled
+def chord_ahead(problem, point, h):
+    """Into `error_vector`: f with given motions on their chord, less f with them where they are in the middle."""
+    y, y_end, u = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_u, problem.n)
+    ahead, f = reals(point.at_error_vector, problem.n), reals(point.at_f, problem.n)
+    moving = indices(problem.at_differential, problem.n)
+    for k in range(problem.n):
+        ahead[k] = 0.0
+        u[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
+    if not differs(problem):
+        return
+    take_mean(problem, point, 0.5, h)
+    field_at(problem.call_forces, (problem.context, point.t + 0.5 * h, point.at_u, point.at_error_vector))
+    take_moment(problem)
+    field_at(problem.call_forces, (problem.context, point.t + 0.5 * h, point.at_u, point.at_f))
+    problem.rhs += 2
+    for k in range(problem.n):
+        ahead[k] -= f[k]
 
 
 @compiled
@@ -94,6 +121,7 @@ def forces_at_ends(problem, point, h):
 def meter_step(problem, point, h):
     """The rise of the quadratures, from the rates at the mean of the way taken, (y0 + y1)/2 - e/12.
 
+    The mean of a motion that is given is a sixth of what it is at the ends and two thirds of what it is in the middle.
     Forces are means over the step already; b is half of what moved its end, and all of what it does to them.
     """
     n = problem.n
@@ -103,7 +131,9 @@ def meter_step(problem, point, h):
     moving, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
     for k in range(n):
         mean[k] = 0.5 * (y[k] + y_end[k]) - bend[k] if moving[k] == 1 else y_end[k] + b[k]
+    weigh_ends(problem, point, h, 1.0 / 6.0, 1.0 / 6.0)
     field_at(problem.call_rhs, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_f))
+    take_moment(problem)
     problem.rhs += 1
     for k in range(n):
         if quadrature[k] == 1:

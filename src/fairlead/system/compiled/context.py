@@ -25,6 +25,7 @@ ADDRESSES = (
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
     "ACCELERATED", "ACCELERATED_MASS", "RATED", "RATED_JOINS", "RATED_MEMBERS", "RATED_WEIGHTS", "RATED_TERMS",
+    "GIVEN_PLACES",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -34,6 +35,7 @@ COUNTED = {
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
     "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
     "N_RATED": "rated", "N_RATED_JOINS": "rated_joins", "N_RATED_TERMS": "rated_terms",
+    "N_GIVEN_PLACES": "given_places",
 }  # fmt: skip
 
 
@@ -41,7 +43,7 @@ def working_arrays(
     flat: FlatModel, blocks: Sequence[Block], numbering: Numbering, tables: Tables, machines: int, program: Program
 ) -> Memory:
     """What the driver reads and writes, beside what belongs to the mass matrix, guards, samples and outputs."""
-    reactions = reaction_masses(flat, numbering)
+    reactions, given = reaction_masses(flat, numbering), _given_places(blocks, numbering)
     return {
         "z": np.zeros(numbering.dump + 1 + numbering.resting), "w": np.zeros(numbering.w_dump + 1),
         "f_rest": np.zeros(numbering.w_dump + 1),
@@ -60,6 +62,7 @@ def working_arrays(
         "fixed_coef": program.fixed_coef, "moving": program.moving, "moving_base": np.zeros(len(program.moving)),
         "fixed_done": np.zeros(1, dtype=np.int64),
         "holds": holds(blocks)[0], "time_place": time_places(blocks),
+        "given_places": given, "given_mean": np.zeros(len(given)), "mean": np.zeros(5),
     }  # fmt: skip
 
 
@@ -74,6 +77,7 @@ def context(
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
         "CIRCLE_AT": circle_at, "RATED_AT": circle_at + len(numbering.circles) + len(numbering.share),
         "REACTIONS_READ": int(bool(len(memory["circle_pairs"])) or any(_reads_reactions(b, numbering) for b in blocks)),
+        "N_GIVEN": sum(_gives_motion(blocks[place]) for place in memory["schedule"][:, 0]),
         "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),
     }  # fmt: skip
     vector = np.zeros(layout.CONTEXT, dtype=np.int64)
@@ -108,11 +112,28 @@ def _counts(blocks: Sequence[Block]) -> Integers:
 
 
 def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:
-    """Calls that compute signals: runs of equal rank inside every block that gives any, by rank."""
+    """Calls that compute signals: those of given motions, then runs of equal rank inside every block, by rank."""
     calls = []
     for place, block in enumerate(blocks):
         if not block.sig_index.size or (block.sig_index == numbering.dump).all():
             continue
         ranks = np.array(block.ranks)
-        calls += [(rank, place, *np.searchsorted(ranks, [rank, rank + 1])) for rank in np.unique(ranks)]
-    return np.array([call[1:] for call in sorted(calls)], dtype=np.int64).reshape(-1, 3)
+        later = not _gives_motion(block)
+        calls += [(later, rank, place, *np.searchsorted(ranks, [rank, rank + 1])) for rank in np.unique(ranks)]
+    return np.array([call[2:] for call in sorted(calls)], dtype=np.int64).reshape(-1, 3)
+
+
+def _gives_motion(block: Block) -> bool:
+    """Whether its instances move something as given in time, and in nothing else."""
+    return block.instances[0].type.answers.prescribes is not None
+
+
+def _given_places(blocks: Sequence[Block], numbering: Numbering) -> Integers:
+    """Where in z the positions and speeds lie that are given in time, those that something reads."""
+    found = list[Integers]()
+    for block in blocks:
+        if block.sig_index.size and (prescribes := block.instances[0].type.answers.prescribes) is not None:
+            names = [name for position, speed, _ in prescribes().values() for name in (position, speed)]
+            found.append(block.sig_index[:, [block.kernel.structure.outputs.index(name) for name in names]].ravel())
+    places = np.concatenate([*found, np.zeros(0, dtype=np.int64)]).astype(np.int64)
+    return places[places != numbering.dump]

@@ -203,6 +203,11 @@ class System:
         return found
 
     @property
+    def mean(self) -> Floats:
+        """[5]: what is asked for of given motions, see layout.py; [0] where none is read."""
+        return self.memory["mean"] if len(self.memory["given_places"]) else np.zeros(0)
+
+    @property
     def longest_step(self) -> float:
         """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it."""
         fastest = 0.0

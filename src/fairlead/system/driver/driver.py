@@ -43,16 +43,50 @@ SIGNATURES = {
 
 def look(ctx, t, y):
     """What laws read at (t, y): unknowns, time, signals; fills z."""
-    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    kernels, blocks = i8(ctx[KERNELS]), ctx[BLOCKS]
+    z = f8(ctx[Z])
     for i in range(0, ctx[N]):
         z[i] = y[i]
+    if ctx[N_GIVEN_PLACES] > 0:
+        average(ctx)
+    call_signals(ctx, t, 0, ctx[N_GIVEN])
+    if ctx[N_GIVEN_PLACES] > 0:
+        put_average(ctx)
+    call_signals(ctx, t, ctx[N_GIVEN], ctx[N_SCHEDULE])
+
+
+def call_signals(ctx, t, first, end):
+    """Have the kernels give their signals at t, in these calls."""
+    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    kernels, blocks, schedule = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SCHEDULE])
     z[ctx[T_AT]] = t
-    schedule = i8(ctx[SCHEDULE])
-    for s in range(0, ctx[N_SCHEDULE]):
+    for s in range(first, end):
         b = schedule[3 * s]
         start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], SIGNALS, block, start, stop, z, zones, tables, z)
+
+
+def average(ctx):
+    """Where a mean over a step is asked for: what its ends have in it of the positions and speeds that are given."""
+    step, z, places, mean = f8(ctx[MEAN]), f8(ctx[Z]), i8(ctx[GIVEN_PLACES]), f8(ctx[GIVEN_MEAN])
+    if step[2] + step[3] > 0.0:
+        call_signals(ctx, step[0], 0, ctx[N_GIVEN])
+        for k in range(0, ctx[N_GIVEN_PLACES]):
+            mean[k] = step[2] * z[places[k]]
+        call_signals(ctx, step[1], 0, ctx[N_GIVEN])
+        for k in range(0, ctx[N_GIVEN_PLACES]):
+            mean[k] += step[3] * z[places[k]]
+
+
+def put_average(ctx):
+    """The mean in their place, and whether it is another than they are here."""
+    step, z, places, mean = f8(ctx[MEAN]), f8(ctx[Z]), i8(ctx[GIVEN_PLACES]), f8(ctx[GIVEN_MEAN])
+    if step[2] + step[3] > 0.0:
+        step[4] = 0.0
+        for k in range(0, ctx[N_GIVEN_PLACES]):
+            value = mean[k] + (1.0 - step[2] - step[3]) * z[places[k]]
+            if abs(value - z[places[k]]) > 1e-15 * abs(value):  # more than rounding
+                step[4] = 1.0
+            z[places[k]] = value
 
 
 def ask(ctx, mode, out):
@@ -381,7 +415,8 @@ def outputs(ctx, t, y, out):
 
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
-    look, ask, of_accelerations, evaluate, accelerate, slips, take_samples, fix, assemble, expand, let_slip, show,
+    call_signals, average, put_average, look, ask, of_accelerations, evaluate, accelerate, slips, take_samples, fix,
+    assemble, expand, let_slip, show,
 )  # fmt: skip
 
 
