@@ -95,7 +95,9 @@ class ForeignBlock(Controller, abstract=True):
         if self._points == 0:
             self._begin = t
         before = self._begin + (self._points - 1) * self._step if self._points else None
-        said = self._ask({"do": "step", "begin": self._begin, "from": before, "step": self._step, "inputs": given})
+        now = self._begin + self._points * self._step
+        length = self._step if before is None else now - before  # so that it arrives at `now` to the last bit
+        said = self._ask({"do": "step", "begin": self._begin, "from": before, "step": length, "inputs": given})
         self._points += 1
         found = {}
         for one, value in zip(self._signals.outputs, said["outputs"], strict=True):
