@@ -80,6 +80,7 @@ def sentence(found: dict[str, Any]) -> str:
 
 
 def _where(found: dict[str, Any]) -> str:
-    along = f" ({found['along']:.4g} m along the line)" if found.get("along") is not None else ""
+    route = f", {found['place']:.4g} m on the route" if found.get("place") is not None else ""
+    along = f" ({found['along']:.4g} m along the line{route})" if found.get("along") is not None else ""
     station = f" in {found['station']}" if found.get("station") else ""
     return f"element {found['element']}{along}{station}"

@@ -28,8 +28,16 @@ def slow_data(result: Result) -> dict[str, Any]:
     return {
         "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(counts, total), "kinds": _rows(kinds, total),
         "profile": str(run.get("profile") or ""), "total": total,
-        "times": [(word, run[key]) for key, word in TIMES.items() if run.get(key) is not None],
+        "times": [*((word, run[key]) for key, word in TIMES.items() if run.get(key) is not None), *_rest(run)],
     }  # fmt: skip
+
+
+def _rest(run: Mapping[str, Any]) -> list[tuple[str, float]]:
+    """What is left of the whole time beside reading and stepping."""
+    if any(run.get(key) is None for key in TIMES):
+        return []
+    rest = run["wall_time"] - run["compile_time"] - run["solve_time"]
+    return [("the rest, for loading the engine and recording", rest)]
 
 
 def _rows(counts: Counter[str], total: int) -> list[dict[str, Any]]:

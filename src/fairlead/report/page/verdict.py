@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 CLOSED = 1e-2
 """Energy that may be missing before a reader is told to look: a hundredth of what passed."""
+BEYOND = {"beyond", "rucking"}
+"""Zones of an element that rucks."""
 CLOSE = 0.05
 """Difference of a tension from that of statics that is called small."""
 
@@ -52,9 +54,24 @@ def _finished(run: dict[str, Any]) -> Iterator[Sentence]:
 def _ruck(result: Result) -> Iterator[Sentence]:
     found = result.run.get("ruck")
     for one in verdicts(result) if found is None else found:
-        why = f" {_why(result, one)}" if one["rucks"] else ""
+        why = f" {_extent(result, one)} {_why(result, one)}".rstrip() if one["rucks"] else ""
         yield Sentence("The hose rucks" if one["rucks"] else "No ruck", "bad" if one["rucks"] else "good",
                        f"{_sentence(of_ruck(one))}{why}")  # fmt: skip
+
+
+def _extent(result: Result, found: dict[str, Any]) -> str:
+    """How much of the line rucks, and over what time."""
+    mine = [one for one in result.events if one.component.startswith(f"{found['line']}.") and BEYOND & {one.zone_to}]
+    who = {one.component for one in mine}
+    most, now = 0, set[str]()
+    for one in result.events:
+        if one.component in who:
+            now = now | {one.component} if one.zone_to in BEYOND else now - {one.component}
+            most = max(most, len(now))
+    return (
+        f"In the whole run {len(who)} elements ruck at some time, {most} at once at most; "
+        f"the last of them begins at t = {mine[-1].t:.4g} s."
+    ) if mine else ""
 
 
 def _why(result: Result, found: dict[str, Any]) -> str:
