@@ -1,0 +1,78 @@
+"""Bundled models as FMUs beside `advance` at the same points, to the last bit, and beside a run that nobody cuts."""
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.fmu import export
+from tests.fmu.exported import fmpy, needs_compiler, slave
+
+pytestmark = pytest.mark.slow
+EXAMPLES = pathlib.Path(__file__).parents[2] / "docs" / "examples"
+SCENES = {
+    "belt": ("belt", "block.*", 0.02, 100),
+    "hundred_blocks": ("hundred_blocks", "rod.block[?].x", 0.05, 40),
+    "single_bend": ("single_bend", "line.*_node[?].x", 0.05, 60),
+    "guidance_route_ideal": ("guidance_route_ideal", "line.*_node[?].x", 0.05, 30),
+    "clutch train": (EXAMPLES / "brake_and_clutch.yaml", "wheel.rate", 0.01, 400),
+    "winch_drive": ("winch_drive", "drive.*", 0.05, 60),
+    "valve_motor": ("valve_motor", "drive.*", 0.01, 100),
+}
+"""Netlist, outputs, communication step [s], steps."""
+ACCURACIES = 10.0
+"""By how many accuracies of its largest value a signal may differ from that of an uncut run."""
+
+
+def both(file, folder, model, h, steps, **settings):
+    """Rows of the FMU and of `advance`, and the names of the outputs."""
+    start, native = model.netlist.run.start, model.start(**settings)
+    rows, own = [], []
+    with slave(file, folder, start=start) as one:
+        one.fmu.exitInitializationMode()
+        for _ in range(steps):
+            one.step(h)
+            native.advance(one.t)
+            rows.append(one.get(*one.outputs))
+            own.append([native.get(name) for name in one.outputs])
+    return np.array(rows), np.array(own), one.outputs
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_bundled_model_goes_as_in_fairlead_to_the_last_bit(tmp_path, scene, engine):
+    fmpy()
+    needs_compiler()
+    path, outputs, h, steps = SCENES[scene]
+    model = fairlead.load(path)
+    version = 2 + (engine == "rodas")
+    try:
+        native = model.start(engine=engine)
+    except fairlead.FairleadError:
+        pytest.skip(f"{engine} does not run {scene}")
+    assert native.t == model.netlist.run.start
+    file = export(model, tmp_path / "model.fmu", version=version, outputs=[outputs], engine=engine)
+    rows, own, names = both(file, tmp_path / "unpacked", model, h, steps, engine=engine)
+    assert len(names) > 0
+    assert np.ptp(rows, axis=0).max() > 0
+    assert rows.tobytes() == own.tobytes()
+
+
+@pytest.mark.parametrize("scene", ["belt", "hundred_blocks", "clutch train"])
+def test_it_stays_within_ten_accuracies_of_a_run_that_nobody_cuts(tmp_path, scene):
+    fmpy()
+    needs_compiler()
+    path, outputs, h, steps = SCENES[scene]
+    model = fairlead.load(path)
+    file = export(model, tmp_path / "model.fmu", outputs=[outputs], engine="rodas")
+    with slave(file, tmp_path / "unpacked") as one:
+        one.fmu.exitInitializationMode()
+        for _ in range(steps):
+            one.step(h)
+        last = one.get(*one.outputs)
+    result = model.run(out=None, stop=one.t, engine="rodas")
+    for name, value in zip(one.outputs, last, strict=True):
+        series = result[name]
+        largest = float(np.abs(series).max())
+        assert abs(value - float(series[-1])) <= ACCURACIES * model.netlist.run.accuracy * largest, name
