@@ -94,10 +94,10 @@ def main() -> None:
 
 
 def without_search() -> None:
-    """Have the engine compiled with a search that is always content; the cache is one of its own."""
-    import fairlead.integrate.stepping.line_search as line_search
+    """Have the engine compiled with a search that takes no move back, as where friction falls; its cache is its own."""
+    import fairlead.integrate.stepping.residual as line_search
 
-    line_search.PASSED = float("inf")
+    line_search.FALLING = float("-inf")
 
 
 def measured() -> Iterator[tuple[str, list[Cost]]]:

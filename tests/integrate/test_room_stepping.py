@@ -20,7 +20,7 @@ def evaluated():
     """call(memory, s): J and M are new: factorise s M - J, and learn the rows of the zones in force."""
     from fairlead.integrate.linear.systems import factorise_step
     from fairlead.integrate.memory.foreign import compiled
-    from fairlead.integrate.stepping.known_rows import learn_rows
+    from fairlead.integrate.stepping.row_cache import learn_rows
 
     @compiled
     def evaluate(m, scale):
@@ -34,7 +34,7 @@ def evaluated():
 def exchanged():
     """call(memory) -> 1 if the rows of the zones in force were known and are in the factors now."""
     from fairlead.integrate.memory.foreign import compiled
-    from fairlead.integrate.stepping.exchange import exchange_rows
+    from fairlead.integrate.stepping.row_cache import exchange_rows
 
     @compiled
     def exchange(m):
@@ -52,36 +52,36 @@ def solution():
 
 @functools.cache
 def forgotten():
-    from fairlead.integrate.stepping.known_rows import forget_rows
+    from fairlead.integrate.stepping.row_cache import forget_rows
 
     return entry(forget_rows, ("stepping.exchange",))
 
 
 @functools.cache
 def wrong_by(name):
-    from fairlead.integrate.stepping import overload
+    from fairlead.integrate.stepping import step_error
 
     kinds = "didd" if name == "error_of_speed" else "did"
-    return entry(getattr(overload, name), ("point", "linear.matrices", "stepping.contacts"), kinds, "d")
+    return entry(getattr(step_error, name), ("point", "linear.matrices", "stepping.contacts"), kinds, "d")
 
 
 @functools.cache
 def unseen():
-    from fairlead.integrate.stepping.overload import unseen_slip
+    from fairlead.integrate.stepping.step_error import unseen_slip
 
     return entry(unseen_slip, ("point", "linear.matrices", "events.guards", "stepping"), "d", "d")
 
 
 @functools.cache
 def turned():
-    from fairlead.integrate.stepping.missed_impulse import first_turned
+    from fairlead.integrate.stepping.switch_inside import first_turned
 
     return entry(first_turned, ("point", "linear.matrices", "stepping.contacts"), "d", "d")
 
 
 @functools.cache
 def kept():
-    from fairlead.integrate.stepping.steady_steps import keep_step
+    from fairlead.integrate.stepping.history import keep_step
 
     return entry(keep_step, ("run", "stepping.rule"), "db")
 

@@ -1,4 +1,4 @@
-"""Pseudocode of docs/ calls what the code calls, in the same order.
+"""Pseudocode of docs/ calls what the code calls, in the same order, and the page of `stepping` names what there is.
 
 A block below `<!-- pseudocode: FILE FUNCTION -->` is that function of src/fairlead/integrate/. Whatever is written as a
 call in the block is called in the function, in this order; what the function calls besides may be left out.
@@ -14,6 +14,9 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"^<!-- pseudocode: (\S+) (\w+) -->\n```text\n(.*?)^```$", flags=re.DOTALL | re.MULTILINE)
 CALL = re.compile(r"\b([a-z_]+)\(")
+NAMED = re.compile(r"`([a-z_]+)\.([A-Za-z_]+)`((?:, `[A-Za-z_]+`)*)")
+FILES = {file.stem: file for file in sorted((ROOT / "src" / "fairlead" / "integrate").rglob("*.py"))}
+CODES = {"FREE"}  # a number that says "none"
 
 
 def shown() -> list[tuple[str, str, str]]:
@@ -58,3 +61,46 @@ def test_a_renamed_or_reordered_call_is_found() -> None:
     assert first_missing("h = propose()\njudge(h)", called) == ""
     assert first_missing("judge()\ntake()", called) == "take"
     assert first_missing("propose()\nestimate()", called) == "estimate"
+
+
+def defined(file: pathlib.Path) -> Iterator[tuple[str, ast.expr | None]]:
+    """Names of the functions of a file, and of its constants with their values."""
+    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef):
+            yield node.name, None
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            yield node.targets[0].id, node.value
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
+            assert isinstance(node.value, ast.Tuple)
+            for target, value in zip(node.targets[0].elts, node.value.elts, strict=True):
+                assert isinstance(target, ast.Name)
+                yield target.id, value
+
+
+def is_measure(value: ast.expr) -> bool:
+    """True of a number that is not whole: what is counted, or is a code, is."""
+    return any(isinstance(one, ast.Constant) and isinstance(one.value, float) for one in ast.walk(value))
+
+
+def named() -> set[tuple[str, str]]:
+    """(file, name) of all that the page of `stepping` names as `file.name`, or beside such a name."""
+    text = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
+    found = set()
+    for file, name, others in NAMED.findall(text):
+        if file in FILES and name != "py":
+            found |= {(file, name), *((file, other) for other in re.findall(r"`(\w+)`", others))}
+    return found
+
+
+def test_functions_and_constants_that_the_page_of_stepping_names_exist() -> None:
+    there = {(file, name) for file in {file for file, _ in named()} for name, _ in defined(FILES[file])}
+    assert len(named()) > 40
+    assert named() <= there, named() - there
+
+
+def test_every_measure_in_stepping_has_its_reason_on_the_page() -> None:
+    room = [file for file in FILES.values() if file.parent.name == "stepping"]
+    measures = {(file.stem, name) for file in room for name, value in defined(file) if value and is_measure(value)}
+    assert {("trial", "AT_PLACE"), ("step_error", "BEYOND")} <= measures
+    missing = {one for one in measures - named() if one[1] not in CODES}
+    assert not missing

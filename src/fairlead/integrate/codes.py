@@ -14,7 +14,7 @@ STEP_FLOOR, NOT_FINITE, UNSETTLED, INCONSISTENT, SINGULAR_MATRIX = 1, 2, 3, 4, 5
 CHATTER, MAX_STEPS, MAX_EVENTS, REBOUND_RUBS = 6, 7, 8, 11
 
 KNOWN_ZONES = 8
-"""Rows of a machine are remembered for so many zones (stepping/known_rows.py); those of more are not."""
+"""Rows of a machine are remembered for so many zones (stepping/row_cache.py); those of more are not."""
 
 MOST_PERTURBED = 16
 """Pivots that `stepping` may perturb at once (perturbed_pivots.py). With more, other pivots are the better way."""

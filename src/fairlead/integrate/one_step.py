@@ -14,8 +14,9 @@ from collections.abc import Callable
 from math import inf, isfinite
 from typing import Any, NamedTuple
 
-from fairlead.integrate.codes import BEFORE, GO_ON, NOT_FINITE, REPLAN, SETTLE, SINGULAR_MATRIX, STEP_FLOOR
+from fairlead.integrate.codes import GO_ON, NOT_FINITE, REPLAN, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossing
+from fairlead.integrate.events.given_up import TOO_LONG, mend_start, settle_at_start, take_again, take_much_shorter
 from fairlead.integrate.events.pace import (
     DOUBT,
     accept,
@@ -26,15 +27,12 @@ from fairlead.integrate.events.pace import (
     smallest_step,
 )
 from fairlead.integrate.events.position import way_back
-from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import all_fall, begin_settling
 from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import defect, midpoint_defect
 from fairlead.integrate.point.meters import judge_meters
 from fairlead.integrate.record.between import find_stiff
-from fairlead.integrate.record.rows import write_row
 
 ROUGH = 10.0
 """Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
@@ -104,17 +102,12 @@ def judge_inside(m, h):
 @compiled
 def up_to_crossing(m, h):
     """Accept a step whose error is small enough, up to its first crossing; or give it up for what that shows."""
-    problem, run, point, guards, recorder = m.problem, m.run, m.point, m.events.guards, m.recorder
+    problem, run, guards, recorder = m.problem, m.run, m.events.guards, m.recorder
     found = first_crossing(m, h)
     if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, guards, h):
-        return try_shorter(run, guards, h)
+        return take_much_shorter(run, guards, h)
     if found == COMPANION:
-        run.rejected_companion += 1
-        doubtful = run.judged == 1 and run.adaptive == 1 and DOUBT * h >= smallest_step(run, point)
-        if doubtful and all_fall(problem, run, point, m.events):
-            return try_shorter(run, guards, h)
-        settle_at_start(m)
-        return GO_ON
+        return mend_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and run.adaptive == 1 and cut_too_rough(m, h):
         return GO_ON
     recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
@@ -123,33 +116,14 @@ def up_to_crossing(m, h):
 
 
 @compiled
-def try_shorter(run, guards, h):
-    """Take a much shorter step: see DOUBT."""
-    guards.n_fired = 0
-    run.h_next = DOUBT * h
-    run.retried += 1
-    return GO_ON
-
-
-@compiled
-def settle_at_start(m):
-    """Settle at the point, on the guards in `fired`, before another step is tried."""
-    problem, run, point = m.problem, m.run, m.point
-    run.companion = 1
-    write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
-    remember(problem, point, m.events.loads)
-    begin_settling(problem, run, point, m.events)
-    run.phase = SETTLE
-
-
-@compiled
 def cut_too_rough(m, h):
-    """True if the piece up to a crossing is to be taken as a step of its own, which `h_next` then is."""
+    """True if the piece up to a crossing is to be taken as a step of its own, which the next trial then is."""
     run, point = m.run, m.point
-    if min(run.cut_at, MOST_KEPT) * h < smallest_step(run, point) or not rough(m.problem, run, point, m.linear, h):
+    piece = min(run.cut_at, MOST_KEPT) * h
+    if piece < smallest_step(run, point) or not rough(m.problem, run, point, m.linear, h):
         return False
     m.events.guards.n_fired = 0
-    run.h_next = min(run.cut_at, MOST_KEPT) * h
+    take_again(run, piece, TOO_LONG)
     return True
 
 
@@ -165,7 +139,6 @@ def rough(problem, run, point, linear, h):
     if weighted_norm(point, point.at_error_vector) <= ROUGH:
         return False
     run.rejected_switch += 1
-    run.retried += 1
     return True
 
 
@@ -196,8 +169,7 @@ def reject(m, h, status):
         run.rejected_error += 1
     else:
         run.rejected_nan += 1
-    run.h_next = step_after_rejection(run, h)
-    run.retried += 1
+    take_again(run, step_after_rejection(run, h), TOO_LONG)
     if run.retried == STUBBORN and problem.n_algebraic > 0 and run.mended == 0 and status != SINGULAR:
         mend_point(m)
         return GO_ON

@@ -8,19 +8,17 @@ All take the address of the struct first (memory/arena.py) and work on arrays at
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import BEFORE, RECORD, SETTLE, STEP_FLOOR
+from fairlead.integrate.codes import RECORD, STEP_FLOOR
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, NONE, first_crossing
+from fairlead.integrate.events.given_up import settle_at_start
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import not_finite_here
-from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
 from fairlead.integrate.linear.systems import factorise_step, solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, memory_at, reals
 from fairlead.integrate.one_step import rough
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.point.interpolant import interpolate
-from fairlead.integrate.record.rows import write_row
 
 
 def residual(address, t, at_y, at_rate, at_r):
@@ -87,11 +85,7 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     found = first_crossing(m, h)
     if found == COMPANION:
         run.rejected_companion += 1
-        run.companion = 1
-        write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
-        remember(problem, point, m.events.loads)
-        begin_settling(problem, run, point, m.events)
-        run.phase = SETTLE
+        settle_at_start(m)
         return 0
     if found == NONE and n_rooted > 0:
         copy(indices(at_rooted, n_rooted), indices(guards.at_fired, n_rooted))

@@ -26,9 +26,9 @@ RULE = Struct(
     copies=("n", "quadrature",),
     integers=(
         # whether it lands on every switch, whether J and M are those of the zones in force, steps failed in a row,
-        # tries to land on a jump
-        "locates", "linearised", "failed", "seeking", "block_steps",
-        # whether moves were taken back in this step (line_search.py), whether its matrix is that of zones or values
+        # tries to end where a law jumps
+        "locates", "linearised", "failed", "localising", "block_steps",
+        # whether moves were taken back in this step (residual.py), whether its matrix is that of zones or values
         # met on the way, whether other pivots were tried for that
         "searched", "midway", "replanned",
     ),
@@ -36,8 +36,8 @@ RULE = Struct(
         # theta asked for, its rise when zones cycle, theta in force
         "least_theta", "theta_raise", "theta_now",
         # distances of the slopes remembered
-        "gap", "gap_before", "t_jump", "t_switch", "t_bent",
-        # what was allowed in the last steps (steady_steps.py)
+        "gap", "gap_before", "t_cut", "t_bent",
+        # what was allowed in the last steps (history.py)
         "allowed", "allowed_before",
     ),
     reals={
@@ -75,7 +75,7 @@ EXCHANGE = Struct(
         "zones_linearised": "n_zones", "known_of_kind": "machines_by_zone", "exchanged_machines": "n_zones",
     },
 )  # fmt: skip
-"""`stepping`: rows of J and M that are known for a zone and exchanged without a factorisation (known_rows.py)."""
+"""`stepping`: rows of J and M that are known for a zone and exchanged without a factorisation (row_cache.py)."""
 
 CONTACTS = Struct(
     copies=("n", "n_guards", "n_zones", "guard_machine", "zones",),

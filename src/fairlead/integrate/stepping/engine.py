@@ -24,6 +24,6 @@ def stepping_numbers(run: Run, problem: Instance) -> Mapping[str, float]:
 
 
 STEPPING = Engine(
-    "stepping", "fairlead.integrate.stepping.method", ("stepping",), stepping_numbers, plans_contacts=True,
+    "stepping", "fairlead.integrate.stepping.trial", ("stepping",), stepping_numbers, plans_contacts=True,
     works_on_parts=True,
 )  # fmt: skip

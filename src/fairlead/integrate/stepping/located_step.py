@@ -12,27 +12,24 @@ are judged on the dense output as `rodas` judges them (crossing.py), and what fi
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import BEFORE, SETTLE
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossing
-from fairlead.integrate.events.pace import DOUBT, smallest_step
-from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import all_fall, begin_settling
+from fairlead.integrate.events.given_up import mend_start
 from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.record.between import STIFF, take_slip_away
-from fairlead.integrate.record.rows import write_row
 
 CAREFUL = 10.0
 """A step is allowed a tenth of a weight: errors of one sign add up, and energy is to be right to ten accuracies of what
 passed. With one weight one in ten random networks of springs missed that (tests/hard, random networks)."""
 HOLD_SHARE = 0.025
 """Share of the bend of a holding force that counts as its error."""
-LITTLE = 0.1
-"""Weights of a force that the stop of a slip that counts as none may seem to be."""
+LITTLE = 1.0 / CAREFUL
+"""Weights of a force that the stop of a slip that counts as none may seem to be: what is allowed of any error."""
 FOLLOWED = 0.1
-"""Share of the way to the balance that is left as error where it was gone."""
+"""Share of the way to the balance that is left as error where it was gone. The factors of the step go all of it but
+2/(2 + h |J|/M), less than 2/STIFF, where the law is straight. Five times that is for laws that bend: it is chosen."""
 JUDGED, ACCEPTED, CUT = 0, 1, 2
 
 
@@ -136,26 +133,8 @@ def remember_middle(point, rule, h):
 @compiled
 def judge_guards(m, h):
     """JUDGED where the point at the start is settled instead, or the step made shorter; else ACCEPTED or CUT."""
-    run, point = m.run, m.point
     found = first_crossing(m, h)
-    if found != COMPANION:
-        return CUT if found == CROSSING else ACCEPTED
-    run.rejected_companion += 1
-    if run.judged == 1 and DOUBT * h >= smallest_step(run, point) and all_fall(m.problem, run, point, m.events):
-        m.events.guards.n_fired = 0
-        run.h_next = DOUBT * h
-        run.retried += 1
+    if found == COMPANION:
+        mend_start(m, h)
         return JUDGED
-    settle_start(m)
-    return JUDGED
-
-
-@compiled
-def settle_start(m):
-    """Settle the point at the start of a step that is given up; guards in `fired` fire."""
-    problem, run, point = m.problem, m.run, m.point
-    run.companion = 1
-    write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
-    remember(problem, point, m.events.loads)
-    begin_settling(problem, run, point, m.events)
-    run.phase = SETTLE
+    return CUT if found == CROSSING else ACCEPTED

@@ -34,19 +34,35 @@ from fairlead.integrate.stepping.active_set import (
     learn_from_neighbours,
     violators,
 )
-from fairlead.integrate.stepping.exchange import exchange_rows, give_up_guesses, solve_exchanged, watch_surfaces
-from fairlead.integrate.stepping.jumps import all_continuous, find_jump, law_jumps
-from fairlead.integrate.stepping.known_rows import learn_constants, learn_rows, rows_tell
-from fairlead.integrate.stepping.line_search import GIVEN_UP, MOST_SEARCHED, SEARCHED, remember_move, search_line
-from fairlead.integrate.stepping.missed_impulse import forget_switches, note_switches
-from fairlead.integrate.stepping.step_residual import (
+from fairlead.integrate.stepping.residual import (
+    GIVEN_UP,
+    MOST_SEARCHED,
     PASSED,
+    SEARCHED,
     move_end,
+    remember_move,
     residual_of_step,
     scaled_residual,
+    search_line,
     take_mean,
     take_moment,
     theta_point,
+)
+from fairlead.integrate.stepping.row_cache import (
+    exchange_rows,
+    give_up_guesses,
+    learn_constants,
+    learn_rows,
+    rows_tell,
+    solve_exchanged,
+    watch_surfaces,
+)
+from fairlead.integrate.stepping.switch_inside import (
+    all_continuous,
+    find_jump,
+    forget_switches,
+    law_jumps,
+    note_switches,
 )
 
 CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
@@ -62,7 +78,7 @@ MOST_SOLVES, MOST_LINEAR_SOLVES = 10, 3
 def take_theta_step(m, h):
     """Compute `y_end` and the zones that go with it.
 
-    Returns DONE, SINGULAR, INACCURATE, CYCLES, DIVERGES or JUMPS (a switch with a jump, at `t_jump`).
+    Returns DONE, SINGULAR, INACCURATE, CYCLES, DIVERGES or JUMPS (a switch with a jump, at `t_cut`).
     """
     problem, point, linear, guards, settling = m.problem, m.point, m.linear, m.events.guards, m.events.settling
     stepping, rule, exchange = m.stepping, m.stepping.rule, m.stepping.exchange

@@ -27,7 +27,7 @@ from __future__ import annotations
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
-from fairlead.integrate.stepping.step_residual import differs, take_mean, take_moment, weigh_ends
+from fairlead.integrate.stepping.residual import differs, take_mean, take_moment, weigh_ends
 
 
 @compiled

@@ -1,9 +1,15 @@
-"""A trial step of `stepping`: proposed, taken, its error estimated (step_error.py), accepted or repeated.
+"""The method `stepping`: a trial step proposed, taken, its error estimated (step_error.py), accepted or repeated.
 
 What repeats one, in this order: a matrix without good pivots; a law that jumps at a limit the step reaches; zones that
 do not settle; a rim of a part that changed; an error above one; a switch inside that its formula says is missed. Where
 every switch is landed on (`finish_located`): an error above one; a guard that fires at the start, or at an end that was
-cut too roughly.
+cut too roughly. All of them end in `repeat`, which alone gives back the zones and sets the length.
+
+    attempt  zones and end of the step together        # the active set, theta_step.py
+             if they do not settle: halve h; TRY again
+             if the error is too large: shrink h; TRY again
+    arrive   zone changes go to the log, at the end of the step
+    settled  the slopes before are those of the settled point
 """
 
 from __future__ import annotations
@@ -11,51 +17,53 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import (
-    BEFORE,
+    BUFFER_FULL,
     GO_ON,
     MIDDLE,
     REPLAN,
-    SETTLE,
     SINGULAR_MATRIX,
     STEP_FLOOR,
+    TRY,
     UNSETTLED,
     WIDEN,
 )
+from fairlead.integrate.events.arrival import arrive
+from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, settle_at_start, take_again
 from fairlead.integrate.events.pace import accept, is_instant, not_finite_here, over_budget, propose, smallest_step
-from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import begin_settling
+from fairlead.integrate.events.settling import log_changes
 from fairlead.integrate.linear.systems import DONE, INACCURATE, SINGULAR
+from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import cut_too_rough
-from fairlead.integrate.point.controller import NO_AMPLITUDE, is_straight, step_after_rejection, weighted_norm
-from fairlead.integrate.point.curvature import bend_beyond_rounding
-from fairlead.integrate.point.even_steps import FINE, root_of_power, rounded
+from fairlead.integrate.point.controller import step_after_rejection
+from fairlead.integrate.point.even_steps import FINE, rounded
 from fairlead.integrate.record.between import end_massless, find_stiff, hold_inside, prepare_rows
-from fairlead.integrate.record.rows import rows_inside, write_row
-from fairlead.integrate.stepping.jumps import jump_is_due
-from fairlead.integrate.stepping.known_rows import forget_rows
+from fairlead.integrate.record.rows import rows_inside
+from fairlead.integrate.stepping.history import begin_history, keep_step, note_rejection, remember_slope
 from fairlead.integrate.stepping.located_step import (
     CUT,
     JUDGED,
     balance_end,
     judge_guards,
     remember_middle,
-    settle_start,
     stops_little,
 )
-from fairlead.integrate.stepping.missed_impulse import impulse_is_missed
-from fairlead.integrate.stepping.overload import begin_rest, count_rest
-from fairlead.integrate.stepping.steady_steps import forget_steps, keep_step, note_rejection
 from fairlead.integrate.stepping.step_error import error_of_step
+from fairlead.integrate.stepping.switch_inside import guards_are_passed, impulse_is_missed, jump_is_due
 from fairlead.integrate.stepping.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
-from fairlead.integrate.stepping.unseen_guards import guards_are_passed
 
 HALVINGS = 3
 """Halvings of a step whose iteration met a matrix without good pivots, before others are asked for: mostly it had
-gone astray, and pivots good for such a matrix fail for those that are met otherwise."""
-LANDINGS = 4
-"""Tries to end a step where a law jumps, or where a switch inside it makes an error that counts."""
+gone astray, and pivots good for such a matrix fail for those that are met otherwise. The first guess of the end is off
+by h^2 y''/2, so after three halvings it is 64 times nearer: what still meets such a matrix did not go astray."""
+TRIES = 4
+"""Tries after which a step is no longer cut at the instant that is told for a switch, but halved. A line through two
+middles finds the instant as the secant method does, with order 1.6: what is told a fifth of a step wrong is 0.07,
+0.015, 0.001 and 2e-5 of it wrong after the tries that follow. What is not found by then has no such line."""
+AT_PLACE = 1e-3
+"""Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
+than of its equations (residual.PASSED)."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
 """theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one."""
 
@@ -67,7 +75,7 @@ def attempt_stepping(m):
     spent = over_budget(run, m.recorder)
     if spent != GO_ON:
         return spent
-    if run.adaptive == 0 and rule.failed == 0 and rule.seeking == 0:
+    if run.adaptive == 0 and rule.failed == 0 and rule.localising == 0:
         run.h_next = run.fixed_step
     h = propose(run, point)
     if is_instant(run, point, m.events.guards, h):
@@ -92,13 +100,14 @@ def finish_inside(m, h, status):
     problem, run, point, linear, guards = m.problem, m.run, m.point, m.linear, m.events.guards
     settling, stepping, rule, exchange = m.events.settling, m.stepping, m.stepping.rule, m.stepping.exchange
     if status == JUMPS or (status == DONE and jump_is_due(m, h)):
-        if not landed(m, h):
-            return GO_ON
-        rule.seeking = LANDINGS
+        if jump_at_start(run, point, rule):
+            return settle_jump(m)
+        if not ends_at_jump(m, h):
+            return end_at_switch(m, min(rule.t_cut - point.t, h), TOO_FAR)
         status = DONE
         add_quadratures(problem, point, rule, h)  # a trial that ends at a jump was given up before
     if status != DONE:
-        return repeat_shorter(m, h, status)
+        return halve_unsolved(m, h, status)
     if run.narrowed == 1 and settling.passes > 0 and rim_changed(settling, m.stepping.contacts):
         give_back_zones(guards, stepping)
         return WIDEN
@@ -108,7 +117,8 @@ def finish_inside(m, h, status):
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
     if goes_past_switch(m, h):
-        return end_at_switch(run, point, guards, stepping)
+        blame(run, point)
+        return end_at_switch(m, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
     if exchange.massless == 1:
         end_massless(problem, point, linear, exchange, h)
     accept_step(m, h)
@@ -120,8 +130,7 @@ def finish_located(m, h):
     """The rest of a step in the zones of its start: judged, repeated, or accepted up to the first switch inside."""
     problem, run, point, recorder, rule = m.problem, m.run, m.point, m.recorder, m.stepping.rule
     if rule.gap == 0.0 and stops_little(m):
-        settle_start(m)
-        return GO_ON
+        return settle_at_start(m)
     run.error = end_located(m, h)
     if not isfinite(run.error) or run.error > 1.0:
         return reject_error(m, h)
@@ -190,101 +199,59 @@ def accept_step(m, h):
     if run.adaptive == 1:
         keep_step(run, rule, h, repeated)
     show_inside(m)
-    if rule.seeking > 0:
+    if rule.localising > 0:
         run.crossed = 1
         m.events.guards.n_fired = 0
-        rule.seeking = 0
+        rule.localising = 0
 
 
 @compiled
-def find_pivots(m, h):
-    """Repeat a step that met such a matrix midway with a shorter one; have other pivots found where none will do."""
-    rule = m.stepping.rule
-    if rule.midway == 1 and (rule.replanned == 1 or m.run.retried < HALVINGS):
-        rule.replanned = 0
-        return repeat_shorter(m, h, SINGULAR)
+def repeat(m, length, why):
+    """Have the step taken again from its start, in the zones it had there, `length` long: nothing else repeats one."""
     give_back_zones(m.events.guards, m.stepping)
-    return REPLAN
+    return take_again(m.run, length, why)
 
 
 @compiled
-def rim_changed(settling, contacts):
-    """True if the step changed a machine that keeps the rest of the problem at rest."""
-    zones, before = indices(settling.at_zones, settling.n_zones), indices(contacts.at_zones_at_start, settling.n_zones)
-    rim, found = indices(settling.at_rim, settling.n_zones), False
-    for z in range(settling.n_zones):
-        found = found or (rim[z] == 1 and zones[z] != before[z])
-    return found
+def blame(run, point):
+    """Count the unknown whose error has the step taken again."""
+    if point.worst >= 0:
+        indices(run.at_rejections_by_unknown, point.n)[point.worst] += 1
 
 
 @compiled
 def reject_error(m, h):
-    """Repeat a step whose error is too large, and say whom it is due to; a fixed one ends the run."""
-    run, point, stepping = m.run, m.point, m.stepping
-    give_back_zones(m.events.guards, stepping)
+    """Repeat a step whose error is too large, by the error; a fixed one ends the run."""
+    run, point = m.run, m.point
     if isfinite(run.error):
         run.rejected_error += 1
-        indices(run.at_rejections_by_unknown, point.n)[point.worst] += 1
+        blame(run, point)
     else:
         run.rejected_nan += 1
+    repeat(m, step_after_rejection(run, h), TOO_LONG)
     if run.adaptive == 0:
         return not_finite_here(m.problem, run, point, STEP_FLOOR)
-    run.h_next = step_after_rejection(run, h)
-    note_rejection(run, stepping.rule)
-    run.retried += 1
+    note_rejection(run, m.stepping.rule)
     return GO_ON if run.h_next >= smallest_step(run, point) else STEP_FLOOR
 
 
 @compiled
-def goes_past_switch(m, h):
-    """True if the step has to end at `t_switch`; a fixed one never has."""
-    run, point = m.run, m.point
-    if run.adaptive == 0:
-        return False
-    if m.stepping.contacts.n_switched > 0 and impulse_is_missed(m.problem, point, m.linear.matrices, m.stepping, h):
-        if run.retried >= LANDINGS:
-            m.stepping.rule.t_switch = point.t + 0.5 * h
-        return True
-    return guards_are_passed(m, h)
-
-
-@compiled
-def end_at_switch(run, point, guards, stepping):
-    """Repeat a step up to `t_switch`."""
-    give_back_zones(guards, stepping)
-    run.rejected_switch += 1
-    if point.worst >= 0:
-        indices(run.at_rejections_by_unknown, point.n)[point.worst] += 1
-    run.retried += 1
-    run.h_next = rounded(stepping.rule.t_switch - point.t, FINE)
-    return GO_ON
-
-
-@compiled
-def landed(m, h):
-    """True if the step ends at `t_jump` as it should; else it is repeated up to there, or settled at its start."""
-    problem, run, point, guards, rule = m.problem, m.run, m.point, m.events.guards, m.stepping.rule
-    give = guards.n_fired
-    switched = m.events.settling.passes > 0
-    give_back_zones(guards, m.stepping)
-    if rule.t_jump - point.t <= max(1e-9 * (run.stop - run.start), smallest_step(run, point)):
-        run.rejected_switch += 1
-        guards.n_fired = give
-        rule.seeking = 0
-        run.crossed = 1
-        write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
-        remember(problem, point, m.events.loads)
-        begin_settling(problem, run, point, m.events)
-        run.phase = SETTLE
-        return False
-    if not switched and rule.seeking > 0 and (rule.seeking >= LANDINGS or abs(rule.t_jump - point.t - h) <= 1e-3 * h):
-        return True
-    if switched and rule.seeking >= LANDINGS:
-        rule.t_jump = point.t + 0.5 * h
-    run.rejected_switch += 1
-    rule.seeking += 1
-    run.h_next = min(rule.t_jump - point.t, h)
-    return False
+def halve_unsolved(m, h, status):
+    """Halve a step whose zones cycle or whose iteration fails; end the run at the step floor."""
+    run, point, rule = m.run, m.point, m.stepping.rule
+    count_unsolved(run, status)
+    if status == CYCLES and m.stepping.contacts.expecting == 1:
+        rule.failed += 1  # the same step again, without guessing
+        return repeat(m, h, TOO_LONG)
+    rule.failed += 2
+    if status == CYCLES:
+        rule.theta_raise = min(rule.theta_raise + THETA_RISE, 0.5)
+    repeat(m, 0.5 * h, TOO_LONG)
+    if run.h_next >= smallest_step(run, point):
+        return GO_ON
+    if status == CYCLES:
+        return UNSETTLED
+    return not_finite_here(m.problem, run, point, SINGULAR_MATRIX if status == SINGULAR else STEP_FLOOR)
 
 
 @compiled
@@ -299,66 +266,106 @@ def count_unsolved(run, status):
 
 
 @compiled
-def repeat_shorter(m, h, status):
-    """Halve a step whose zones cycle or whose iteration fails; end the run at the step floor."""
-    run, point, rule = m.run, m.point, m.stepping.rule
+def find_pivots(m, h):
+    """Repeat a step that met such a matrix midway with a shorter one; have other pivots found where none will do."""
+    rule = m.stepping.rule
+    if rule.midway == 1 and (rule.replanned == 1 or m.run.retried < HALVINGS):
+        rule.replanned = 0
+        return halve_unsolved(m, h, SINGULAR)
     give_back_zones(m.events.guards, m.stepping)
-    count_unsolved(run, status)
-    run.retried += 1
-    if status == CYCLES and m.stepping.contacts.expecting == 1:
-        rule.failed += 1  # the same step again, without guessing
-        run.h_next = h
-        return GO_ON
-    rule.failed += 2
-    if status == CYCLES:
-        rule.theta_raise = min(rule.theta_raise + THETA_RISE, 0.5)
-    run.h_next = 0.5 * h
-    if run.h_next >= smallest_step(run, point):
-        return GO_ON
-    if status == CYCLES:
-        return UNSETTLED
-    return not_finite_here(m.problem, run, point, SINGULAR_MATRIX if status == SINGULAR else STEP_FLOOR)
+    return REPLAN
 
 
 @compiled
-def remember_slope(run, stepping):
-    """After an accepted step: its slope becomes the one before."""
-    rule = stepping.rule
-    copy(reals(rule.at_slope_before, rule.n), reals(rule.at_slope_earlier, rule.n))
-    copy(reals(rule.at_mean_slope, rule.n), reals(rule.at_slope_before, rule.n))
-    rule.gap_before = rule.gap + 0.5 * run.h
-    rule.gap = 0.5 * run.h
-    count_rest(stepping)
+def end_at_switch(m, length, why):
+    """Repeat a step so that it ends at a switch, at `t_cut`: the one place where a step is cut."""
+    m.run.rejected_switch += 1
+    return repeat(m, length, why)
 
 
 @compiled
-def begin_history(run, point, matrices, stepping):
-    """After a settlement: the slopes before are those of the consistent point, now and a little earlier.
+def goes_past_switch(m, h):
+    """True if the step has to end at `t_cut`; a fixed one never has."""
+    run, point = m.run, m.point
+    if run.adaptive == 0:
+        return False
+    if m.stepping.contacts.n_switched > 0 and impulse_is_missed(m.problem, point, m.linear.matrices, m.stepping, h):
+        if run.retried >= TRIES:
+            m.stepping.rule.t_cut = point.t + 0.5 * h
+        return True
+    return guards_are_passed(m, h)
 
-    The first step makes the error of a motion with the time scale T = |y'|/|y''| and the amplitude
-    A = T |y'| equal to one weight: A (h/T)^3 / 12.
-    """
-    rule = stepping.rule
-    n = point.n
-    slope, curvature, u = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
-    before, earlier = reals(rule.at_slope_before, n), reals(rule.at_slope_earlier, n)
-    differential = indices(point.at_differential, n)
-    rule.linearised = 0
-    forget_rows(stepping.exchange)
-    rule.failed = 0
-    begin_rest(stepping.contacts)
-    forget_steps(rule)
-    if run.adaptive == 1 and not (run.steps == 0 and run.first_step > 0.0):
-        for k in range(n):
-            u[k] = slope[k] if differential[k] == 1 else 0.0
-        speed = weighted_norm(point, point.at_u)
-        bend = bend_beyond_rounding(point, matrices)
-        if speed * speed > NO_AMPLITUDE * bend and not is_straight(run, bend):
-            scale = speed / bend
-            run.h_next = min(run.h_next, root_of_power(scale * (12.0 / (speed * scale)) ** (1.0 / 3.0)))
-        run.h_next = max(run.h_next, 4.0 * smallest_step(run, point))
-    rule.gap = 0.0
-    rule.gap_before = min(run.h_next, run.max_step)
-    for k in range(n):
-        before[k] = slope[k] if differential[k] == 1 else curvature[k]
-        earlier[k] = before[k] - rule.gap_before * curvature[k] if differential[k] == 1 else 0.0
+
+@compiled
+def jump_at_start(run, point, rule):
+    """True if a law jumps where the step begins: no step could end there."""
+    return rule.t_cut - point.t <= max(1e-9 * (run.stop - run.start), smallest_step(run, point))
+
+
+@compiled
+def settle_jump(m):
+    """Settle at the start of the step, on the guards in `fired` where laws jump."""
+    guards, fire = m.events.guards, m.events.guards.n_fired
+    give_back_zones(guards, m.stepping)
+    guards.n_fired = fire
+    m.run.rejected_switch += 1
+    m.stepping.rule.localising = 0
+    return settle_at_start(m)
+
+
+@compiled
+def ends_at_jump(m, h):
+    """True if the step ends where a law jumps, in the zones of its start; else `t_cut` says where it is to end."""
+    point, rule = m.point, m.stepping.rule
+    often = rule.localising >= TRIES
+    if m.events.settling.passes > 0:
+        if often:
+            rule.t_cut = point.t + 0.5 * h
+    elif often or (rule.localising > 0 and abs(rule.t_cut - point.t - h) <= AT_PLACE * h):
+        give_back_zones(m.events.guards, m.stepping)
+        return True
+    rule.localising += 1
+    return False
+
+
+@compiled
+def rim_changed(settling, contacts):
+    """True if the step changed a machine that keeps the rest of the problem at rest."""
+    zones, before = indices(settling.at_zones, settling.n_zones), indices(contacts.at_zones_at_start, settling.n_zones)
+    rim, found = indices(settling.at_rim, settling.n_zones), False
+    for z in range(settling.n_zones):
+        found = found or (rim[z] == 1 and zones[z] != before[z])
+    return found
+
+
+@compiled
+def arrive_with_zones(m):
+    """Log the zones the step changed, then arrive at its end."""
+    problem, run, guards, settling, recorder = m.problem, m.run, m.events.guards, m.events.settling, m.recorder
+    if recorder.rows + 4 > recorder.row_capacity:
+        return BUFFER_FULL
+    switched = settling.passes > 0
+    if switched:
+        m.point.t = run.t_piece
+        at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_zones)
+        copy(at_start, indices(settling.at_zones_before, problem.n_zones))
+        guards.n_fired = 0
+        settling.passes = 0
+        log_changes(m)
+    copy(reals(guards.at_g, problem.n_guards), reals(guards.at_g_early, problem.n_guards))
+    if problem.samples == 1 and run.landing == 1 and run.t_piece >= run.t_next and run.t_piece < run.stop:
+        run.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then
+        guards.n_fired = 0
+    status = arrive(m, False)
+    if run.phase == TRY:
+        remember_slope(run, m.stepping)
+    return status
+
+
+@compiled
+def begin_again(m):
+    """After a settlement nothing is known of the steps before."""
+    begin_history(m.run, m.point, m.linear.matrices, m.stepping)
+
+
+METHOD = Method(attempt_stepping, arrive_with_zones, begin_again)

@@ -1,0 +1,56 @@
+"""A trial step that is given up, in every engine: it is taken again with another length, or its start is settled.
+
+Companion rule. A guard above its tolerance at the end of a step that never was below zero was not passed over: the
+zones at the start were wrong, so the start is settled. Where it was settled already and all such guards fall by the
+slopes there, the step is too rough at its start, and a much shorter one is tried.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.codes import BEFORE, GO_ON, SETTLE
+from fairlead.integrate.events.pace import DOUBT, smallest_step
+from fairlead.integrate.events.release import remember
+from fairlead.integrate.events.settling import all_fall, begin_settling
+from fairlead.integrate.memory.foreign import compiled
+from fairlead.integrate.record.rows import write_row
+
+TOO_LONG, TOO_FAR = 1, 0
+"""Why a step is taken again: it was too long, and the next must not grow; or it only goes on where it should end."""
+
+
+@compiled
+def take_again(run, length, why):
+    """Have the next trial be the same step, `length` long; nothing else sets the length of a step that is repeated."""
+    run.h_next = length
+    run.retried += why
+    return GO_ON
+
+
+@compiled
+def take_much_shorter(run, guards, h):
+    """Have a tenth of a step tried whose guards say other than the slopes at its start: see pace.DOUBT."""
+    guards.n_fired = 0
+    return take_again(run, DOUBT * h, TOO_LONG)
+
+
+@compiled
+def settle_at_start(m):
+    """Settle at the point, on the guards in `fired`, before another step is tried."""
+    problem, run, point = m.problem, m.run, m.point
+    run.companion = 1
+    write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
+    remember(problem, point, m.events.loads)
+    begin_settling(problem, run, point, m.events)
+    run.phase = SETTLE
+    return GO_ON
+
+
+@compiled
+def mend_start(m, h):
+    """Follow the companion rule for the step h, of which the guards in `fired` were above zero from the start."""
+    run, point = m.run, m.point
+    run.rejected_companion += 1
+    doubtful = run.judged == 1 and run.adaptive == 1 and DOUBT * h >= smallest_step(run, point)
+    if doubtful and all_fall(m.problem, run, point, m.events):
+        return take_much_shorter(run, m.events.guards, h)
+    return settle_at_start(m)
