@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Integers, Memory
 from fairlead.system.arrays.timing import tables
 
@@ -33,8 +34,8 @@ def guards(blocks: Sequence[Block]) -> tuple[list[Named], Memory]:
                 machines.append(block.machines[i, 0])
                 named.append((f"{instance.path} {name}", unit))
     return named, {
-        "guard_place": np.array(place, dtype=np.int64).reshape(-1, 4),
-        "guard_to": np.array(to, dtype=np.int64).reshape(-1, 3),
+        "guard_place": np.array(place, dtype=np.int64).reshape(-1, layout.GUARD_ROW),
+        "guard_to": np.array(to, dtype=np.int64).reshape(-1, layout.TO),
         "guard_machines": np.array(machines, dtype=np.int64),
     }
 
@@ -72,7 +73,7 @@ def holds(blocks: Sequence[Block]) -> tuple[Integers, int]:
                 always += block.count
             else:
                 found += [(machine, s.zones.index(zone)) for machine in block.machines[:, 0] for zone in zones]
-    return np.array(found, dtype=np.int64).reshape(-1, 2), always
+    return np.array(found, dtype=np.int64).reshape(-1, layout.HOLD), always
 
 
 def holders(blocks: Sequence[Block], n: int) -> Integers:

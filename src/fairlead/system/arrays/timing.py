@@ -9,6 +9,7 @@ import numpy as np
 
 from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import polynomial
+from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Integers, Memory
 
 
@@ -37,7 +38,7 @@ def tables(blocks: Sequence[Block]) -> Iterator[PlacedTable]:
 def time_places(blocks: Sequence[Block]) -> Integers:
     """(machine, where its rows begin, how many pieces) of everything given in time."""
     found = [(table.machine, table.base, len(table.polynomial.rows)) for table in tables(blocks) if table.timed]
-    return np.array(found, dtype=np.int64).reshape(-1, 3)
+    return np.array(found, dtype=np.int64).reshape(-1, layout.TIME)
 
 
 def first_pieces(blocks: Sequence[Block], zones: Integers) -> list[PlacedTable]:
@@ -61,7 +62,7 @@ def samplers(blocks: Sequence[Block]) -> Memory:
             periods += [float(getattr(instance.values, period)) for instance in block.instances]
             kernels += [block.kernel.address] * block.count
     return {
-        "sampled": np.array(sampled, dtype=np.int64).reshape(-1, 2),
+        "sampled": np.array(sampled, dtype=np.int64).reshape(-1, layout.SAMPLED_ROW),
         "sample_period": np.array(periods, dtype=float),
         "sample_count": np.zeros(len(sampled), dtype=np.int64),
         "sample_start": np.zeros(1),

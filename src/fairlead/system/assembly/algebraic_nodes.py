@@ -22,6 +22,7 @@ from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import OWN, PORT, RATE, key, rate_of
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.kernels import layout
 from fairlead.kernels.break_away import number_of
 from fairlead.kernels.structure import Structure
 from fairlead.system.arrays.blocks import Block, Integers, Memory
@@ -211,10 +212,10 @@ def rated_rows(flat: FlatModel, numbering: Numbering, blocks: Sequence[Block]) -
     rated, yielding = numbering.rated.items(), _yielding(flat, structures, set(number))
     places = [(numbering.balance[k], numbering.first_rate + r, int(k not in yielding)) for k, r in rated]
     return {
-        "rated": np.array(places, dtype=np.int64).reshape(-1, 3),
-        "rated_joins": np.array(rows, dtype=np.int64).reshape(-1, 5),
+        "rated": np.array(places, dtype=np.int64).reshape(-1, layout.RATED_NODE),
+        "rated_joins": np.array(rows, dtype=np.int64).reshape(-1, layout.JOIN),
         "rated_members": np.array(members, dtype=np.int64), "rated_weights": np.array(weights, dtype=float),
-        "rated_terms": np.array(rated_terms(numbering, found), dtype=np.int64).reshape(-1, 2),
+        "rated_terms": np.array(rated_terms(numbering, found), dtype=np.int64).reshape(-1, layout.TERM),
         "rated_known": np.zeros(len(number), dtype=np.int64), "rated_root": np.zeros(len(number), dtype=np.int64),
         "rated_mode": np.zeros(len(number)),
     }  # fmt: skip

@@ -28,6 +28,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.kernels import layout
 from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from fairlead.system.arrays.blocks import Block, Floats, Memory
 from fairlead.system.arrays.shares import Share
@@ -80,14 +81,15 @@ def sharing(
     bodies = [(nodes[index], at) for index, at in numbering.share.items()]
     stiff = [1 / (flat.groups[index].mass or 1.0) for index in numbering.share]
     return {
-        "circle_pairs": np.array(pairs, dtype=np.int64).reshape(-1, 7),
-        "circle_coef": np.array(coefs, dtype=float).reshape(-1, 4),
-        "circle_zones": np.array(zones, dtype=np.int64).reshape(-1, 2),
+        "circle_pairs": np.array(pairs, dtype=np.int64).reshape(-1, layout.CIRCLE),
+        "circle_coef": np.array(coefs, dtype=float).reshape(-1, layout.CIRCLE_COEFS),
+        "circle_zones": np.array(zones, dtype=np.int64).reshape(-1, layout.CIRCLE_ZONE),
         "circle_seen": np.full(len(pairs), -1, dtype=np.int64),
         "circle_still": np.zeros(len(pairs), dtype=np.int64),
-        "circle_bodies": np.array(bodies, dtype=np.int64).reshape(-1, 2),
+        "circle_bodies": np.array(bodies, dtype=np.int64).reshape(-1, layout.BODY),
         "circle_pins": np.array(stiff, dtype=float),
-        "circle_nodes": np.array([(_hangs_on(flat, g), 0, 0, 0) for g in nodes], dtype=np.int64).reshape(-1, 4),
+        "circle_nodes": np.array([(_hangs_on(flat, g), 0, 0, 0) for g in nodes],
+                                 dtype=np.int64).reshape(-1, layout.NODE),
         "circle_ratio": np.ones(len(nodes)),
         "partials": np.concatenate([np.ones(first), np.zeros(len(pairs) + len(bodies))]),
     }

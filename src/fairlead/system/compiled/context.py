@@ -50,10 +50,10 @@ def working_arrays(
         "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
         "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
         "counts": _counts(blocks), "schedule": _schedule(blocks, numbering),
-        "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, 2),
+        "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, layout.PAIR),
         "inverse_mass": _inverse_mass(flat, numbering),
         "accelerated": np.array([(numbering.rate[k], a) for k, a in numbering.accelerated.items()],
-                                dtype=np.int64).reshape(-1, 2),
+                                dtype=np.int64).reshape(-1, layout.ACCELERATED_ROW),
         "accelerated_mass": np.array([flat.groups[k].mass for k in numbering.accelerated], dtype=float),
         "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
         "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
@@ -120,7 +120,7 @@ def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:
         ranks = np.array(block.ranks)
         later = not _gives_motion(block)
         calls += [(later, rank, place, *np.searchsorted(ranks, [rank, rank + 1])) for rank in np.unique(ranks)]
-    return np.array([call[2:] for call in sorted(calls)], dtype=np.int64).reshape(-1, 3)
+    return np.array([call[2:] for call in sorted(calls)], dtype=np.int64).reshape(-1, layout.CALL)
 
 
 def _gives_motion(block: Block) -> bool:

@@ -18,11 +18,11 @@ def find_known(ctx):
         changed = 0
         for j in range(0, total):
             holds = 0
-            if joins[5 * j] < 0 or zones[joins[5 * j]] == joins[5 * j + 1]:
+            if joins[JOIN * j + JOIN_PLACE] < 0 or zones[joins[JOIN * j + JOIN_PLACE]] == joins[JOIN * j + JOIN_ZONE]:
                 holds = 1
-            if holds > 0 and joins[5 * j + 2] == softly:
+            if holds > 0 and joins[JOIN * j + JOIN_SOFTLY] == softly:
                 left, last = 0, -1
-                for e in range(joins[5 * j + 3], joins[5 * j + 4]):
+                for e in range(joins[JOIN * j + JOIN_FIRST], joins[JOIN * j + JOIN_END]):
                     if known[members[e]] == 0:
                         left += 1
                         last = members[e]
@@ -43,10 +43,10 @@ def find_roots(ctx):
         root[k], mode[k] = k, 1.0
     for j in range(0, ctx[N_RATED_JOINS]):
         holds = 0
-        if joins[5 * j] < 0 or zones[joins[5 * j]] == joins[5 * j + 1]:
+        if joins[JOIN * j + JOIN_PLACE] < 0 or zones[joins[JOIN * j + JOIN_PLACE]] == joins[JOIN * j + JOIN_ZONE]:
             holds = 1
-        first = joins[5 * j + 3]
-        if holds > 0 and joins[5 * j + 4] == first + 2:
+        first = joins[JOIN * j + JOIN_FIRST]
+        if holds > 0 and joins[JOIN * j + JOIN_END] == first + 2:
             a, b = members[first], members[first + 1]
             if known[a] == 0 and known[b] == 0 and root[a] != root[b] and weights[first] * weights[first + 1] != 0.0:
                 factor, gone = -weights[first] * mode[a] / (weights[first + 1] * mode[b]), root[b]
@@ -63,7 +63,7 @@ def share_rates(ctx):
     known, root, mode = i8(ctx[RATED_KNOWN]), i8(ctx[RATED_ROOT]), f8(ctx[RATED_MODE])
     share, terms = f8(ctx[PARTIALS]), i8(ctx[RATED_TERMS])
     for e in range(0, ctx[N_RATED_TERMS]):
-        i, j = terms[2 * e], terms[2 * e + 1]
+        i, j = terms[TERM * e + TERM_OF], terms[TERM * e + TERM_BY]
         share[ctx[RATED_AT] + e] = 0.0
         if i == j and known[i] == 2:
             share[ctx[RATED_AT] + e] = 0.001  # a microsecond beside tau
@@ -76,7 +76,8 @@ def add_rates(ctx, w):
     share_rates(ctx)
     rated, terms, share, z = i8(ctx[RATED]), i8(ctx[RATED_TERMS]), f8(ctx[PARTIALS]), f8(ctx[Z])
     for e in range(0, ctx[N_RATED_TERMS]):
-        w[rated[3 * terms[2 * e]]] += share[ctx[RATED_AT] + e] * z[rated[3 * terms[2 * e + 1] + 1]]
+        of, by = RATED_NODE * terms[TERM * e + TERM_OF], RATED_NODE * terms[TERM * e + TERM_BY]
+        w[rated[of + RATED_ROW]] += share[ctx[RATED_AT] + e] * z[rated[by + RATED_RATE]]
 
 
 def off_balance(ctx, r):
@@ -84,9 +85,10 @@ def off_balance(ctx, r):
     w, rated, terms, tau = f8(ctx[W]), i8(ctx[RATED]), i8(ctx[RATED_TERMS]), f8(ctx[TAU])
     share, z, known, root = f8(ctx[PARTIALS]), f8(ctx[Z]), i8(ctx[RATED_KNOWN]), i8(ctx[RATED_ROOT])
     for k in range(0, ctx[N_RATED]):
-        if known[k] == 0 and root[k] == k and rated[3 * k + 2] > 0:
-            r[rated[3 * k]] = tau[0] * w[rated[3 * k]]
+        if known[k] == 0 and root[k] == k and rated[RATED_NODE * k + RATED_JUMPS] > 0:
+            r[rated[RATED_NODE * k + RATED_ROW]] = tau[0] * w[rated[RATED_NODE * k + RATED_ROW]]
     for e in range(0, ctx[N_RATED_TERMS]):
-        i, j = terms[2 * e], terms[2 * e + 1]
-        if known[i] == 0 and root[i] == i and rated[3 * i + 2] > 0:
-            r[rated[3 * i]] -= tau[0] * share[ctx[RATED_AT] + e] * z[rated[3 * j + 1]]
+        i, j = terms[TERM * e + TERM_OF], terms[TERM * e + TERM_BY]
+        if known[i] == 0 and root[i] == i and rated[RATED_NODE * i + RATED_JUMPS] > 0:
+            rate = z[rated[RATED_NODE * j + RATED_RATE]]
+            r[rated[RATED_NODE * i + RATED_ROW]] -= tau[0] * share[ctx[RATED_AT] + e] * rate

@@ -60,8 +60,8 @@ def call_signals(ctx, t, first, end):
     kernels, blocks, schedule = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SCHEDULE])
     z[ctx[T_AT]] = t
     for s in range(first, end):
-        b = schedule[3 * s]
-        start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
+        b, start, stop = schedule[CALL * s], schedule[CALL * s + CALL_FIRST], schedule[CALL * s + CALL_END]
+        block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], SIGNALS, block, start, stop, z, zones, tables, z)
 
 
@@ -115,7 +115,7 @@ def evaluate(ctx, t, y):
         add_rates(ctx, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
-        w[pairs[2 * k]] = y[pairs[2 * k + 1]]
+        w[pairs[PAIR * k + PAIR_X]] = y[pairs[PAIR * k + PAIR_V]]
     if ctx[N_ACCELERATED] > 0:
         of_accelerations(ctx, y, w)
 
@@ -124,7 +124,7 @@ def of_accelerations(ctx, y, w):
     """Rows m v' = m a and 0 = forces - m a, where the acceleration is an unknown."""
     rows, inertia = i8(ctx[ACCELERATED]), f8(ctx[ACCELERATED_MASS])
     for k in range(0, ctx[N_ACCELERATED]):
-        v, a = rows[2 * k], rows[2 * k + 1]
+        v, a = rows[ACCELERATED_ROW * k + ACCELERATED_V], rows[ACCELERATED_ROW * k + ACCELERATED_A]
         w[v] = inertia[k] * y[a]
         w[a] -= inertia[k] * y[a]
 
@@ -153,7 +153,7 @@ def take_samples(ctx, t, y):
     period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
     for k in range(0, ctx[N_SAMPLED]):
         if begun[0] + count[k] * period[k] <= t:
-            b, i = places[2 * k], places[2 * k + 1]
+            b, i = places[SAMPLED_ROW * k + SAMPLED_BLOCK], places[SAMPLED_ROW * k + SAMPLED_INSTANCE]
             call_kernel(kernels[k], SAMPLE, i8(blocks + WORD * BLOCK * b), i, i + 1, z, zones, tables, z)
             count[k] += 1
 
@@ -190,8 +190,8 @@ def assemble(ctx, t, y, ledger, values, ft):
         fix(ctx, t, y)
     schedule = i8(ctx[SCHEDULE])
     for s in range(0, ctx[N_SCHEDULE]):
-        b = schedule[3 * s]
-        start, stop, block = schedule[3 * s + 1], schedule[3 * s + 2], i8(blocks + WORD * BLOCK * b)
+        b, start, stop = schedule[CALL * s], schedule[CALL * s + CALL_FIRST], schedule[CALL * s + CALL_END]
+        block = i8(blocks + WORD * BLOCK * b)
         call_kernel(kernels[b], PARTIALS_SIGNALS, block, start, stop, z, zones, tables, partials)
     ask(ctx, PARTIALS_FLOWS, partials)
     if ledger > 0:
@@ -204,7 +204,8 @@ def assemble(ctx, t, y, ledger, values, ft):
     for k in range(0, places):
         work[moving[k]] = base[k]
     for k in range(0, steps):
-        work[program[3 * k]] += coefficient[k] * partials[program[3 * k + 1]] * work[program[3 * k + 2]]
+        to, by, source = program[ADD * k + ADD_TO], program[ADD * k + ADD_PARTIAL], program[ADD * k + ADD_FROM]
+        work[to] += coefficient[k] * partials[by] * work[source]
     first, entries = ctx[JACOBIAN_AT], ctx[N_JACOBIAN]
     for i in range(0, entries):
         values[i] = work[first + i]
@@ -232,7 +233,8 @@ def fix(ctx, t, y):
     for i in range(1, ctx[N_WORK]):
         work[i] = 0.0
     for k in range(0, ctx[N_FIXED]):
-        work[program[3 * k]] += coefficient[k] * partials[program[3 * k + 1]] * work[program[3 * k + 2]]
+        to, by, source = program[ADD * k + ADD_TO], program[ADD * k + ADD_PARTIAL], program[ADD * k + ADD_FROM]
+        work[to] += coefficient[k] * partials[by] * work[source]
     moving, base = i8(ctx[MOVING]), f8(ctx[MOVING_BASE])
     for k in range(0, ctx[N_MOVING]):
         base[k] = work[moving[k]]
@@ -248,7 +250,7 @@ def mass(ctx, values):
         values[i] = static[i]
     program, coefficient = i8(ctx[MASS_PROGRAM]), f8(ctx[MASS_COEF])
     for k in range(0, ctx[N_MASS_PROGRAM]):
-        values[program[2 * k]] += coefficient[k] * partials[program[2 * k + 1]]
+        values[program[MASS_ADD * k + MASS_TO]] += coefficient[k] * partials[program[MASS_ADD * k + MASS_PARTIAL]]
 
 
 def guards(ctx, t, y, g):
@@ -267,7 +269,7 @@ def switch(ctx, t, y, fired, n_fired):
     place, to, machines, zones = i8(ctx[GUARD_PLACE]), i8(ctx[GUARD_TO]), i8(ctx[GUARD_MACHINES]), i8(ctx[ZONES])
     changed, last = 0, -1
     for k in range(0, n_fired):
-        g = 4 * fired[k]
+        row = GUARD_ROW * fired[k]
         first = machines[fired[k]]
         fresh = 1
         if first == last:
@@ -275,14 +277,14 @@ def switch(ctx, t, y, fired, n_fired):
         if fresh == 1:
             last = first
             zone = 0
-            if place[g] >= 0:
-                zone = zones[place[g]]
-            entry = 3 * (place[g + 1] + zone * place[g + 2] + place[g + 3])
-            machine = first + to[entry + 1]
-            if to[entry] >= 0:
-                zones[machine] = to[entry]
-            if to[entry] < 0:
-                zones[machine] += to[entry + 2]
+            if place[row + GUARD_ZONE] >= 0:
+                zone = zones[place[row + GUARD_ZONE]]
+            entry = TO * (place[row + GUARD_FIRST] + zone * place[row + GUARD_SLOTS] + place[row + GUARD_SLOT])
+            machine, to_zone = first + to[entry + TO_MACHINE], to[entry + TO_ZONE]
+            if to_zone >= 0:
+                zones[machine] = to_zone
+            if to_zone < 0:
+                zones[machine] += to[entry + TO_PIECE]
             changed += 1
     return changed
 
@@ -292,7 +294,7 @@ def slip(ctx, t, y, r):
     zones, holds = i8(ctx[ZONES]), i8(ctx[HOLDS])
     held = ctx[ALWAYS_HELD]
     for k in range(0, ctx[N_HOLDS]):
-        if zones[holds[2 * k]] == holds[2 * k + 1]:
+        if zones[holds[HOLD * k + HOLD_PLACE]] == holds[HOLD * k + HOLD_ZONE]:
             held += 1
     if held > 0:
         slips(ctx, t, y, SLIP, r)
@@ -320,7 +322,8 @@ def next_time(ctx, t):
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
     soonest = 1e309  # read as infinity
     for k in range(0, ctx[N_TIME]):
-        right = tables[place[3 * k + 1] + STRIDE * zones[place[3 * k]] + RIGHT]
+        at, zone = place[TIME * k + TIME_TABLE], zones[place[TIME * k + TIME_ZONE]]
+        right = tables[at + STRIDE * zone + RIGHT]
         if right > t:
             soonest = min(soonest, right)
     period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
@@ -341,9 +344,10 @@ def at_time(ctx, t, y):
         number[0] = values[k]
     due[0] = 0
     for k in range(0, ctx[N_TIME]):
-        for _ in range(0, place[3 * k + 2]):
-            if tables[place[3 * k + 1] + STRIDE * zones[place[3 * k]] + RIGHT] <= t:
-                zones[place[3 * k]] += 1
+        machine, table = place[TIME * k + TIME_ZONE], place[TIME * k + TIME_TABLE]
+        for _ in range(0, place[TIME * k + TIME_PIECES]):
+            if tables[table + STRIDE * zones[machine] + RIGHT] <= t:
+                zones[machine] += 1
                 changed = 1
     if ctx[N_SAMPLED] > 0:
         take_samples(ctx, t, y)
@@ -361,8 +365,10 @@ def expand(ctx, t, y, of_whole):
         of_all[machines[k]] = zones[k]
     z, carried, coef = f8(ctx[Z]), i8(ctx[CARRIED]), f8(ctx[CARRIED_COEF])
     for k in range(0, ctx[N_CARRIED]):
-        of_whole[carried[5 * k]] = coef[5 * k] * z[carried[5 * k + 2]] + coef[5 * k + 1]
-        of_whole[carried[5 * k + 1]] = coef[5 * k + 2] * z[carried[5 * k + 3]]
+        row, ratio = CARRIED_ROW * k, CARRIED_COEFS * k
+        x, v = carried[row + CARRIED_X], carried[row + CARRIED_V]
+        of_whole[x] = coef[ratio + RATIO_X] * z[carried[row + CARRIER_X]] + coef[ratio + OFFSET_X]
+        of_whole[v] = coef[ratio + RATIO_V] * z[carried[row + CARRIER_V]]
 
 
 def let_slip(ctx, t, y, of_whole):
@@ -372,8 +378,9 @@ def let_slip(ctx, t, y, of_whole):
         evaluate(i8(ctx[WHOLE]), t, of_whole)
     z, w, carried, coef = f8(ctx[Z]), f8(ctx[WHOLE_W]), i8(ctx[CARRIED]), f8(ctx[CARRIED_COEF])
     for k in range(0, ctx[N_CARRIED]):
-        v = carried[5 * k + 1]
-        of_whole[v] += (w[v] - coef[5 * k + 3] * z[carried[5 * k + 4]]) * coef[5 * k + 4]
+        row, ratio = CARRIED_ROW * k, CARRIED_COEFS * k
+        v, rate = carried[row + CARRIED_V], z[carried[row + CARRIER_A]]
+        of_whole[v] += (w[v] - coef[ratio + RATIO_MASS] * rate) * coef[ratio + INVERSE_BOND]
 
 
 def show(ctx, t, y, out):

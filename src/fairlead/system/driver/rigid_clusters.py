@@ -17,32 +17,33 @@ def unite(ctx, t, y):
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     seen, nodes, ratio = i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_NODES]), f8(ctx[CIRCLE_RATIO])
     for k in range(0, ctx[N_CIRCLE_NODES]):
-        nodes[4 * k + 1] = k
-        nodes[4 * k + 2] = nodes[4 * k]
-        nodes[4 * k + 3] = 1
+        nodes[NODE * k + NODE_ABOVE] = k
+        nodes[NODE * k + NODE_UNION_HANGS_ON] = nodes[NODE * k + NODE_HANGS_ON]
+        nodes[NODE * k + NODE_SIZE] = 1
     for j in range(0, ctx[N_CIRCLES]):
+        row, own = CIRCLE * j, CIRCLE_COEFS * j
         seen[j] = 0
-        if pairs[7 * j + 5] >= 0:
-            seen[j] = zones[pairs[7 * j + 5]]
-        held = table[2 * (pairs[7 * j + 6] + seen[j])]
-        partials[at + j] = held * coef[4 * j + 3]
-        a, b, slip_a, slip_b = pairs[7 * j + 1], pairs[7 * j + 2], coef[4 * j], coef[4 * j + 1]
-        while nodes[4 * a + 1] != a:
+        if pairs[row + CIRCLE_MACHINE] >= 0:
+            seen[j] = zones[pairs[row + CIRCLE_MACHINE]]
+        held = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_HOLDS]
+        partials[at + j] = held * coef[own + COEF_FACTOR]
+        a, b, slip_a, slip_b = pairs[row + CIRCLE_A], pairs[row + CIRCLE_B], coef[own + COEF_A], coef[own + COEF_B]
+        while nodes[NODE * a + NODE_ABOVE] != a:
             slip_a = slip_a * ratio[a]
-            a = nodes[4 * a + 1]
-        while nodes[4 * b + 1] != b:
+            a = nodes[NODE * a + NODE_ABOVE]
+        while nodes[NODE * b + NODE_ABOVE] != b:
             slip_b = slip_b * ratio[b]
-            b = nodes[4 * b + 1]
+            b = nodes[NODE * b + NODE_ABOVE]
         if held == 1 and a == b and abs(slip_a + slip_b) > 1e-9 * (abs(slip_a) + abs(slip_b)):
-            nodes[4 * a + 2] = AT_REST
-        if nodes[4 * a + 3] < nodes[4 * b + 3]:
+            nodes[NODE * a + NODE_UNION_HANGS_ON] = AT_REST
+        if nodes[NODE * a + NODE_SIZE] < nodes[NODE * b + NODE_SIZE]:
             a, b, slip_a, slip_b = b, a, slip_b, slip_a
-        if held == 1 and nodes[4 * b + 2] > nodes[4 * a + 2]:
-            nodes[4 * a + 2] = nodes[4 * b + 2]
+        if held == 1 and nodes[NODE * b + NODE_UNION_HANGS_ON] > nodes[NODE * a + NODE_UNION_HANGS_ON]:
+            nodes[NODE * a + NODE_UNION_HANGS_ON] = nodes[NODE * b + NODE_UNION_HANGS_ON]
         if held == 1 and a != b:
-            nodes[4 * b + 1] = a
+            nodes[NODE * b + NODE_ABOVE] = a
             ratio[b] = -slip_a / slip_b
-            nodes[4 * a + 3] += nodes[4 * b + 3]
+            nodes[NODE * a + NODE_SIZE] += nodes[NODE * b + NODE_SIZE]
 
 
 def look_around(ctx, t, y):
@@ -52,27 +53,28 @@ def look_around(ctx, t, y):
     seen, still = i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_STILL])
     nodes, ratio = i8(ctx[CIRCLE_NODES]), f8(ctx[CIRCLE_RATIO])
     for j in range(0, ctx[N_CIRCLES]):
-        a, b, slip_a, slip_b = pairs[7 * j + 1], pairs[7 * j + 2], coef[4 * j], coef[4 * j + 1]
-        while nodes[4 * a + 1] != a:
+        row, own = CIRCLE * j, CIRCLE_COEFS * j
+        a, b, slip_a, slip_b = pairs[row + CIRCLE_A], pairs[row + CIRCLE_B], coef[own + COEF_A], coef[own + COEF_B]
+        while nodes[NODE * a + NODE_ABOVE] != a:
             slip_a = slip_a * ratio[a]
-            a = nodes[4 * a + 1]
-        while nodes[4 * b + 1] != b:
+            a = nodes[NODE * a + NODE_ABOVE]
+        while nodes[NODE * b + NODE_ABOVE] != b:
             slip_b = slip_b * ratio[b]
-            b = nodes[4 * b + 1]
+            b = nodes[NODE * b + NODE_ABOVE]
         still[j] = 0
-        guard = table[2 * (pairs[7 * j + 6] + seen[j]) + 1]
+        guard = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_GUARD]
         if guard >= 0:
             if a == b and abs(slip_a + slip_b) <= 1e-9 * (abs(slip_a) + abs(slip_b)):
                 still[j] = 1
-            if a == b and nodes[4 * a + 2] == AT_REST:
+            if a == b and nodes[NODE * a + NODE_UNION_HANGS_ON] == AT_REST:
                 still[j] = 1
             # A share that is wrong waits until every acceleration is right.
-            inertia[guard] = (1.0 - (1.0 - 1e-9) * still[j]) / coef[4 * j + 3]
+            inertia[guard] = (1.0 - (1.0 - 1e-9) * still[j]) / coef[own + COEF_FACTOR]
     bodies, pins = i8(ctx[CIRCLE_BODIES]), f8(ctx[CIRCLE_PINS])
     for k in range(0, ctx[N_CIRCLE_BODIES]):
         partials[at + ctx[N_CIRCLES] + k] = 0.0
-        top = bodies[2 * k]
-        if nodes[4 * top + 1] == top and nodes[4 * top + 2] == FREE:
+        top = bodies[BODY * k + BODY_NODE]
+        if nodes[NODE * top + NODE_ABOVE] == top and nodes[NODE * top + NODE_UNION_HANGS_ON] == FREE:
             partials[at + ctx[N_CIRCLES] + k] = pins[k]
 
 
@@ -80,9 +82,10 @@ def regroup(ctx, t, y):
     """Find the unions anew if a contact that makes them is not in the zone it was seen in."""
     zones, pairs, seen, changed = i8(ctx[ZONES]), i8(ctx[CIRCLE_PAIRS]), i8(ctx[CIRCLE_SEEN]), 0
     for j in range(0, ctx[N_CIRCLES]):
+        row = CIRCLE * j
         zone = 0
-        if pairs[7 * j + 5] >= 0:
-            zone = zones[pairs[7 * j + 5]]
+        if pairs[row + CIRCLE_MACHINE] >= 0:
+            zone = zones[pairs[row + CIRCLE_MACHINE]]
         if zone != seen[j]:
             changed = 1
     if changed == 1:
@@ -96,16 +99,18 @@ def add_shares(ctx, t, y):
     partials, at, n = f8(ctx[PARTIALS]), ctx[CIRCLE_AT], ctx[N]
     pairs, coef, z, w = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), f8(ctx[Z]), f8(ctx[W])
     for j in range(0, ctx[N_CIRCLES]):
-        force, a, b = pairs[7 * j], pairs[7 * j + 3], pairs[7 * j + 4]
-        apart = partials[at + j] * (coef[4 * j + 2] * y[force] - coef[4 * j] * z[a] - coef[4 * j + 1] * z[b])
+        row, own = CIRCLE * j, CIRCLE_COEFS * j
+        force, a, b = pairs[row + CIRCLE_FORCE], pairs[row + CIRCLE_SHARE_A], pairs[row + CIRCLE_SHARE_B]
+        beyond_a = coef[own + COEF_SENSE] * y[force] - coef[own + COEF_A] * z[a]
+        apart = partials[at + j] * (beyond_a - coef[own + COEF_B] * z[b])
         w[force] += apart
         if a < n:
-            w[a] += coef[4 * j] * apart
+            w[a] += coef[own + COEF_A] * apart
         if b < n:
-            w[b] += coef[4 * j + 1] * apart
+            w[b] += coef[own + COEF_B] * apart
     bodies = i8(ctx[CIRCLE_BODIES])
     for k in range(0, ctx[N_CIRCLE_BODIES]):
-        body = bodies[2 * k + 1]
+        body = bodies[BODY * k + BODY_SHARE]
         w[body] += -partials[at + ctx[N_CIRCLES] + k] * y[body]
 
 
@@ -115,8 +120,10 @@ def guard_shares(ctx, t, y, g):
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     z, seen, still, tau = f8(ctx[Z]), i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_STILL]), f8(ctx[TAU])
     for j in range(0, ctx[N_CIRCLES]):
+        row, own = CIRCLE * j, CIRCLE_COEFS * j
         if still[j] == 1:
-            force = coef[4 * j + 2] * y[pairs[7 * j]]
-            share = coef[4 * j] * z[pairs[7 * j + 3]] + coef[4 * j + 1] * z[pairs[7 * j + 4]]
-            guard = table[2 * (pairs[7 * j + 6] + seen[j]) + 1]
-            g[guard] = tau[0] * coef[4 * j + 3] * (abs(force) - sign(force) * share)
+            force = coef[own + COEF_SENSE] * y[pairs[row + CIRCLE_FORCE]]
+            a, b = pairs[row + CIRCLE_SHARE_A], pairs[row + CIRCLE_SHARE_B]
+            share = coef[own + COEF_A] * z[a] + coef[own + COEF_B] * z[b]
+            guard = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_GUARD]
+            g[guard] = tau[0] * coef[own + COEF_FACTOR] * (abs(force) - sign(force) * share)
