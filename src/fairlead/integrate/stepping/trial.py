@@ -58,9 +58,9 @@ HALVINGS = 3
 gone astray, and pivots good for such a matrix fail for those that are met otherwise. The first guess of the end is off
 by h^2 y''/2, so after three halvings it is 64 times nearer: what still meets such a matrix did not go astray."""
 TRIES = 4
-"""Tries after which a step is no longer cut at the instant that is told for a switch, but halved. A line through two
-middles finds the instant as the secant method does, with order 1.6: what is told a fifth of a step wrong is 0.07,
-0.015, 0.001 and 2e-5 of it wrong after the tries that follow. What is not found by then has no such line."""
+"""Tries after which a step is no longer cut at the instant that is told for a switch, but halved. The line through two
+middles misses it, and each try leaves of the miss a quarter of the share by which the rate of the load changes on the
+way there. Four tries come within AT_PLACE where that share is below 0.7."""
 AT_PLACE = 1e-3
 """Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
 than of its equations (residual.PASSED)."""
