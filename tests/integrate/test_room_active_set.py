@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -35,7 +36,7 @@ def chain(order, margins, excess):
     """Contacts in a row, of which place k is number order[k]: each with one guard, `margins` below its limit."""
     n = len(order)
     neighbours = [[] for _ in range(n)]
-    for a, b in zip(order[:-1], order[1:], strict=True):
+    for a, b in itertools.pairwise(order):
         neighbours[a].append(b)
         neighbours[b].append(a)
     g = np.zeros(n)
