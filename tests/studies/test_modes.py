@@ -227,3 +227,31 @@ def test_the_command_prints_a_table_draws_and_writes(tmp_path) -> None:
     wrong = CliRunner().invoke(app, [*words, "--zones", "clutch"])
     assert wrong.exit_code == 2
     assert "PART=ZONE" in wrong.output
+
+
+def test_a_signal_from_outside_has_the_response_of_the_force_that_it_makes(tmp_path) -> None:
+    parts = "  knob: {type: SignalInput}\n  push: {type: ForceActuator}\n"
+    text = OSCILLATOR.replace("connections:", f"{parts}connections:")
+    text = text.replace("block.flange]]", "block.flange, push.flange], [knob.signal, push.force]]")
+    model = made(tmp_path, text)
+    by_signal = fairlead.modes(model, acting="knob.value", out="block.v", frequencies=(1, 9)).response
+    w = 2 * math.pi * by_signal.frequencies
+    assert by_signal.values == pytest.approx(1j * w / (K - M * w**2 + 1j * C * w), rel=1e-8)
+    assert by_signal.unit == "m/s"
+    given = fairlead.modes(model, acting="knob.value", out="knob.signal", frequencies=(1, 9)).response
+    assert given.values == pytest.approx(1, rel=1e-8)  # it acts at once
+
+
+def test_free_motion_is_counted_among_the_zeros_and_not_told_as_a_mode(tmp_path) -> None:
+    """Two masses and a spring that nothing holds: sqrt(k (1/m1 + 1/m2)), and two zeros."""
+    text = """schema: 1
+components:
+  one: {type: Mass, mass: 1 kg}
+  two: {type: Mass, mass: 3 kg}
+  spring: {type: Spring, stiffness: 300 N/m}
+connections: [[one.flange, spring.a], [two.flange, spring.b]]
+run: {stop: 1 s}
+"""
+    found = fairlead.modes(made(tmp_path, text))
+    assert frequencies(found) == pytest.approx([math.sqrt(300 * (1 + 1 / 3)) / (2 * math.pi)])
+    assert (found.at_rest, found.unstable) == (2, ())

@@ -88,9 +88,10 @@ class Known:
 
     @property
     def several(self) -> list[int]:
-        """Parts with more than one zone, but for pieces of what is given in time."""
-        timed = {table.machine for table in self.instance.timed_tables}
-        return [k for k in range(len(self.instance.zones)) if len(self.instance.zone_names(k)) > 1 and k not in timed]
+        """Parts with more than one zone of their own; pieces of tables and of what is given in time are none."""
+        return [k for k, (block, _) in enumerate(self.instance.machine_guards)
+                if len(block.kernel.structure.zones) > 1
+                and list(block.kernel.structure.zones) == list(self.instance.zone_names(k))]  # fmt: skip
 
     def in_words(self, zones: Integers) -> str:
         """A pattern: `held: pad, c1; forward: 12 parts`."""

@@ -17,8 +17,8 @@ from fairlead.studies.modes.linear import Linear
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-AT_REST = 4 * math.sqrt(np.finfo(float).eps)
-"""Of the largest eigenvalue or pace: a smaller one counts as zero, since rounding makes so much of a double zero."""
+ROUNDING = 10 * float(np.finfo(float).eps)
+"""What rounding changes in a balanced matrix, relative to its norm."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,8 @@ class Mode:
     value: complex
     participation: dict[str, float]
     """Share of every component, the largest first; they make 1."""
+    error: float
+    """Of the eigenvalue by rounding [1/s]; a growth within it is none."""
     shape: Complex = field(repr=False, compare=False)
 
     @property
@@ -50,20 +52,26 @@ class Mode:
 
 
 def modes_of(found: Linear) -> tuple[list[Mode], int]:
-    """The modes by falling period, and how many eigenvalues are zero."""
+    """The modes by falling period, and how many eigenvalues are zero within rounding.
+
+    Rounding of a matrix B changes an eigenvalue by |B| eps/|w'v|, with vectors of length 1; a double zero too, for its
+    two vectors are nearly orthogonal.
+    """
     from scipy.linalg import eig, matrix_balance
 
     if not len(found.matrix):
         return [], 0
     balanced, scale = matrix_balance(found.matrix, permute=False)
     values, left, right = eig(balanced, left=True, right=True)
-    scale = np.diag(scale)[:, None]
+    scale, size = np.diag(scale)[:, None], max(float(np.linalg.norm(balanced)), found.pace)
+    parallel = np.maximum(np.abs((left.conj() * right).sum(axis=0)), np.finfo(float).tiny)
+    errors = ROUNDING * size / parallel
     left, right = found.onto.T @ (left / scale), found.basis @ (right * scale)
-    zero = np.abs(values) <= AT_REST * max(np.abs(values).max(), found.pace)
+    zero = np.abs(values) <= errors
     wanted = np.flatnonzero(~zero & (values.imag >= 0))
     wanted = wanted[np.argsort(np.abs(values[wanted]), kind="stable")]
-    made = [Mode(complex(values[k]), _participation(found, left[:, k], right[:, k]), _shape(found, right[:, k]))
-            for k in wanted]  # fmt: skip
+    made = [Mode(complex(values[k]), _participation(found, left[:, k], right[:, k]), float(errors[k]),
+                 _shape(found, right[:, k])) for k in wanted]  # fmt: skip
     return made, int(zero.sum())
 
 

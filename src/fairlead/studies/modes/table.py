@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -19,8 +18,8 @@ FEW, LITTLE = 3, 0.02
 """Components that a row names, and the share from which on."""
 MOST_ROWS = 40
 """Modes and patterns that a table shows; `--json` and `--csv` have all."""
-UNDAMPED = 1e-9
-"""Damping that is rounding."""
+MOST_UNSTABLE = 5
+"""Unstable modes that have a line each."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +56,7 @@ class Modes:
     @property
     def unstable(self) -> tuple[Mode, ...]:
         """Modes that grow."""
-        return tuple(one for one in self.modes if one.growth > 0)
+        return tuple(one for one in self.modes if one.growth > one.error)
 
     def __str__(self) -> str:
         return "\n".join(lines_of(self))
@@ -65,7 +64,7 @@ class Modes:
 
 def cells(number: int, mode: Mode) -> list[str]:
     """A mode as the texts of COLUMNS."""
-    damping, growth = _clean(mode.damping), _clean(mode.growth, abs(mode.value))
+    damping, growth = _clean(mode, mode.damping), _clean(mode, mode.growth)
     swings = (f"{mode.frequency:.5g}", f"{damping:.4g}") if mode.frequency else ("-", "-")
     return [str(number), *swings, f"{growth:.4g}", f"{1 / abs(growth):.4g}" if growth else "-", takes_part(mode)]
 
@@ -76,13 +75,14 @@ def ranked_cells(one: Pattern) -> list[str]:
     if one.mode is None:
         return [words, "", "", "", one.sentence or "no mode but rest"]
     mode = one.mode
-    return [words, f"{_clean(mode.damping):.4g}", f"{mode.frequency:.5g}",
-            f"{_clean(mode.growth, abs(mode.value)):.4g}", takes_part(mode)]  # fmt: skip
+    return [words, f"{_clean(mode, mode.damping):.4g}", f"{mode.frequency:.5g}", f"{_clean(mode, mode.growth):.4g}",
+            takes_part(mode)]  # fmt: skip
 
 
 def takes_part(mode: Mode) -> str:
     """Components with the largest shares."""
-    shares = [(name, share) for name, share in mode.participation.items() if share >= LITTLE]
+    (first, most), *others = mode.participation.items()
+    shares = [(first, most), *((name, share) for name, share in others if share >= LITTLE)]
     return ", ".join(f"{name} {share:.0%}" for name, share in shares[:FEW])
 
 
@@ -91,11 +91,13 @@ def notes(found: Modes) -> Iterator[str]:
     if found.pattern:
         yield found.pattern
     if found.at_rest:
-        yield f"{found.at_rest} eigenvalues are zero: places that stay where they are put, or free motion."
-    for mode in found.unstable:
-        if _clean(mode.damping) != 0:
-            how = f"swings up at {mode.frequency:.4g} Hz" if mode.frequency else "runs away"
-            yield f"Unstable: {takes_part(mode)} {how}, by a factor of e in {1 / mode.growth:.3g} s."
+        are = "eigenvalue is" if found.at_rest == 1 else "eigenvalues are"
+        yield f"{found.at_rest} {are} zero within rounding: places that stay where they are put, or free motion."
+    for mode in found.unstable[:MOST_UNSTABLE]:
+        how = f"swings up at {mode.frequency:.4g} Hz" if mode.frequency else "runs away"
+        yield f"Unstable: {takes_part(mode)} {how}, by a factor of e in {1 / mode.growth:.3g} s."
+    if len(found.unstable) > MOST_UNSTABLE:
+        yield f"... and {len(found.unstable) - MOST_UNSTABLE} more that are unstable."
     yield from found.remarks
     if found.response is not None:
         yield of_response(found.response)
@@ -127,6 +129,6 @@ def _aligned(rows: list[list[str]]) -> Iterator[str]:
         yield "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
 
 
-def _clean(value: float, size: float = 1.0) -> float:
-    """A number without what is rounding."""
-    return 0.0 if abs(value) <= UNDAMPED * size or math.isnan(value) else value
+def _clean(mode: Mode, value: float) -> float:
+    """Damping or growth of a mode, 0 where it is rounding."""
+    return 0.0 if abs(mode.growth) <= mode.error else value
