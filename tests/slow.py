@@ -13,7 +13,7 @@ LEFT_TO_TEST_ALL = (
     "tests/hard/*_/_ida_/_lugre*",
     "tests/hard/*_/_ida_/_binding*",
     # routes: one drive and one start are played
-    "tests/models/test_guidance_drives.py::test_tensions_along_the_route_*guidance_route_electric*",
+    "tests/models/test_guidance_drives.py::*[guidance_route_electric*",
     "tests/models/test_route_mesh.py::test_steady_tensions_converge_*",
     "tests/models/test_route_terms.py::*deployer*",
     "tests/models/test_route_terms.py::test_a_pulley_takes_what_its_bearing_takes*",
@@ -28,6 +28,18 @@ LEFT_TO_TEST_ALL = (
     "tests/components/test_route_devices.py::test_at_its_stop_a_tensioner_*",
     "tests/models/test_carried.py::*-stepping*",
     "tests/models/test_bend_sweep.py::*literal*",
+    # variants of the single bend: one of each kind of change is played
+    "tests/models/test_bend_variants.py::test_the_hose_*[creep 1e-5]",
+    "tests/models/test_bend_variants.py::test_the_hose_*[creep 1e-3]",
+    "tests/models/test_bend_variants.py::test_the_hose_*[EA_h *",
+    "tests/models/test_bend_variants.py::test_the_hose_*[bulkhead friction *",
+    "tests/models/test_bend_variants.py::test_the_hose_*[mu 0.25]",
+    "tests/models/test_bend_variants.py::test_the_hose_*[mu 0.40]",
+    "tests/models/test_bend_variants.py::test_the_hose_*[mu 0.49, *",
+    "tests/models/test_bend_variants.py::test_the_hose_*[mu 0.50, *",
+    "tests/models/test_bend_variants.py::test_where_the_bulkheads_*[mu 0.25]",
+    "tests/models/test_bend_variants.py::test_where_the_bulkheads_*[creep *",
+    "tests/models/test_constant_inboard_tension.py::test_what_is_lacking_*[20000]",
     "tests/unit/test_carriage.py::test_what_is_left_does_not_depend_on_how_much_*",
     "tests/models/test_torsion.py::test_with_a_friction_of_its_own_*",
     # advice and cost: the closed forms and one model are played

@@ -55,7 +55,7 @@ def test_ctrl_c_ends_the_run_and_keeps_what_was_computed():
 
 def test_blocks_arrive_while_the_run_goes_and_tell_its_fraction():
     fractions = []
-    outcome = integrate(belt_block(), Run(stop=2000.0), lambda block: fractions.append(block.fraction))
+    outcome = integrate(belt_block(), Run(stop=200.0), lambda block: fractions.append(block.fraction))
     assert outcome.ok
     assert len(fractions) > 2
     assert fractions == sorted(fractions)
@@ -166,7 +166,7 @@ def chattering_machine():
 
 
 def test_a_machine_that_toggles_faster_than_its_dwell_is_named_and_the_run_goes_on():
-    outcome = integrate(chattering_machine(), Run(stop=0.5001, dwell=1e-6))
+    outcome = integrate(chattering_machine(), Run(stop=0.50001, dwell=1e-6))
     assert outcome.ok
     assert outcome.chattering == ("relay",)
 
@@ -179,8 +179,8 @@ def test_chatter_may_stop_the_run():
 
 
 def test_chatter_may_be_held_and_then_costs_one_switch_per_dwell():
-    warned = integrate(chattering_machine(), Run(stop=0.5001, dwell=1e-5))
-    held = integrate(chattering_machine(), Run(stop=0.5001, dwell=1e-5, on_chatter="hold"))
+    warned = integrate(chattering_machine(), Run(stop=0.50001, dwell=1e-5))
+    held = integrate(chattering_machine(), Run(stop=0.50001, dwell=1e-5, on_chatter="hold"))
     assert held.ok
     assert held.chattering == ("relay",)
     assert len(held.events) < 0.01 * len(warned.events)
