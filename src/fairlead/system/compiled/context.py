@@ -77,7 +77,7 @@ def context(
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
         "CIRCLE_AT": circle_at, "RATED_AT": circle_at + len(numbering.circles) + len(numbering.share),
         "REACTIONS_READ": int(bool(len(memory["circle_pairs"])) or any(_reads_reactions(b, numbering) for b in blocks)),
-        "N_GIVEN": sum(_gives_motion(blocks[place]) for place in memory["schedule"][:, 0]),
+        "N_GIVEN": sum(not later for later, *_ in _calls(blocks, numbering)),
         "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),
     }  # fmt: skip
     vector = np.zeros(layout.CONTEXT, dtype=np.int64)
@@ -113,27 +113,33 @@ def _counts(blocks: Sequence[Block]) -> Integers:
 
 def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:
     """Calls that compute signals: those of given motions, then runs of equal rank inside every block, by rank."""
+    return np.array([call[2:] for call in _calls(blocks, numbering)], dtype=np.int64).reshape(-1, layout.CALL)
+
+
+def _calls(blocks: Sequence[Block], numbering: Numbering) -> list[tuple[int, int, int, int, int]]:
+    """Those calls in order: 0 for given motions, which read nothing but time, rank, block, first instance, end."""
     calls = []
     for place, block in enumerate(blocks):
         if not block.sig_index.size or (block.sig_index == numbering.dump).all():
             continue
-        ranks = np.array(block.ranks)
-        later = not _gives_motion(block)
-        calls += [(later, rank, place, *np.searchsorted(ranks, [rank, rank + 1])) for rank in np.unique(ranks)]
-    return np.array([call[2:] for call in sorted(calls)], dtype=np.int64).reshape(-1, layout.CALL)
+        ranks, later = np.array(block.ranks), int(not _given(block))
+        for rank in np.unique(ranks):
+            first, end = np.searchsorted(ranks, [rank, rank + 1])
+            calls.append((later, int(rank), place, int(first), int(end)))
+    return sorted(calls)
 
 
-def _gives_motion(block: Block) -> bool:
-    """Whether its instances move something as given in time, and in nothing else."""
-    return block.instances[0].type.answers.prescribes is not None
+def _given(block: Block) -> list[int]:
+    """Which outputs of a block are positions and speeds that it gives to its flanges in time; none of most blocks."""
+    prescribes = block.instances[0].type.answers.prescribes
+    if prescribes is None or not block.sig_index.size or any(block.ranks):
+        return []
+    names = [name for given in prescribes().values() if given is not None and len(given) == 3 for name in given[:2]]
+    return [block.kernel.structure.outputs.index(name) for name in names]
 
 
 def _given_places(blocks: Sequence[Block], numbering: Numbering) -> Integers:
     """Where in z the positions and speeds lie that are given in time, those that something reads."""
-    found = list[Integers]()
-    for block in blocks:
-        if block.sig_index.size and (prescribes := block.instances[0].type.answers.prescribes) is not None:
-            names = [name for position, speed, _ in prescribes().values() for name in (position, speed)]
-            found.append(block.sig_index[:, [block.kernel.structure.outputs.index(name) for name in names]].ravel())
+    found = [block.sig_index[:, columns].ravel() for block in blocks if (columns := _given(block))]
     places = np.concatenate([*found, np.zeros(0, dtype=np.int64)]).astype(np.int64)
     return places[places != numbering.dump]
