@@ -27,7 +27,7 @@ NEAR = 0.82
 """Likeness (Ratcliff and Obershelp, as difflib has it) from which on a name counts as misspelt: one letter of four."""
 BY_NAME = ("law", "sample", "dissipated", "supplied", "stored")
 """Methods whose arguments are given by their names, so that a class asks for those it wants."""
-SET_HERE = ("declaration", "answers", "members", "joined", "needs", "gives")
+SET_HERE = ("declaration", "answers", "members", "everyone", "shown", "needs", "gives")
 """What the framework itself leaves in a class."""
 DECLARED_IN = ("fairlead.component.declare", "fairlead.component.given")
 BUDGETS = ("max_steps", "max_events")

@@ -155,7 +155,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
         return kind, Field(description=described)
     if not isinstance(default, str | int | float | tuple | None):
         return kind, default
-    validated: Any = default is not None and not isinstance(declared, Choice)
+    validated: Any = default is not None and not isinstance(default, tuple) and not isinstance(declared, Choice)
     return kind, Field(default=default, description=described, validate_default=validated)
 
 
