@@ -39,7 +39,7 @@ def test_steps_far_beyond_the_width_of_a_regularised_law_are_taken_as_asked(scen
     _, counters = run(scene, method, 1e-4, engine="stepping", fixed_step=5e-3)
     assert counters.unsolved <= 4
     assert counters.steps <= 404
-    assert counters.solves < 6 * counters.steps
+    assert counters.solves < 7 * counters.steps  # a full move that goes astray takes tens
 
 
 @SMOOTH
