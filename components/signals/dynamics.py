@@ -68,10 +68,11 @@ class FilteredDerivative(Component):
     initial = Parameter("1", "Value before the start.", default=0.0, physics=False)
     slow = State("1", "The value, filtered.", start="initial", nominal=0.1)
     signal = Output("1/s", "The rate.")
+    filtered = Output("1", "The value, filtered.")
 
     def law(p, value, slow):
         """First order."""
-        return Law(slow=(value - slow) / p.lag, signal=(value - slow) / p.lag)
+        return Law(slow=(value - slow) / p.lag, signal=(value - slow) / p.lag, filtered=slow)
 
 
 class SecondOrder(Component):

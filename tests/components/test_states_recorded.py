@@ -10,6 +10,9 @@ import pytest
 from fairlead.component import Component
 
 TOLD_BY = {
+    "Capacitor": {"charged": "voltage"}, "FilteredDerivative": {"slow": "filtered"}, "Inductor": {"flowing": "current"},
+    "Integrator": {"gathered": "signal"}, "SampleHold": {"kept": "signal"}, "SignalDelay": {"signal": "signal"},
+    "SecondOrder": {"told": "signal", "rate": "slope"},
     "Accumulator": {"log_pressure": "level"}, "Bristle": {"moved": "slid"}, "CavitatingVolume": {"empty": "void"},
     "Chamber": {"oil": "level", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},
     "Dahl": {"z": "deflection"}, "DcDrive": {"flowing": "current"}, "DcMotor": {"flowing": "current"},

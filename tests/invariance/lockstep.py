@@ -33,7 +33,7 @@ CAUSES = ("rejected_error", "rejected_nan", "rejected_companion", "rejected_swit
 FACTS = (
     "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now", "massless", "driven",
     "limits_vary", "expecting", "guessed", "distrusted", "allowed", "allowed_before", "block_steps", "n_switched",
-    "t_switch", "t_jump", "seeking", "h_wanted", "growth", "landing", "crossed", "cut_at", "stalls", "look",
+    "t_cut", "localising", "h_wanted", "growth", "landing", "crossed", "cut_at", "stalls", "look",
     "nearness", "linearised", "searched",
 )  # fmt: skip
 """What is shown of a step beside its length and its error."""

@@ -5,14 +5,12 @@
 The traced expressions of every zone become one `if zone == ...` chain per mode, with common
 subexpressions shared; derivatives are SymPy's, so they are exact. `Structure` records what a driver
 must know about the kernel (inputs, targets, which derivative is where) and is stored with the
-machine code, as is the text it was made from: a warm start needs neither SymPy nor numba.
+machine code: a warm start needs neither SymPy nor numba.
 """
 
 from __future__ import annotations
 
-import base64
 import functools
-import zlib
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from typing import Any
@@ -36,11 +34,6 @@ class Kernel:
         """Where the code begins."""
         return self.native.address["kernel"]
 
-    @property
-    def text(self) -> str:
-        """The Python text it was made from."""
-        return zlib.decompress(base64.b85decode(self.native.meta["text"])).decode()
-
 
 @functools.cache
 def kernel(variant: Variant, rated: int = 0) -> Kernel:
@@ -52,18 +45,17 @@ def kernel(variant: Variant, rated: int = 0) -> Kernel:
     facts = " ".join(field.name for field in fields(Structure))  # of this process, whatever the files say by now
     marked = f"{facts} rated {rated}" if rated else facts
     native = load_or_compile(digest(dependencies(variant), marked), lambda: _build(variant, rated))
-    return Kernel(variant, Structure(**native.meta["structure"]), native)
+    return Kernel(variant, Structure(**native.meta), native)
 
 
 def _build(variant: Variant, rated: int = 0) -> Build:
     from fairlead.kernels.lowering import lower
 
     source, structure = write_source(variant, rated)
-    packed = base64.b85encode(zlib.compress(source.encode())).decode()  # a twentieth of its size; read by few
-    meta = {"structure": asdict(structure), "text": packed}
-    return Build(meta, {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
+    return Build(asdict(structure), {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
 
 
+@functools.lru_cache(maxsize=8)  # the machine code and the Python function of a class are asked for together
 def write_source(variant: Variant, rated: int = 0) -> tuple[str, Structure]:
     """Python text of the kernel, in the subset that `lowering.py` understands, and its structure."""
     from fairlead.component.trace import trace
@@ -81,13 +73,13 @@ def plain(variant: Variant) -> tuple[Callable[..., None], Structure]:
     """
     import cmath
 
-    made = kernel(variant)
+    source, structure = write_source(variant)
     names: dict[str, Any] = {
         name: getattr(cmath, name) for name in ("exp", "log", "sqrt", "sin", "cos", "tan", "tanh", "atan")
     }
     names |= {"f8": _same, "i8": _same, "abs": _magnitude, "min": _least, "max": _greatest, "sign": _direction}
-    exec(compile(made.text, f"<kernel {variant.label}>", "exec"), names)
-    return names["kernel"], made.structure
+    exec(compile(source, f"<kernel {variant.label}>", "exec"), names)
+    return names["kernel"], structure
 
 
 def _same(array: Any) -> Any:

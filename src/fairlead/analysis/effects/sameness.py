@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from fairlead.kernels.kernel import Kernel
+from fairlead.kernels.kernel import Kernel, write_source
 
 
 def same(one: Any, other: Any) -> bool:
@@ -42,7 +42,7 @@ def _same_law(mine: Kernel, its: Kernel) -> bool:
         return True
     if mine.variant.type is not its.variant.type or _facts(mine) != _facts(its):
         return False
-    return mine.text == its.text
+    return write_source(mine.variant)[0] == write_source(its.variant)[0]
 
 
 def _facts(kernel: Kernel) -> str:

@@ -84,7 +84,12 @@ FLAT = np.dtype(
 )
 """The same memory as Python sees it: one record with every field by its own name."""
 LINKS = np.array(
-    sorted(at // 8 for name, places in PLACES.items() if name.startswith(("at_", "call_", "context")) for at in places)
+    sorted(
+        at // 8
+        for name, places in PLACES.items()
+        if name.startswith(("at_", "call_", "context", "mean_at"))
+        for at in places
+    )
 )
 """Which eight bytes are addresses, not numbers: they belong to a run, and are no part of its state."""
 _WORDS = [(at // 8, name[3:]) for name, places in PLACES.items() if name.startswith("at_") for at in places]
