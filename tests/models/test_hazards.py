@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import fairlead
-from tests.models.test_binding_zones import CREEP, NORMAL, STICTION, V_N, WORLDS, instant
+from tests.models.test_binding_zones import CREEP, FORMS, NORMAL, STICTION, V_N, contact, instant
 
 DRAGGED = """
     parameters: {form: literal}
@@ -104,7 +104,7 @@ def test_h2_the_printed_law_holds_with_more_than_stiction_and_tears_the_next_con
 def test_h3_the_ramp_of_the_printed_law_is_negative_damping():
     """Steepest at the end of the ramp: dT/dv = F_s/v_n - f_m v_n/(v_n - v_m) = -1.75 f_m (physics 1.4)."""
     steepest = {}
-    for form, world in WORLDS.items():
+    for form, world in ((form, contact(form)) for form in FORMS):
         found = []
         for v in np.linspace(0, V_N, 801)[1:-1]:
             at = instant(world, float(v), 0.0, NORMAL)

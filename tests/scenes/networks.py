@@ -171,13 +171,13 @@ def _shafts(s: Sketch) -> None:
 
 def _couple(s: Sketch, i: int, a: str, b: str) -> None:
     """One shaft to the next."""
-    kind = s.pick("TorsionSpring", "TorsionSpring", "Clutch", "Clutch", "Mesh")
+    kind = s.pick("TorsionSpring", "TorsionSpring", "Clutch", "Clutch", "Backlash")
     if kind == "TorsionSpring":
         numbers = {"stiffness": f"{s.number(10, 1000)} N*m/rad", "damping": f"{s.number(0.01, 1)} N*m*s/rad"}
     elif kind == "Clutch":
         numbers = {"radius": f"{s.number(0.05, 0.2)} m", "curve": s.curve(), "normal_force": f"{s.number(20, 200)} N"}
     else:
-        numbers = {"stiffness": f"{s.number(100, 1e4)} N*m/rad", "backlash": f"{s.number(0.001, 0.05)} rad"}
+        numbers = {"stiffness": f"{s.number(100, 1e4)} N*m/rad", "play": f"{s.number(0.001, 0.05)} rad"}
     name = s.add(f"joint{i}", kind, **numbers)
     s.join(a, f"{name}.a")
     s.join(b, f"{name}.b")

@@ -25,7 +25,7 @@ FORCES: dict[str, tuple[str, dict[str, int]]] = {
     "Tether": ("tension", {"a": 1, "b": -1}), "Damper": ("tension", {"a": 1, "b": -1}),
     "ForceSensor": ("tension", {"a": 1, "b": -1}), "TorqueSensor": ("torque", {"a": -1, "b": 1}),
     "TorsionSpring": ("torque", {"a": 1, "b": -1}), "RotationalDamper": ("torque", {"a": 1, "b": -1}),
-    "Mesh": ("torque", {"a": -1, "b": 1}), "Contact": ("friction", {"a": 1, "b": -1}),
+    "Backlash": ("torque", {"a": -1, "b": 1}), "Contact": ("friction", {"a": 1, "b": -1}),
     "Clutch": ("torque", {"a": 1, "b": -1}), "Brake": ("torque", {"shaft": -1}), "Bearing": ("torque", {"shaft": -1}),
     "ForceSource": ("applied", {"flange": 1}), "TorqueSource": ("applied", {"shaft": 1}),
     "EndStop": ("force", {"a": 1, "b": -1}), "RigidStop": ("force", {"a": -1, "b": 1}),
