@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.integrate.memory import layout as fields
 from fairlead.integrate.memory.arena import BUFFERS, SCRATCH, Memory
-from fairlead.integrate.memory.layout import PLACES
 from fairlead.kernels import layout
 from fairlead.system.arrays.working import CHANGED
 from fairlead.system.compiled.context import ADDRESSES
@@ -133,8 +133,8 @@ def _laid_out(arrays: Mapping[str, np.ndarray], kind: int) -> tuple[list[_Placed
 def _addresses(memory: Memory, own: Instance, where: Mapping[str, int]) -> Iterator[tuple[int, int, str]]:
     """(place in memory, address or 0, name) of every word that is one."""
     words = memory.words
-    for name, places in PLACES.items():
-        if name.startswith(("at_", "call_", "context")):
+    for name, places in fields.PLACES.items():
+        if name.startswith(fields.ADDRESSES):
             empty = name.startswith("at_") and memory.array[name[3:]].size == 0
             yield from ((at, 0 if empty else int(words[at // 8]), name) for at in places)
     context = own.memory["context"]

@@ -83,14 +83,9 @@ FLAT = np.dtype(
     }
 )
 """The same memory as Python sees it: one record with every field by its own name."""
-LINKS = np.array(
-    sorted(
-        at // 8
-        for name, places in PLACES.items()
-        if name.startswith(("at_", "call_", "context", "mean_at"))
-        for at in places
-    )
-)
+ADDRESSES = ("at_", "call_", "context", "mean_at")
+"""How names of fields begin that are addresses."""
+LINKS = np.array(sorted(at // 8 for name, places in PLACES.items() if name.startswith(ADDRESSES) for at in places))
 """Which eight bytes are addresses, not numbers: they belong to a run, and are no part of its state."""
 _WORDS = [(at // 8, name[3:]) for name, places in PLACES.items() if name.startswith("at_") for at in places]
 LINKED, LINKED_NAMES = np.array([word for word, _ in _WORDS]), tuple(name for _, name in _WORDS)
