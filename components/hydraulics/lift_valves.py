@@ -42,10 +42,7 @@ class LiftValve(Component, abstract=True):
     @zone("closed", "partly", "open")
     def passing(p, a, b, lift, zone):
         """An orifice as far as it is open."""
-        drop = a.pressure - b.pressure
-        opening = {"closed": 0, "open": 1}.get(zone, (lift - p.cracking) / p.range)
-        flow = opening * throttled(p.fluid.conductance(p.discharge_coefficient, p.area), drop, p.critical_pressure)
-        return Law(a=flow, b=-flow, flow=flow, opening=opening, dissipated=flow * drop)
+        return Law(**through(p, a, b, lift, zone))
 
     @guard("closed", to="partly", unit="Pa")
     def lifts(p, lift):
@@ -66,6 +63,14 @@ class LiftValve(Component, abstract=True):
     def leaves_stop(p, lift):
         """It comes down from it."""
         return p.cracking + p.range - lift
+
+
+def through(p, a, b, lift, zone):
+    """What the two ends take in, flow and opening of a poppet that is lifted so far."""
+    drop = a.pressure - b.pressure
+    opening = {"closed": 0, "open": 1}.get(zone, (lift - p.cracking) / p.range)
+    flow = opening * throttled(p.fluid.conductance(p.discharge_coefficient, p.area), drop, p.critical_pressure)
+    return {"a": flow, "b": -flow, "flow": flow, "opening": opening, "dissipated": flow * drop}
 
 
 class CheckValve(LiftValve):
@@ -94,10 +99,7 @@ class PilotCheckValve(LiftValve):
     @zone("closed", "partly", "open")
     def passing(p, a, b, pilot, lift, zone):
         """An orifice as far as it is open; nothing flows into the pilot."""
-        drop = a.pressure - b.pressure
-        opening = {"closed": 0, "open": 1}.get(zone, (lift - p.cracking) / p.range)
-        flow = opening * throttled(p.fluid.conductance(p.discharge_coefficient, p.area), drop, p.critical_pressure)
-        return Law(a=flow, b=-flow, pilot=0, flow=flow, opening=opening, dissipated=flow * drop)
+        return Law(pilot=0, **through(p, a, b, lift, zone))
 
 
 class PilotedRelief(PilotCheckValve):

@@ -76,6 +76,16 @@ def test_samples_are_held_and_told_late():
     assert np.allclose(result["late.signal"][:-1][between], 2 * np.sin(2 * np.pi * late)[between], atol=1e-6)
 
 
+@pytest.mark.parametrize("engine", ["stepping", "ida"])
+def test_samples_that_rounding_alone_parts_are_taken_on_every_engine(engine):
+    """3 times 50 ms is 2.8e-17 s after 15 times 10 ms."""
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    one, other = run("memory_of_signals"), run("memory_of_signals", **{"run.engine": engine})
+    for name in ("held", "late", "integral"):
+        assert other[f"{name}.signal"][-1] == pytest.approx(one[f"{name}.signal"][-1], abs=1e-5), name
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [

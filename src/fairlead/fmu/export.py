@@ -13,7 +13,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 from fairlead.arguments import Arguments
-from fairlead.fmu import refusals
 from fairlead.fmu.archive import packed, write
 from fairlead.fmu.compiler import compiler, linked
 from fairlead.fmu.data import data_object
@@ -21,6 +20,15 @@ from fairlead.fmu.description import About, description, identifier
 from fairlead.fmu.header import header, stubs
 from fairlead.fmu.image import Image, image_of
 from fairlead.fmu.machine_code import Code, objects
+from fairlead.fmu.refusals import (
+    refuse_engine,
+    refuse_names,
+    refuse_no_outputs,
+    refuse_parts,
+    refuse_platform,
+    refuse_twice,
+    refuse_version,
+)  # fmt: skip
 from fairlead.netlist.interface import Outer
 from fairlead.outer import Variable
 from fairlead.outside import LaidOpen, Stepping, laid_open
@@ -69,12 +77,12 @@ def export(model: Model, file: str | os.PathLike[str] | None = None, *, version:
     given.texts("inputs", inputs, '"valve.command"')
     given.texts("outputs", outputs, '"spring.force"')
     given.refuse()
-    refusals.refuse_version(version)
-    refusals.refuse_platform()
+    refuse_version(version)
+    refuse_platform()
     compiler()
     chosen = with_keywords(model.netlist.run, settings)
-    refusals.refuse_engine(engine_of(chosen, model.system)[0])
-    refusals.refuse_names(model.system, inputs, outputs)
+    refuse_engine(engine_of(chosen, model.system)[0])
+    refuse_names(model.system, inputs, outputs)
     asked = _Asked(_with_outputs(model.netlist, model.system, outputs), chosen, model.system, list(inputs), version)
     name = identifier(model.netlist.name)
     target = pathlib.Path(f"{name}.fmu" if file is None else file)
@@ -94,12 +102,12 @@ def _made(asked: _Asked, name: str) -> bytes:
     """The bytes of the FMU."""
     netlist = asked.netlist
     if not netlist.interface.outputs:
-        refusals.refuse_no_outputs()
+        refuse_no_outputs()
     record = [outer.of for outer in netlist.interface.outputs.values()]
     run = Stepping(netlist, asked.settings, asked.system, asked.inputs, record)
-    refusals.refuse_twice([one.name for one in run.variables])
+    refuse_twice([one.name for one in run.variables])
     opened = laid_open(run)
-    refusals.refuse_parts(opened.problem)
+    refuse_parts(opened.problem)
     code = objects(opened.engine, opened.problem)
     image = image_of(opened.memory, opened.problem, code.numbers)
     about = _about(asked, name, _token(image, code, run.variables))

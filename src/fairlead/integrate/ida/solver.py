@@ -30,6 +30,8 @@ from fairlead.integrate.problem import Floats, Integers, Status
 
 ROOT_FOUND = 2
 """The status of IDA for a step that ends at a root."""
+CLOSEST = 4 * float(np.finfo(float).eps)
+"""IDA refuses a way below 2 eps (|t| + |stop|), its IDA_TOO_CLOSE: two samples that rounding alone parts."""
 FACTORISED, SINGULAR = 0, 1
 """What `prepare` returns, as in linear.py; anything else asks for other pivots."""
 
@@ -93,9 +95,15 @@ class Solver:
 
     def step(self, stop: float) -> Step | None:
         """One internal step that does not pass `stop`; None if IDA cannot make one."""
+        if stop - self.memory.number["t"] <= CLOSEST * abs(stop):
+            array = self.memory.array
+            return Step(stop, array["y"].copy(), array["slope"].copy(), self.no_root)
         try:
             with _silence():
                 made = self.object.step(stop, "onestep", stop)
+        except KeyError:  # the package has no name for some of IDA's refusals
+            self.object = None
+            return None
         except BaseException:
             self.object = None  # left in the middle of a step
             raise
