@@ -38,6 +38,11 @@ class Arguments:
             return
         self._wrong(name, value, "is not a path", f"Give a text or a pathlib.Path{f', or {none}' if none else ''}.")
 
+    def model(self, value: object) -> None:
+        """A model that was loaded; its name or its file is none."""
+        if value is None or isinstance(value, str | os.PathLike):
+            self._wrong("model", value, "is not a Model", f"Load it: fairlead.load({value!r}).")
+
     def yes_or_no(self, name: str, value: object) -> None:
         """True or False; a text would count as true, whatever it says."""
         if not _is(value, bool):

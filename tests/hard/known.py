@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from tests.hard.attempt import Attempt
 from tests.hard.registry import Row
 
-LIGHT = "stepping: 1.5e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
+LIGHT = "stepping: 1.1e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
 BRISTLES = "stepping: what carries a bristle to and fro is metered too high between turns; less so at a finer accuracy"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
 SLOW = "ida: takes 27 of its 30 s"
@@ -48,6 +48,7 @@ anew."""
 
 WORSE: tuple[tuple[str, str, str, str], ...] = (
     ("block on a shaken table, carried", "rodas3p", "binding", QUADRATURES),
+    ("random networks, 200", "stepping", "[hl]*", LIGHT),
 )
 """Rows that docs/stability.md shows as coming through at its commit, and that fail; as in KNOWN, where they belong once
 it is made anew."""

@@ -336,6 +336,25 @@ def test_a_table_outside_the_folder_is_not_read_through_a_link(tmp_path):
     assert "lies outside the folder of the netlist" in check(tmp_path / "in", GOOD.replace(WAVE, "{table: {file: pull.csv}}"))
 
 
+@pytest.mark.parametrize(
+    ("part", "port", "ends"),
+    [
+        ("{type: Gear, ratio: 2}", "part.a", "a free shaft needs an Inertia, a fixed one a Housing"),
+        ("{type: Leak, conductance: 1e-12}", "part.a", "a closed end needs a Volume, an open one a Tank"),
+        ("{type: Resistor, resistance: 1}", "part.plus", "what has no voltage of its own needs an Earth"),
+        ("{type: Spring, stiffness: 1}", "part.a", "a free end needs a Mass, a fixed one a Ground"),
+    ],
+)
+def test_what_a_port_that_leads_nowhere_needs_is_told_in_its_domain(scene, part, port, ends):
+    other = {"part.a": "part.b", "part.plus": "part.minus"}[port]
+    end = {"Gear": "Housing", "Leak": "Tank", "Resistor": "Earth", "Spring": "Ground"}[part.split()[1].rstrip(",")]
+    name = {"Housing": "shaft", "Tank": "port", "Earth": "terminal", "Ground": "flange"}[end]
+    text = f"components:\n  part: {part}\n  end: {{type: {end}}}\nconnections: [[end.{name}, {other}]]\nrun: {{stop: 1 s}}\n"
+    with pytest.raises(ModelError, match=f"{port} is connected to nothing") as caught:
+        scene(text).check()
+    assert f"Connect it; {ends}." in str(caught.value)
+
+
 def test_overrides_are_named_as_the_place_of_their_mistake(tmp_path):
     (tmp_path / "scene.yaml").write_text(GOOD)
     with pytest.raises(ModelError, match=r"block\.mass = 3 m is a length, not a mass"):

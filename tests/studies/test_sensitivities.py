@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 from fairlead.errors import FairleadError, ModelError
+from fairlead.fmu import export
 
 BELT = fairlead.load("belt", set={"run.accuracy": "1e-8", "run.stop": "4 s"})
 
@@ -166,3 +167,9 @@ def test_the_command_prints_a_table_a_record_and_csv(tmp_path) -> None:
     wrong = CliRunner().invoke(app, [*words, "--to", "pad.curve.stiction"])
     assert wrong.exit_code == 2
     assert "twice" in wrong.output
+
+
+@pytest.mark.parametrize("ask", [fairlead.modes, fairlead.sensitivity, export])
+def test_the_name_of_a_model_is_no_model(ask) -> None:
+    with pytest.raises(ModelError, match=r"model = belt is not a Model\n +Load it: fairlead\.load\('belt'\)\."):
+        ask("belt")

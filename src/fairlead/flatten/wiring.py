@@ -14,6 +14,14 @@ from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import Node
 from fairlead.quantities import NONE, article, parse_unit
 
+ENDS = {
+    "translational": "a free end needs a Mass, a fixed one a Ground",
+    "rotational": "a free shaft needs an Inertia, a fixed one a Housing",
+    "hydraulic": "a closed end needs a Volume, an open one a Tank",
+    "electrical": "what has no voltage of its own needs an Earth",
+}
+"""By domain, what is joined to a port that leads nowhere."""
+
 
 def port_graph(assembly: Assembly) -> nx.Graph:
     """The graph of all ports and of the joined signals, with an edge for every two that are joined."""
@@ -131,6 +139,8 @@ def _dangling(assembly: Assembly, alone: dict[str, list[PortRef]]) -> list[Fault
         else:
             names = " and ".join(map(assembly.named, ports))
             what = f"{names} {'are' if len(ports) > 1 else 'is'} connected to nothing."
-            way_out = "Connect it; a free end needs a Mass, a fixed one a Ground."
+            domains = {instance.type.declaration.ports[port.port].domain.name for port in ports}
+            ends = [said for domain, said in ENDS.items() if domain in domains]
+            way_out = f"Connect it{'; ' if ends else ''}{'; '.join(ends)}."
         faults.append(Fault(instance.where, what, way_out))
     return faults

@@ -73,6 +73,7 @@ def export(model: Model, file: str | os.PathLike[str] | None = None, *, version:
     from fairlead.netlist.keywords import with_keywords
 
     given = Arguments("export")
+    given.model(model)
     given.path("file", file, none="None for the name of the model")
     given.texts("inputs", inputs, '"valve.command"')
     given.texts("outputs", outputs, '"spring.force"')

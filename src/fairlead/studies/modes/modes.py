@@ -46,6 +46,7 @@ def modes(
     FairleadError where the equations are singular in these zones.
     """
     asked = Arguments("modes")
+    asked.model(model)
     time = None if at is None else asked.quantity("at", at, "s")
     span = None if frequencies is None else _span(asked, frequencies)
     asked.refuse()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fairlead.arguments import Arguments
 from fairlead.errors import FairleadError, Fault, ModelError
 from fairlead.quantities import quotient
 from fairlead.studies.cases.cases import Cases
@@ -40,6 +41,9 @@ def sensitivity(
 
     Raises ModelError with every mistake in what is asked, FairleadError when the run of the model as it is fails.
     """
+    asked = Arguments("sensitivity")
+    asked.model(model)
+    asked.refuse()
     cases, varied = _asked(model, of, to, max_steps)
     runs = Runs(cases, varied, told)
     begun = np.zeros(len(varied))
