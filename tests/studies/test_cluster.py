@@ -20,7 +20,7 @@ from tests.studies.jobs import crash_at_three, job, square
 
 pytest.importorskip("pyarrow", reason="pyarrow is not installed; pip install 'fairlead[cluster]'")
 pytest.importorskip("distributed", reason="dask.distributed is not installed; pip install 'fairlead[cluster]'")
-from fairlead.studies.sweeps.cluster import Cluster
+from fairlead.studies.sweeps.cluster import TRIES, Cluster
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")]
 ROOT = Path(__file__).parents[2]
@@ -132,6 +132,37 @@ def test_a_case_that_kills_its_workers_is_a_row(tmp_path) -> None:
     frame = made[0].frame()
     assert frame["case"][frame["status"] == "killed"].tolist() == [3]
     assert len(frame) == 20
+
+
+class Lost:
+    """A task whose rows are on a worker that is gone."""
+
+    status, chunk = "finished", [(0, {"x": 5.0})]
+
+    def cancel(self) -> None: ...
+
+
+class Nobody:
+    def nthreads(self):
+        return {}
+
+
+@pytest.mark.parametrize("failure", [TimeoutError, type("KilledWorker", (Exception,), {})])
+def test_a_case_is_blamed_only_when_it_was_alone(failure) -> None:
+    cluster, task = Cluster(job(square), ""), Lost()
+    cluster._client, task.result = Nobody(), raises(failure)
+    for _ in range(TRIES):
+        assert list(cluster._landed(task)) == []
+    assert cluster._suspects
+    rows = [row for _ in range(TRIES) for row in cluster._landed(task, alone=True)]
+    assert [row.status for _, row in rows][-1:] == ["killed"]
+
+
+def raises(failure):
+    def result(timeout):
+        raise failure(f"no rows after {timeout:g} s")
+
+    return result
 
 
 def test_nobody_who_answers_is_a_sentence(tmp_path, monkeypatch) -> None:

@@ -1,8 +1,10 @@
 """Cases on a cluster of dask.distributed, whose own deployments reach SLURM, Kubernetes and clouds.
 
 The job is a plugin of the workers, so that those have it which come later or start again. Cases go out a few at a
-time; those of a worker that is lost are computed by others. Cases on which workers die again and again are tried one by
-one, and one that still kills them is a row of status `killed`.
+time; those of a worker that is lost are computed by others. The scheduler suspects every task that a dying worker had,
+also one that only waited there. So cases on which workers die again and again are tried one by one, and those that are
+suspected again are tried last, each with the cluster to itself: what still kills workers then is a row of status
+`killed`, and nothing else is.
 """
 
 from __future__ import annotations
@@ -54,6 +56,8 @@ class Cluster:
         self.job, self.address = job, address
         self._client: Any = None
         self._lost: Counter[int] = Counter()
+        self._again: deque[list[Case]] = deque()
+        self._suspects: deque[Case] = deque()
 
     def __enter__(self) -> Cluster:
         """Connect. Raises UsageError where nobody answers or the package is missing."""
@@ -104,20 +108,24 @@ class Cluster:
     def _rows(self, cases: Iterator[Case]) -> Iterator[Done]:
         from distributed import as_completed
 
-        flying, again = as_completed([], loop=self._client.loop), deque[list[Case]]()
+        flying = as_completed([], loop=self._client.loop)
         threads, asked = 0, -math.inf
         while True:
             if time.monotonic() - asked > LOOK_AGAIN:
                 threads, asked = sum(self._client.nthreads().values()), time.monotonic()
             for _ in range(AHEAD * max(threads, 1) - flying.count()):
-                chunk = again.popleft() if again else _next(cases)
+                chunk = self._again.popleft() if self._again else _next(cases)
                 if not chunk:
                     break
                 flying.add(self._send(chunk))
             if flying.is_empty():
-                return
+                break
             self._wait(flying)
-            yield from self._landed(next(flying), again)
+            yield from self._landed(next(flying))
+        while self._suspects:
+            flying.add(self._send([self._suspects.popleft()]))
+            self._wait(flying)
+            yield from self._landed(next(flying), alone=True)
 
     def _wait(self, flying: Any) -> None:
         """Until rows are ready. Raises FairleadError when there has been no worker for long, OSError as the client."""
@@ -139,8 +147,8 @@ class Cluster:
         future.chunk = chunk
         return future
 
-    def _landed(self, future: Any, again: deque[list[Case]]) -> Iterator[Done]:
-        """What a task that has ended leaves: rows, or cases to try again."""
+    def _landed(self, future: Any, *, alone: bool = False) -> Iterator[Done]:
+        """What a task that has ended leaves: rows, or cases to try again; `alone`: no other was on the cluster."""
         chunk = future.chunk
         try:
             yield from future.result(timeout=FETCH)
@@ -148,17 +156,24 @@ class Cluster:
         except Exception as error:  # noqa: BLE001 - of the cluster; what a case raises is a row already
             failure, died = error, type(error).__name__ == "KilledWorker"
         self._client.nthreads()  # raises OSError where the scheduler is gone
-        self._lost[chunk[0][0]] += 1
-        if not died and future.status != "error" and self._lost[chunk[0][0]] < TRIES:  # its rows were on a lost worker
+        failed = future.status == "error" and not died
+        first, values = chunk[0]
+        self._lost[first] += 1
+        if not died and not failed and self._lost[first] < TRIES:  # its rows were on a worker that is lost
             future.cancel()
-            again.append(chunk)
+            if alone:
+                self._suspects.append(chunk[0])
+            else:
+                self._again.append(chunk)
         elif len(chunk) > 1:
-            again += [[one] for one in chunk]
+            self._again += [[one] for one in chunk]
+        elif failed:
+            yield first, Row(self.job.key(values), values, ERROR, f"{type(failure).__name__}: {failure}")
+        elif alone:
+            yield first, Row(self.job.key(values), values, KILLED, "The workers that computed it died.")
         else:
-            ((number, values),) = chunk
-            killed = died or future.status != "error"
-            said = "The workers that computed it died." if killed else f"{type(failure).__name__}: {failure}"
-            yield number, Row(self.job.key(values), values, KILLED if killed else ERROR, said)
+            self._lost[first] = 0
+            self._suspects.append(chunk[0])
 
 
 def compute(scene: str, chunk: Sequence[Case]) -> list[Done]:
