@@ -139,7 +139,7 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
 
 
 ROOMS_OF = {
-    "system": ("numbering", "arrays", "assembly", "driver", "compiled", "start", "active", "compile", "refresh"),
+    "system": ("numbering", "arrays", "assembly", "callbacks", "compiled", "start", "active", "compile", "refresh"),
     "analysis": ("characteristic", "treatments", "record", "statics", "margins", "remarks", "cost", "effects"),
     "studies": ("cases", "differences", "sweeps", "pictures", "fits", "sensitivities", "modes"),
 }

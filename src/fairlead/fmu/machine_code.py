@@ -1,6 +1,6 @@
 """Machine code of a model for any processor of the architecture, as objects that a linker takes.
 
-    objects(engine, own)      the loop, the driver and the kernels, and by which numbers data refer to their functions
+    objects(engine, own)   the loop, the callbacks and the kernels, and by which numbers data refer to their functions
 
 Nothing comes from a cache of machine code, which is made for this processor: the loop comes as LLVM bitcode
 (integrate/bitcode.py), laws are traced and lowered anew. Optimised as the generic build is (processor.py), so the
@@ -15,11 +15,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
-import fairlead.system.driver.driver as driver
 from fairlead.integrate.bitcode import loop_bitcode, loop_symbol
 from fairlead.integrate.engine import Engine
 from fairlead.kernels.kernel import Kernel, write_source
 from fairlead.processor import for_any_processor
+from fairlead.system.callbacks.table import CALLBACKS, SHARED
 from fairlead.system.compiled.system import Instance
 
 TRIPLE = "x86_64-unknown-linux-gnu"
@@ -45,7 +45,7 @@ class Code(NamedTuple):
 def objects(engine: Engine, own: Instance) -> Code:
     """Everything that a run of `own` calls. Raises UsageError where the loop cannot be compiled."""
     loop, unreached = _loop(engine)
-    found = {"loop.o": loop, "driver.o": _driver()}
+    found = {"loop.o": loop, "callbacks.o": _callbacks()}
     functions = {address: _named(name) for name, address in own.callbacks.items()}
     kernels = {block.kernel.address: block.kernel for block in own.blocks}
     for k, (address, kernel) in enumerate(kernels.items()):
@@ -61,14 +61,13 @@ def _named(name: str) -> str:
 
 
 @functools.cache
-def _driver() -> bytes:
+def _callbacks() -> bytes:
     """Object code of the callbacks, which are the same for all models."""
     from fairlead.kernels.lowering import lower_together
 
-    asked = {name: (getattr(driver, name), *signature) for name, signature in driver.SIGNATURES.items()}
     with for_any_processor():
-        (text,) = {made.text for made in lower_together(asked, driver.SHARED).values()}
-    return _object(text, {name: _named(name) for name in asked})
+        (text,) = {made.text for made in lower_together(CALLBACKS, SHARED).values()}
+    return _object(text, {name: _named(name) for name in CALLBACKS})
 
 
 def _kernel(kernel: Kernel, name: str) -> bytes:

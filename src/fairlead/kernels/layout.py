@@ -1,4 +1,4 @@
-"""Where things lie in the flat memory that kernels and driver share.
+"""Where things lie in the flat memory that kernels and callbacks share.
 
 z, the vector every law reads from:
 
@@ -51,7 +51,7 @@ DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
 OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance
 NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
 
-# Positions in the context, the int64 vector that every callback of the driver gets, in this order. Sizes first, then
+# Positions in the context, the int64 vector that every callback gets, in this order. Sizes first, then
 # addresses of C-contiguous arrays. ROW of `int64 (k, ROW)` is how long a row is, see below.
 (
     N,  # unknowns

@@ -1,8 +1,8 @@
 """The text of a kernel made into LLVM code, without numba. Imported on a cache miss only.
 
 Kernels are straight-line arithmetic inside loops and zone branches; type inference on such text cost
-numba 3 to 12 s a class, this takes about 0.1 s. `text.py` writes such text, and the driver of
-`driver.py` is written in it. Understood are
+numba 3 to 12 s a class, this takes about 0.1 s. `text.py` writes such text, and the callbacks of
+`system/callbacks` are written in it. Understood are
 
     for i in range(a, b):     while condition:     if condition: ... elif condition: ... else: ...
     name = expression         x[i] = expression    a, b = b, a          each also with += -= *= /= **= //= %=

@@ -10,9 +10,9 @@ from fairlead.kernels import layout
 from fairlead.system.active.entrained import Entrained
 from fairlead.system.active.rest import Floats, Integers
 from fairlead.system.arrays.working import Bytes
+from fairlead.system.callbacks.table import SPREAD
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.system import Instance, begun
-from fairlead.system.driver.driver import SPREAD
 from fairlead.system.numbering.tolerances import Weights
 
 

@@ -3,5 +3,5 @@
 Given blocks and numbering.
 Does  jacobian.py and program.py plan df/dy, mass.py plans M, redundancy.py adds rows for contacts that hold in a
       circle, algebraic_nodes.py finds nodes without inertia, determinacy.py matches equations with unknowns.
-Says  `Program`, `Pattern`, arrays for the driver; ModelError with the unknowns that nothing determines.
+Says  `Program`, `Pattern`, arrays for the callbacks; ModelError with the unknowns that nothing determines.
 """

@@ -1,4 +1,4 @@
-"""Nodes without inertia whose speed no force tells in some zones: which they are, and what the driver is told of them.
+"""Nodes without inertia whose speed no force tells in some zones: which they are, and what callbacks read of them.
 
 Between a spring and a contact that slides the balance of a node says where it is, and not how fast it moves. Such a
 node is *rated*: the rates of all flows there are added up beside its balance, d = tau dg/dt, and its row is
@@ -6,7 +6,7 @@ node is *rated*: the rates of all flows there are added up beside its balance, d
     0 = g + sum of share * d        over the nodes that move with it (its own share is 1 where nothing holds it)
 
 What joins the speeds of nodes in the zones in force (rows that hold, forces that depend on a speed) decides the
-shares, in the driver (`share_rates`): a node that is joined to what is known has none. docs/integrator.md, "Nodes
+shares, in `share_rates`: a node that is joined to what is known has none. docs/integrator.md, "Nodes
 without inertia", has the page.
 """
 
@@ -195,7 +195,7 @@ def _holding(flat: FlatModel, structures: Mapping[str, Structure], groups: set[i
 
 
 def rated_rows(flat: FlatModel, numbering: Numbering, blocks: Sequence[Block]) -> Memory:
-    """What the driver reads of rated nodes (the names are explained in layout.py)."""
+    """What the callbacks read of rated nodes (the names are explained in layout.py)."""
     number = {index: k for k, index in enumerate(numbering.rated)}
     structures = {i.path: block.kernel.structure for block in blocks for i in block.instances}
     machine = {i.path: block.machines[k] for block in blocks for k, i in enumerate(block.instances)}

@@ -17,7 +17,7 @@ from fairlead.system.numbering.unknowns import Numbering
 
 
 def mass(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering) -> tuple[Pattern, Memory]:
-    """Pattern of M (CSC), and the arrays with which the driver fills it."""
+    """Pattern of M (CSC), and the arrays with which the callbacks fill it."""
     row, column, partial, coef = _held(blocks, shares, numbering)
     n = numbering.n
     diagonal = np.array([i for i, u in enumerate(numbering.unknowns) if u.differential], dtype=np.int64)

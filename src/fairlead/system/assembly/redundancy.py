@@ -65,7 +65,7 @@ def circle_entries(numbering: Numbering, m: int, first: int) -> Entries:
 def sharing(
     flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, first: int
 ) -> Memory:
-    """What the driver needs to know of the circles (the names are explained in layout.py)."""
+    """What the callbacks need to know of the circles (the names are explained in layout.py)."""
     place = {i.path: (b, s, k) for b, s in zip(blocks, shares, strict=True) for k, i in enumerate(b.instances)}
     nodes = {index: k for k, index in enumerate(dict.fromkeys(g for p in numbering.circles for g, _ in p.ends))}
     pairs, coefs = [], []

@@ -6,8 +6,8 @@ import ctypes
 
 import numpy as np
 
+from fairlead.system.callbacks.table import callbacks
 from fairlead.system.compiled.system import Booleans, Floats, Instance
-from fairlead.system.driver.driver import callbacks
 
 POINTER = ctypes.c_void_p
 CALLS = {k: ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, *(k + 1) * [POINTER]) for k in (1, 2)}

@@ -30,10 +30,10 @@ from fairlead.system.assembly.jacobian import jacobian
 from fairlead.system.assembly.mass import mass
 from fairlead.system.assembly.program import Pattern
 from fairlead.system.assembly.redundancy import guard_inertias, sharing
+from fairlead.system.callbacks.table import SPREAD, callbacks
 from fairlead.system.compiled.context import context, working_arrays
 from fairlead.system.compiled.opened import nothing_set
 from fairlead.system.compiled.system import System
-from fairlead.system.driver.driver import SPREAD, callbacks
 from fairlead.system.numbering.tolerances import roundings, scales
 from fairlead.system.numbering.unknowns import Numbering
 

@@ -42,7 +42,7 @@ COUNTED = {
 def working_arrays(
     flat: FlatModel, blocks: Sequence[Block], numbering: Numbering, tables: Tables, machines: int, program: Program
 ) -> Memory:
-    """What the driver reads and writes, beside what belongs to the mass matrix, guards, samples and outputs."""
+    """What the callbacks read and write, beside what belongs to the mass matrix, guards, samples and outputs."""
     reactions, given = reaction_masses(flat, numbering), _given_places(blocks, numbering)
     return {
         "z": np.zeros(numbering.dump + 1 + numbering.resting), "w": np.zeros(numbering.w_dump + 1),

@@ -2,8 +2,8 @@
 
     opened(system, inputs)      the System with these inputs, set by `Instance.memory["set_values"]` and `set_due`
 
-What is set takes effect at the next time event (`at_time` in driver.py), so that zones settle anew on it as after any
-jump. It lies in the memory of the run, and goes along with a copy of that.
+What is set takes effect at the next time event (`at_time` in switching.py), so that zones settle anew on it as after
+any jump. It lies in the memory of the run, and goes along with a copy of that.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""What the driver does for held contacts that close a circle (the equations are in redundancy.py).
+"""What callbacks do for held contacts that close a circle (the equations are in redundancy.py).
 
 Bodies that contacts hold together are a union, found anew whenever one of those contacts changes its zone:
 every node of it knows one above it and its own speed over that of the other; the top node knows what the union
-hangs on. Written in the subset of Python of `lowering.py`, as driver.py is.
+hangs on. Written in the subset of Python of `lowering.py`.
 """
 
 from __future__ import annotations

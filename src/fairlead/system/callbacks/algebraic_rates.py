@@ -1,7 +1,7 @@
-"""What the driver does for nodes without inertia: which rates of balances count in which rows (see algebraic_nodes.py).
+"""What callbacks do for nodes without inertia: which rates of balances count in which rows (see algebraic_nodes.py).
 
 Who is joined to whom follows from the zones in force, anew at every evaluation. Written in the subset of Python of
-`lowering.py`, as driver.py is.
+`lowering.py`.
 """
 
 from __future__ import annotations

@@ -1,0 +1,69 @@
+"""The callbacks by name, and their machine code: compiled once, not once per model."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from fairlead.native import Build, Native, digest, load_or_compile
+from fairlead.system.callbacks.algebraic_rates import add_rates, find_known, find_roots, off_balance, share_rates
+from fairlead.system.callbacks.derivatives import assemble, fix, jacobian, mass, slopes
+from fairlead.system.callbacks.evaluation import (
+    accelerate,
+    ask,
+    average,
+    call_signals,
+    evaluate,
+    forces,
+    look,
+    of_accelerations,
+    put_average,
+    rhs,
+    take_samples,
+)
+from fairlead.system.callbacks.recorded import expand, let_slip, outputs, show, spread
+from fairlead.system.callbacks.rigid_clusters import add_shares, guard_shares, look_around, regroup, unite
+from fairlead.system.callbacks.switching import at_time, drift, gap, guards, next_time, slip, slips, switch
+
+SPREAD = "spread"
+"""The one that no engine calls."""
+CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
+    "rhs": (rhs, ("I8", "float", "F8", "F8"), "None"),
+    "forces": (forces, ("I8", "float", "F8", "F8"), "None"),
+    "jacobian": (jacobian, ("I8", "float", "F8", "F8", "F8"), "None"),
+    "slopes": (slopes, ("I8", "float", "F8", "F8", "F8"), "None"),
+    "mass": (mass, ("I8", "F8"), "None"),
+    "guards": (guards, ("I8", "float", "F8", "F8"), "None"),
+    "switch": (switch, ("I8", "float", "F8", "I8", "int"), "int"),
+    "slip": (slip, ("I8", "float", "F8", "F8"), "int"),
+    "drift": (drift, ("I8", "float", "F8", "F8"), "None"),
+    "gap": (gap, ("I8", "float", "F8", "F8"), "None"),
+    "next_time": (next_time, ("I8", "float"), "float"),
+    "at_time": (at_time, ("I8", "float", "F8"), "int"),
+    "outputs": (outputs, ("I8", "float", "F8", "F8"), "None"),
+    SPREAD: (spread, ("I8", "float", "F8", "F8"), "None"),
+}
+"""Each with the types of its arguments and of what it returns."""
+SHARED = (
+    unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
+    call_signals, average, put_average, look, ask, of_accelerations, evaluate, accelerate, slips, take_samples, fix,
+    assemble, expand, let_slip, show,
+)  # fmt: skip
+"""What callbacks call."""
+
+
+@functools.cache
+def callbacks() -> Native:
+    """The compiled callbacks; `address` holds the C address of each."""
+    here, kernels = Path(__file__).parent, Path(__file__).parents[2] / "kernels"
+    files = sorted(here.glob("*.py")) + [kernels / f"{name}.py" for name in ("lowering", "lowered_values", "layout")]
+    sources = [file.read_text(encoding="utf-8") for file in files]
+    return load_or_compile(digest(*sources), _build)
+
+
+def _build() -> Build:
+    from fairlead.kernels.lowering import lower_together
+
+    return Build({}, dict(lower_together(CALLBACKS, SHARED)))
