@@ -13,7 +13,7 @@ from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError, shown
 
 if TYPE_CHECKING:
-    from fairlead.studies.cases.figures import Function
+    from fairlead.cases.figures import Function
     from fairlead.studies.sensitivities.table import Sensitivities
 
 

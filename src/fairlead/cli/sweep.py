@@ -17,7 +17,7 @@ from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError
 
 if TYPE_CHECKING:
-    from fairlead.studies.cases.cases import Cases
+    from fairlead.cases.cases import Cases
     from fairlead.studies.sweeps.plan import Plan
     from fairlead.studies.sweeps.sweep import Standing, Watch
 
@@ -82,7 +82,7 @@ def sweep(
 ) -> None:
     """Run many cases of a model. Typed again after Ctrl-C or a kill, it goes on where it stopped."""
     import fairlead
-    from fairlead.studies.cases.cases import Cases
+    from fairlead.cases.cases import Cases
     from fairlead.studies.sweeps import chosen
     from fairlead.studies.sweeps.plan import is_sweep_file, plan_of_options, read_plan
     from fairlead.studies.sweeps.sweep import sweep as run_all

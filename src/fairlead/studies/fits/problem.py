@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 import fairlead
 from fairlead.analysis.record.names import signals_of
+from fairlead.cases.cases import Cases
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, shown
-from fairlead.studies.cases.cases import Cases
 from fairlead.studies.fits.features import STATISTICS, Feature, FeatureError, read_feature
 from fairlead.studies.fits.fit_file import Asked, Law, RecordFile, SignalFile, Sought
 from fairlead.studies.fits.measured import Column, Measured, column_of, read_table, times_of

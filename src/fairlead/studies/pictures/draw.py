@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fairlead.cases.row import FINISHED
 from fairlead.report.figures import DOTS_PER_INCH, STYLE
 from fairlead.report.panel import COLOURS
-from fairlead.studies.cases.row import FINISHED
 from fairlead.studies.pictures.indices import kind_of, morris_indices, sobol_indices
 from fairlead.studies.pictures.rows import Rows
 from fairlead.studies.pictures.tornado import tornado

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fairlead.cases.row import FINISHED
 from fairlead.errors import UsageError
-from fairlead.studies.cases.row import FINISHED
 from fairlead.studies.pictures.rows import Rows
 from fairlead.studies.sweeps.sampling import LEVELS, MISSING
 

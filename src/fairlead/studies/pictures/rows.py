@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fairlead.cases.row import FINISHED
 from fairlead.errors import UsageError, did_you_mean, listing, shown
-from fairlead.studies.cases.row import FINISHED
 from fairlead.studies.sweeps.table import read
 
 if TYPE_CHECKING:

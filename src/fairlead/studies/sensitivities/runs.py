@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.cases.cases import Cases
+from fairlead.cases.row import REFUSED, Row
 from fairlead.results.events import Event
-from fairlead.studies.cases.cases import Cases
-from fairlead.studies.cases.row import REFUSED, Row
 from fairlead.studies.sensitivities.parameters import Varied
 
 Floats = NDArray[np.float64]

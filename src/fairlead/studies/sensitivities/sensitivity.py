@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fairlead.arguments import Arguments
+from fairlead.cases.cases import Cases
+from fairlead.cases.figures import Function
 from fairlead.errors import FairleadError, Fault, ModelError
 from fairlead.quantities import quotient
-from fairlead.studies.cases.cases import Cases
-from fairlead.studies.cases.figures import Function
 from fairlead.studies.differences.steps import LADDER, NEAR, near, noise_of
 from fairlead.studies.sensitivities.derivative import derivative
 from fairlead.studies.sensitivities.parameters import PLACE, Varied, asked_parameters, defaults

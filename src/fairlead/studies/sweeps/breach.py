@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fairlead.studies.cases.row import FINISHED
+from fairlead.cases.row import FINISHED
 
 if TYPE_CHECKING:
     import pandas

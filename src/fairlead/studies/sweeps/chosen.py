@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from fairlead.cases.row import FINISHED, KILLED
 from fairlead.errors import UsageError, did_you_mean, listing, shown
-from fairlead.studies.cases.row import FINISHED, KILLED
 
 if TYPE_CHECKING:
     import pandas

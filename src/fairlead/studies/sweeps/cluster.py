@@ -18,8 +18,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from fairlead.cases.row import ERROR, KILLED, Row
 from fairlead.errors import FairleadError, UsageError
-from fairlead.studies.cases.row import ERROR, KILLED, Row
 from fairlead.studies.sweeps.farm import Case, Done
 from fairlead.studies.sweeps.job import Job
 from fairlead.studies.sweeps.parcel import Parcel

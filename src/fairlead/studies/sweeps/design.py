@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from fairlead.cases.row import Value
 from fairlead.errors import UsageError, listing
-from fairlead.studies.cases.row import Value
 from fairlead.studies.sweeps.distributions import Distribution
 from fairlead.studies.sweeps.sampling import points
 

@@ -17,8 +17,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from fairlead.cases.row import KILLED, Row, Value
 from fairlead.errors import FairleadError
-from fairlead.studies.cases.row import KILLED, Row, Value
 from fairlead.studies.sweeps.job import Job
 
 AHEAD = 3

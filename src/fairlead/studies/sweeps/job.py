@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from fairlead.studies.cases.identity import key_of
-from fairlead.studies.cases.row import ERROR, FINISHED, Row, Value
+from fairlead.cases.identity import key_of
+from fairlead.cases.row import ERROR, FINISHED, Row, Value
 
 
 class Job(Protocol):

@@ -9,10 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from fairlead.cases.cases import Cases
+from fairlead.cases.identity import named_files
 from fairlead.errors import UsageError
 from fairlead.simulate import Model
-from fairlead.studies.cases.cases import Cases
-from fairlead.studies.cases.identity import named_files
 from fairlead.studies.sweeps.job import Job
 
 Files = Mapping[str, bytes]

@@ -17,12 +17,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from fairlead.cases.figures import Function
 from fairlead.errors import Fault, Location, ModelError, UsageError, listing, shown
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.settings import Count, Strict
 from fairlead.netlist.translate import validate
 from fairlead.netlist.yaml12 import read_yaml
-from fairlead.studies.cases.figures import Function
 from fairlead.studies.sweeps.design import Design, Sample
 from fairlead.studies.sweeps.distributions import Distribution, read_distribution
 from fairlead.studies.sweeps.functions import FromFile

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from fairlead.studies.cases.row import FINISHED, Row, Value
+from fairlead.cases.row import FINISHED, Row, Value
 from fairlead.studies.sweeps.design import Design
 from fairlead.studies.sweeps.farm import Case, Farm, Here
 from fairlead.studies.sweeps.job import Job

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fairlead.cases.row import COUNTED, Row, Value
 from fairlead.errors import FairleadError, UsageError, listing, shown
-from fairlead.studies.cases.row import COUNTED, Row, Value
 from fairlead.studies.sweeps.ranges import column_of
 
 if TYPE_CHECKING:

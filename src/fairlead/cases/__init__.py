@@ -6,11 +6,11 @@ cases = Cases(fairlead.load("belt"), {"peak": "peak(block.x)"})
 for force in ("8 N", "10 N", "12 N"):
     print(cases.row({"pad.normal_force": force}).figures["peak"])
 
-The public name of `studies.cases`, at the top so that it stays where users import it from when rooms move. It imports
-`studies` for that reason, and nothing in the package imports it.
+Owner of what a figure is (`figures.py`, `values_of.py`), what a row holds (`row.py`), and what a case is known by
+(`identity.py`). Contract: `Cases.row(values)` never raises for what happens in a run; it writes no file.
 """
 
-from fairlead.studies.cases.cases import Cases
-from fairlead.studies.cases.row import Row
+from fairlead.cases.cases import Cases
+from fairlead.cases.row import Row
 
 __all__ = ["Cases", "Row"]

@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.cases.figures import Figure, Function, default_figures, read_figures
+from fairlead.cases.identity import key_of, scene_digest
+from fairlead.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
+from fairlead.cases.values_of import value_of
 from fairlead.errors import FairleadError, ModelError
 from fairlead.netlist.settings import RecordSettings
 from fairlead.run import run
-from fairlead.studies.cases.figures import Figure, Function, default_figures, read_figures
-from fairlead.studies.cases.identity import key_of, scene_digest
-from fairlead.studies.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
-from fairlead.studies.cases.values_of import value_of
 
 if TYPE_CHECKING:
     from fairlead.result import Result

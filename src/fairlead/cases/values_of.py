@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.record.extremes import peak_of_curves
 from fairlead.analysis.record.step_rows import INSIDE, ORDINARY, curved_steps
+from fairlead.cases.figures import Figure
 from fairlead.patterns import matcher
 from fairlead.result import Result
-from fairlead.studies.cases.figures import Figure
 
 POINTS = {1: 3, 2: 5}
 """Of Gauss and Legendre's rule, by the power of the signal: exact for the dense output, which has degree 4."""
