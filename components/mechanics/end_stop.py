@@ -1,5 +1,7 @@
 """Stops at both ends of a travel."""
 
+from fairlead.components.mechanics.play import pressed
+
 from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
 
 
@@ -38,10 +40,8 @@ class EndStop(Component):
     def touched(p, a, b, zone):
         """Spring and damper of the stop."""
         d, at = (1, p.upper) if zone == "upper" else (-1, p.lower)
-        deep, rate = d * (b.x - a.x - at), d * (b.v - a.v)
-        force = d * p.stiffness * deep * (1 + p.damping * rate)
-        return Law(a=-force, b=force, travel=b.x - a.x, force=force, stored=p.stiffness * deep**2 / 2,
-                   dissipated=p.stiffness * p.damping * deep * rate**2)  # fmt: skip
+        size, stored, lost = pressed(p, d * (b.x - a.x - at), d * (b.v - a.v))
+        return Law(a=-d * size, b=d * size, travel=b.x - a.x, force=d * size, stored=stored, dissipated=lost)
 
     @guard("free", to="upper", unit="m")
     def hits_upper(p, a, b):

@@ -1,5 +1,7 @@
 """Play between shafts: stiff teeth with a gap between them."""
 
+from fairlead.components.mechanics.play import pressed
+
 from fairlead.component import Component, Law, Output, Parameter, Rotational, Zones, guard, zone
 
 
@@ -30,13 +32,11 @@ class Backlash(Component):
         return Law(a=0, b=0, torque=0, size=0)
 
     @zone("drive", "reverse")
-    def touching(p, a, b, zone):
+    def touching(p, a, b, direction):
         """Spring and damper of the teeth."""
-        d = 1 if zone == "drive" else -1
-        deep, rate = d * (a.angle - b.angle) - p.play / 2, d * (a.speed - b.speed)
-        size = p.stiffness * deep * (1 + p.damping * rate)
-        return Law(a=d * size, b=-d * size, torque=d * size, size=size, stored=p.stiffness * deep**2 / 2,
-                   dissipated=p.stiffness * p.damping * deep * rate**2)  # fmt: skip
+        d = direction
+        size, stored, lost = pressed(p, d * (a.angle - b.angle) - p.play / 2, d * (a.speed - b.speed))
+        return Law(a=d * size, b=-d * size, torque=d * size, size=size, stored=stored, dissipated=lost)
 
     @guard("gap", to="drive", unit="rad", mirrored="meets_backward")
     def meets_forward(p, a, b, direction):

@@ -1,5 +1,7 @@
 """Stops at both ends of a turn."""
 
+from fairlead.components.mechanics.play import pressed
+
 from fairlead.component import Component, Law, Output, Parameter, Rotational, Zones, guard, zone
 
 
@@ -37,10 +39,9 @@ class RotationalStop(Component):
     @zone("upper", "lower")
     def touched(p, a, b, direction):
         """Spring and damper of the stop."""
-        deep, rate = beyond(p, a, b, direction), direction * (b.speed - a.speed)
-        torque = direction * p.stiffness * deep * (1 + p.damping * rate)
-        return Law(a=-torque, b=torque, turn=b.angle - a.angle, torque=torque, stored=p.stiffness * deep**2 / 2,
-                   dissipated=p.stiffness * p.damping * deep * rate**2)  # fmt: skip
+        size, stored, lost = pressed(p, beyond(p, a, b, direction), direction * (b.speed - a.speed))
+        torque = direction * size
+        return Law(a=-torque, b=torque, turn=b.angle - a.angle, torque=torque, stored=stored, dissipated=lost)
 
     @guard("free", to="upper", unit="rad", mirrored="hits_lower")
     def hits_upper(p, a, b, direction):

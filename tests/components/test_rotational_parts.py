@@ -1,12 +1,14 @@
 """The rotational parts of models/single_parts against closed forms of their scenes, and of cousins of these."""
 
 import pathlib
+import re
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 import fairlead
+from fairlead.errors import ModelError
 
 SCENES = pathlib.Path(__file__).parents[2] / "models" / "single_parts"
 
@@ -154,3 +156,132 @@ def test_sensors_of_power_tell_torque_times_speed_of_what_settles():
     assert result["twist.angle"][-1] == pytest.approx(-3 / 100, rel=1e-4)
     assert result["scale.power"][-1] == pytest.approx(-196.2, rel=1e-4)  # it flows from the hook to the rope
     assert result["stretch.x"][-1] == pytest.approx(196.2 / 1e4, rel=1e-4)
+
+
+HOIST = 0.1 / 30  # m; way of the load for a turn of the motor by one radian
+WEIGHT = 784.8
+
+
+def with_motor(simulate, name, table, **settings):
+    """A scene of models/single_parts whose motor has another table of torques."""
+    text = (SCENES / f"{name}.yaml").read_text(encoding="utf-8").split(f"name: {name}\n")[1]
+    text = re.sub(r"\{table: .*\]\]\}", f"{{table: {table}}}", text, count=1)
+    return simulate(text, **{"run.accuracy": "1e-6", **settings})
+
+
+@pytest.mark.parametrize("efficiency", [0.45, pytest.param(0.3, marks=pytest.mark.slow)])
+def test_a_gear_of_less_than_half_keeps_the_load_and_lifts_at_its_share(simulate, efficiency):
+    """It lifts at W k/eta + bearing, stops after the motor, and lets down at (1/eta - 2) W k + bearing."""
+    table = "[[0 s, 0], [1 s, 20 N*m], [1.01 s, 0], [2 s, 0], [4 s, -20 N*m]]"
+    result = with_motor(simulate, "lossy_gear", table, **{"gear.efficiency": efficiency, "run.stop": "3.5 s"})
+    lifts, lowers = WEIGHT * HOIST / efficiency + 0.1, WEIGHT * HOIST * (1 / efficiency - 2) + 0.1
+    assert switched(result, "gear.rubbing.contact", "forward") == pytest.approx(lifts / 20, rel=1e-5)
+    assert switched(result, "gear.rubbing.contact", "backward") == pytest.approx(2 + lowers / 10, rel=1e-5)
+    assert result.run["energy"]["closure"] < 1e-6
+
+
+@pytest.mark.parametrize("back", [0.6, 0.01, 0.0, pytest.param(-0.5, marks=pytest.mark.slow)])
+def test_a_load_drives_a_gear_back_with_its_share_and_not_below_none(back):
+    """(J + eta m k^2) w' = eta W k, where eta is positive."""
+    result = run("lossy_gear", **{"gear.efficiency": "0.8", "gear.efficiency_back": str(back), "gear.bearing": "0 N*m",
+                                  "motor.torque": "0 N*m", "run.stop": "1 s"})  # fmt: skip
+    falls = back * WEIGHT * HOIST / (0.05 + back * 80 * HOIST**2) * HOIST if back > 0 else 0
+    assert result["load.x"][-1] == pytest.approx(-falls / 2, rel=1e-5, abs=1e-12)
+
+
+BY_SPEED = """
+    components:
+      motor: {type: TorqueSource, torque: 2 N*m}
+      rotor: {type: Inertia, moment: 0.01 kg*m^2, speed: 0}
+      gear: {type: LossyGear, ratio: -0.5, efficiency_points: [[0, 1], [100 rad/s, 0.5]],
+             bearing_points: [[0, 0], [100 rad/s, 1 N*m]]}
+      load: {type: TorqueSource, torque: 2 N*m}
+      drum: {type: Inertia, moment: 0.01 kg*m^2}
+    connections: [[motor.shaft, rotor.shaft, gear.a], [gear.b, drum.shaft, load.shaft]]
+    run: {stop: 8 s, accuracy: 1e-6}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_a_gear_whose_losses_depend_on_speed_runs_at_their_balance(engine, simulate):
+    """With eta = 1 - w/200 and a bearing of w/100 a motor of 2 against a load of 1 N m settles at a root of both."""
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    result = simulate(BY_SPEED, **{"run.engine": engine})
+    steady = brentq(lambda w: (2 - w / 100) * (1 - w / 200) - 1, 0, 100)
+    assert result["rotor.speed"][-1] == pytest.approx(steady, rel=1e-3)  # `slow` is 1e-3 rad/s
+    assert result["drum.speed"][-1] == pytest.approx(-steady / 2, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_a_square_thread_is_a_lossy_gear_of_its_efficiencies(simulate):
+    """Two formulations: the flanks of a screw, and the shares of a gear that has them both ways."""
+    slope, mu = 0.02 / (2 * np.pi * 0.01), 0.1
+    up, down = slope * (1 - mu * slope) / (slope + mu), (slope - mu) / (slope * (1 + mu * slope))
+    table = "[[0 s, 0], [0.5 s, 10 N*m], [1 s, 0]]"
+    common = {"rotor.moment": "2e-3 kg*m^2", "run.stop": "1.5 s"}
+    screw = with_motor(simulate, "lead_screw", table, **common, **{
+        "thread.lead": "20 mm", "thread.half_angle": 0, "load.mass": "80 kg", "weight.force": "-784.8 N"})  # fmt: skip
+    gear = with_motor(simulate, "lossy_gear", table, **common, **{
+        "drum.radius": f"{0.6 / (2 * np.pi)} m", "gear.bearing": "0 N*m", "gear.efficiency": up,
+        "gear.efficiency_back": down})  # fmt: skip
+    times = np.linspace(0, 1.5, 31)
+    assert np.abs(screw["load.x"]).max() > 0.1
+    assert np.allclose(screw.at("load.x", times), gear.at("load.x", times), atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "says"),
+    [
+        ("[[0, 1]", "[[0, 1.2]", "a share is 1.2"),
+        ("ratio", "efficiency: 0.9, ratio", "give either efficiency or efficiency_points"),
+        ("1 N*m]", "-0.2 N*m]", "a torque is -0.2 N*m"),
+    ],
+)
+def test_losses_that_cannot_be_are_refused(scene, was, now, says):
+    with pytest.raises(ModelError, match=re.escape(says)):
+        scene(BY_SPEED.replace(was, now, 1)).check()
+
+
+def test_a_chain_is_taut_after_its_slack_and_carries_the_torque_over_its_radius():
+    result = run("chain_drive", **{"chain.damping": "20 s/m", "run.stop": "1 s"})
+    small, large = 19 * 0.0127 / (2 * np.pi), 57 * 0.0127 / (2 * np.pi)
+    crossed = np.sqrt(2 * 0.0025 / small / (10 / 0.05))
+    assert switched(result, "chain.strands", "drive") == pytest.approx(crossed, rel=1e-5)
+    turns = 10 / (0.05 + 0.9 / 9)  # of the rotor, together with the wheel
+    assert result.at("rotor.speed", 1.0) - result.at("rotor.speed", 0.9) == pytest.approx(0.1 * turns, rel=1e-3)
+    ran = result.at("rotor.speed", 0.95) * small
+    assert result.at("chain.upper", 0.95) == pytest.approx(0.9 * turns / 3 / large + 0.7 * ran**2, rel=2e-3)
+    assert result.at("chain.lower", 0.95) == pytest.approx(0.7 * ran**2, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_chain_is_a_gear_with_backlash(simulate):
+    chain = run("chain_drive")
+    large = 57 * 0.0127 / (2 * np.pi)
+    table = "[[0 s, 10 N*m], [1 s, 10 N*m], [1.001 s, -10 N*m], [2 s, -10 N*m]]"
+    teeth = simulate(f"""
+        components:
+          motor: {{type: TorqueSource, torque: {{table: {table}}}}}
+          rotor: {{type: Inertia, moment: 0.05 kg*m^2, speed: 0}}
+          gear: {{type: Gear, ratio: "{{1/3}}"}}
+          teeth: {{type: Backlash, stiffness: {5e5 * large**2}, damping: {large}, play: {0.005 / large}}}
+          wheel: {{type: Inertia, moment: 0.9 kg*m^2, speed: 0}}
+        connections: [[motor.shaft, rotor.shaft, gear.a], [gear.b, teeth.a], [teeth.b, wheel.shaft]]
+        run: {{stop: 2 s, accuracy: 1e-6}}
+    """)
+    times = np.linspace(0, 2, 41)
+    assert np.allclose(chain.at("wheel.speed", times), teeth.at("wheel.speed", times), atol=1e-4)
+
+
+def test_shafts_go_to_an_angle_and_with_a_speed_that_signals_tell():
+    result = run("motion_by_signal")
+    assert result.at("valve.angle", 0.08) == pytest.approx(follows_a_ramp(3, 0.08, 0.02), rel=1e-5)
+    assert result.at("spindle.speed", 0.1) == pytest.approx(2 * (1 - np.exp(-2)), rel=1e-6)
+    assert result.at("spindle.torque", 0.1) == pytest.approx(0.2 * 2 * (1 - np.exp(-2)), rel=1e-5)
+
+
+def follows_a_ramp(slope, t, lag):
+    """Where two lags of the same size are at t on the way after a ramp that begins at 0."""
+    return slope * (t - 2 * lag + np.exp(-t / lag) * (2 * lag + t))

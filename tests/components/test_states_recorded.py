@@ -12,6 +12,9 @@ from fairlead.component import Component
 TOLD_BY = {
     "Capacitor": {"charged": "voltage"}, "FilteredDerivative": {"slow": "filtered"}, "Inductor": {"flowing": "current"},
     "Integrator": {"gathered": "signal"}, "SampleHold": {"kept": "signal"}, "SignalDelay": {"signal": "signal"},
+    "AccelerationActuator": {"place": "x", "moving": "v"}, "AngleActuator": {"place": "angle", "moving": "speed"},
+    "PositionActuator": {"place": "x", "moving": "v"}, "SpeedActuator": {"place": "angle", "moving": "speed"},
+    "VelocityActuator": {"place": "x", "moving": "v"},
     "SecondOrder": {"told": "signal", "rate": "slope"},
     "Accumulator": {"log_pressure": "level"}, "Bristle": {"moved": "slid"}, "CavitatingVolume": {"empty": "void"},
     "Chamber": {"oil": "level", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},

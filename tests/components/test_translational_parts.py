@@ -4,6 +4,7 @@ import pathlib
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import fairlead
 
@@ -65,3 +66,47 @@ def test_a_sledge_comes_to_rest_or_slides_back(angle, stays):
     else:
         assert result["sledge.v"][-1] == pytest.approx(5 + 3 * G * (np.sin(-a) - 0.2 * np.cos(a)), rel=1e-4)
     assert stays == (abs(result["sledge.v"][-1]) < 1e-9)
+
+
+def test_a_flange_goes_where_and_as_signals_tell():
+    result = run("motion_by_signal")
+    t, lag = 0.08, 0.02
+    ramp = 3 * (t - 2 * lag + np.exp(-t / lag) * (2 * lag + t))
+    assert result.at("table.x", t) == pytest.approx(ramp, rel=1e-5)
+    assert result.at("belt.x", 1.0) == pytest.approx(2 * (1 - 0.05 * (1 - np.exp(-20))), rel=1e-6)
+    assert result.at("belt.force", 0.1) == pytest.approx(2 * 2 / 0.05 * np.exp(-2), rel=1e-5)
+    assert result.at("shaker.x", 1.0) == pytest.approx(8 / (2 * np.pi), rel=1e-6)
+    assert result["parcel.x"][-1] == pytest.approx(0.3, abs=1e-4)
+
+
+def rebound(speed, mass, stiffness, damping):
+    """Speed at which a mass leaves an ElasticGap without weight, piece by piece."""
+
+    def until(law, x, v, ends):
+        ends.terminal = True
+        said = solve_ivp(lambda t, y: (y[1], -law(*y) / mass), (0, 1), (x, v), events=ends, rtol=1e-10, atol=1e-13)
+        return said.y[:, -1]
+
+    x, v = 0.0, speed
+    if damping > 0:
+        x, v = until(lambda x, v: 2 * stiffness * x, x, v, lambda t, y: damping * y[1] - stiffness * y[0])
+    x, v = until(lambda x, v: stiffness * x + damping * v, x, v, lambda t, y: stiffness * y[0] + damping * y[1])
+    return -v  # it opens: nothing acts any more
+
+
+@pytest.mark.parametrize("damping", [40, *(pytest.param(d, marks=pytest.mark.slow) for d in (5, 150))])
+def test_a_ball_leaves_an_elastic_gap_with_the_speed_of_its_pieces(damping):
+    result = run("elastic_gap", **{"bump.damping": f"{damping} N*s/m", "weight.force": "0 N",
+                                   "ball.velocity": "-2 m/s"})  # fmt: skip
+    assert result["ball.v"][-1] == pytest.approx(rebound(2, 0.5, 2e4, damping), rel=1e-5)
+    assert result["bump.force"].min() >= 0
+
+
+@pytest.mark.slow
+def test_a_pin_crosses_its_play_before_it_drives():
+    """Half the play ahead the pin meets; where it turns the slide, without inertia to speak of, stays."""
+    result = run("elastic_gap")
+    table = result.switches().to_pandas()
+    meets = float(table["first"][(table["component"] == "pin") & (table["zone_to"] == "drive")].min())
+    assert 0.01 * np.sin(2 * np.pi * meets) == pytest.approx(0.002, rel=1e-5)
+    assert result.at("slide.x", 0.3) == pytest.approx(0.008, rel=5e-3)

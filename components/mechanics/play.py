@@ -1,0 +1,129 @@
+"""Play and gaps along a line: what pushes or pulls only when it touches."""
+
+from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
+
+
+def pressed(p, deep, rate):
+    """Force of what is pressed in by `deep`, energy stored and power dissipated: a spring whose damping grows with it.
+
+    Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring; of stops, teeth and strands, along a
+    line as of a shaft.
+    """
+    spring = p.stiffness * deep
+    return spring * (1 + p.damping * rate), spring * deep / 2, spring * p.damping * rate**2
+
+
+def beyond(p, a, b, direction):
+    """The play is used up."""
+    return direction * (a.x - b.x) - p.play / 2
+
+
+def within(p, a, b, direction):
+    """It is within its play again."""
+    return p.play / 2 - direction * (a.x - b.x)
+
+
+class Loose(Component, abstract=True):
+    """Half-model of what is loose between two points: nothing is carried while a is within half a play of b."""
+
+    transmits = True  # in steady motion its ends move alike
+    a = Translational("driving side")
+    b = Translational("driven side")
+    stiffness = Parameter("N/m", "Of what is in contact.", above=0)
+    damping = Parameter("s/m", "Share of the force that is added per speed of approach.", default=10.0, least=0)
+    play = Parameter("m", "Way that b can go while a stands still.", least=0)
+    zones = Zones("gap", "drive", "reverse", forward=["drive"], backward=["reverse"])
+    meets_forward = guard("gap", to="drive", unit="m", mirrored="meets_backward")(beyond)
+    parts_forward = guard("drive", to="gap", unit="m", mirrored="parts_backward")(within)
+
+
+class Play(Loose):
+    """Play between two points of one speed, as of a pin in its hole: nothing is carried within it.
+
+    drive     a ahead of b by play/2 + d    force = stiffness d (1 + damping dd/dt), drives b forward
+    gap                                     force = 0
+    reverse   a behind b                    the same, backward
+
+    The force begins and ends with d (Hunt and Crossley 1975), as that of a Backlash, its twin of shafts.
+    """
+
+    force = Output("N", "Force carried from a to b, positive forward.")
+
+    @zone("gap")
+    def loose(p, a, b):
+        """Nothing touches."""
+        return Law(a=0, b=0, force=0)
+
+    @zone("drive", "reverse")
+    def touching(p, a, b, direction):
+        """Spring and damper of what touches."""
+        force, stored, lost = pressed(p, beyond(p, a, b, direction), direction * (a.v - b.v))
+        return Law(a=direction * force, b=-direction * force, force=direction * force, stored=stored, dissipated=lost)
+
+
+class ElasticGap(Component):
+    """Two bodies that push each other apart when b is nearer to a than `length`, with linear damping that is limited.
+
+    free       b.x - a.x > length      force = 0
+    pressed    nearer by d             force = stiffness d + damping dd/dt
+    closing    damping dd/dt > stiffness d            force = 2 stiffness d
+    opening    -damping dd/dt > stiffness d           force = 0
+
+    The damping is never more than the spring gives, so the force begins at zero and never pulls. Damping that grows
+    with the deflection, and stops at both ends, have EndStop and Play.
+
+    Source: ElastoGap of the Modelica Standard Library (Modelica.Mechanics.Translational.Components).
+    """
+
+    a = Translational("the one behind")
+    b = Translational("the one in front")
+    length = Parameter("m", "Distance at which they touch.", default=0.0)
+    stiffness = Parameter("N/m", "Of the contact.", above=0)
+    damping = Parameter("N*s/m", "Force per speed of approach, up to that of the spring.", default=0.0, least=0)
+    force = Output("N", "Force that pushes them apart, never negative.")
+    gap = Output("m", "b.x - a.x - length.")
+    zones = Zones("free", "pressed", "closing", "opening")
+
+    @zone("free", "pressed", "closing", "opening")
+    def elastic(p, a, b, zone):
+        """The spring, and what damping adds to it."""
+        deep, rate = inward(p, a, b), a.v - b.v
+        spring = p.stiffness * deep if zone != "free" else 0
+        damper = {"pressed": p.damping * rate, "closing": spring, "opening": -spring}.get(zone, 0)
+        return Law(a=spring + damper, b=-spring - damper, force=spring + damper, gap=-deep,
+                   stored=spring * deep / 2, dissipated=damper * rate)  # fmt: skip
+
+    @guard("free", to="pressed", unit="m")
+    def touches(p, a, b):
+        """They touch."""
+        return inward(p, a, b)
+
+    @guard("*", to="free", unit="m")
+    def parts(p, a, b):
+        """They part."""
+        return -inward(p, a, b)
+
+    @guard("pressed", to="closing", unit="N")
+    def comes_fast(p, a, b):
+        """Damping would give more than the spring."""
+        return p.damping * (a.v - b.v) - p.stiffness * inward(p, a, b)
+
+    @guard("closing", to="pressed", unit="N")
+    def comes_slowly(p, a, b):
+        """The spring gives more than damping."""
+        return p.stiffness * inward(p, a, b) - p.damping * (a.v - b.v)
+
+    @guard("pressed", to="opening", unit="N")
+    def goes_fast(p, a, b):
+        """Damping would pull more than the spring pushes."""
+        return -p.damping * (a.v - b.v) - p.stiffness * inward(p, a, b)
+
+    @guard("opening", to="pressed", unit="N")
+    def goes_slowly(p, a, b):
+        """The spring pushes more than damping would pull."""
+        return p.stiffness * inward(p, a, b) + p.damping * (a.v - b.v)
+
+
+def inward(p, a, b):
+    """How much nearer they are than at their touch [m]."""
+    return a.x + p.length - b.x
