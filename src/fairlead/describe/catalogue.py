@@ -21,12 +21,12 @@ from fairlead.describe.specimen import families_of
 
 BUNDLED = "fairlead.components."
 INNARDS = frozenset((
-    "BearingLoad", "BeltSpans", "CavitatingVolume", "Chamber", "Clamp", "ClampLoad", "Core", "CurrentLimit",
-    "Dancer", "Drum", "FarNode", "Flank", "FlankLoad", "Hose", "LaidOn", "LateralLoad", "LeverArm", "LineWeight",
-    "LoadLoss", "LoopedCore", "LoopedHose", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
+    "BearingLoad", "BeltSpans", "CavitatingVolume", "Chamber", "ChainStrands", "Clamp", "ClampLoad", "Core",
+    "CurrentLimit", "Dancer", "Drum", "FarNode", "Flank", "FlankLoad", "Hose", "LaidOn", "LateralLoad", "LeverArm",
+    "LineWeight", "LoadLoss", "LoopedCore", "LoopedHose", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
     "PlanarContact", "PressedLoad", "Pressing", "Registration", "RelaxingHose", "RoundLoad", "RuckingHose",
     "SeaDrag", "SealForce", "StoredNode", "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "ToothLoad",
-    "Tow", "Turning", "TwistElement", "Untouched", "WatchedHose", "WoundNode",
+    "ToothLoss", "Tow", "Turning", "TwistElement", "Untouched", "WatchedHose", "WoundNode",
 ))  # fmt: skip
 """Bundled types that other types are made of, and that a netlist hardly names; limits of effects are so anyway."""
 
