@@ -75,6 +75,7 @@ class ElasticGap(Component):
     Source: ElastoGap of the Modelica Standard Library (Modelica.Mechanics.Translational.Components).
     """
 
+    asked_with = {"stiffness": 1.0, "damping": 1.0}  # or no random motion would be fast, or slow, enough
     a = Translational("the one behind")
     b = Translational("the one in front")
     length = Parameter("m", "Distance at which they touch.", default=0.0)
