@@ -55,6 +55,8 @@ class Station(_Entry):
     curvature: FiniteFloat | None
     contact: str | None
     moves: bool
+    friction: Annotated[tuple[FiniteFloat, FiniteFloat], Field(strict=False)] | None = None
+    squeeze: FiniteFloat | None = None
 
 
 class Route(_Entry):
@@ -70,6 +72,8 @@ class Route(_Entry):
     stations: list[Station]
     rigid_from: FiniteFloat | None = None
     places: Annotated[list[FiniteFloat], Field(max_length=MOST_NODES)] = []
+    stiffnesses: list[FiniteFloat] = []
+    inner_friction: Annotated[tuple[FiniteFloat, FiniteFloat], Field(strict=False)] | None = None
 
 
 class Limit(_Entry):

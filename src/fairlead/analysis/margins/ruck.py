@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from fairlead.analysis.margins.ruck_cause import cause
 from fairlead.results import Result
 from fairlead.results.run_file import RUN_FILE
 from fairlead.results.run_schema import routes
@@ -16,6 +17,7 @@ BEYOND = ("beyond", "rucking")
 def verdicts(result: Result) -> list[dict[str, Any]]:
     """A verdict for each line with a `ruck_force`: `rucks`, `t` [s], `element`, `along` [m], `station`, `margin`.
 
+    `cause` is what the bend at its place does there (`ruck_cause.py`), None where that cannot be told.
     `margin` is what it bears over the most it had; None where tensions were not recorded, infinity (null in run.json)
     where it was never compressed. Raises DamagedResultsError.
     """
@@ -38,6 +40,7 @@ def _verdict(result: Result, record: dict[str, Any]) -> dict[str, Any]:
         made |= {"rucks": True, "t": first.t, "element": int(first.component.rpartition("[")[2].rstrip("]"))}
     if made["element"] is not None:
         made |= _place(result, record, made["element"], made["t"])
+        made["cause"] = cause(result, record, made)
     return made
 
 

@@ -19,11 +19,7 @@ TIMES = {"compile_time": "reading and compiling", "solve_time": "stepping", "wal
 def slow_data(result: Result) -> dict[str, Any]:
     """A sentence, the busiest parts and kinds with their share of all zone changes, and the text of a profile."""
     run = result.run
-    counts = Counter(event.component for event in result.events)
-    zones: dict[str, set[str]] = defaultdict(set)
-    for event in result.events:
-        zones[event.component] |= {event.zone_from, event.zone_to}
-    kinds = Counter(family(event.component)[0] for event in result.events)
+    counts, kinds, zones = _counted(result)
     total = counts.total()
     return {
         "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(counts, total), "kinds": _rows(kinds, total),
@@ -43,6 +39,45 @@ def _rest(run: Mapping[str, Any]) -> list[tuple[str, float]]:
 def _rows(counts: Counter[str], total: int) -> list[dict[str, Any]]:
     most = counts.most_common(MOST_ROWS)
     return [{"name": name, "count": n, "share": n / total, "bar": n / most[0][1]} for name, n in most]
+
+
+def slowest(result: Result) -> str:
+    """Which contact, and which kinds of part, ended most steps; empty where nothing changed zone."""
+    counts, kinds, zones = _counted(result)
+    total = counts.total()
+    if not total:
+        return ""
+    roles = _roles(result)
+    first = kinds.most_common(2)
+    told = " and ".join(f"{name}{roles.get(name, '')} {100 * n / total:.0f} %" for name, n in first)
+    sticks = next((name for name, _ in counts.most_common() if "stuck" in map(meaning, zones[name])), None)
+    contact = (
+        f"The contact that changed zone most often is {sticks}{roles.get(family(sticks)[0], '')}: {counts[sticks]} of "
+        f"{total} zone changes. " if sticks else ""
+    )
+    steps = f" {result.run['steps']} steps were needed in all." if result.run.get("steps") else ""
+    return f"{contact}By kind of part it is {told}. A step ends at each change, and short ones follow.{steps}"
+
+
+def _counted(result: Result) -> tuple[Counter[str], Counter[str], dict[str, set[str]]]:
+    """Zone changes by part and by kind, and the zones of each part."""
+    zones: dict[str, set[str]] = defaultdict(set)
+    for event in result.events:
+        zones[event.component] |= {event.zone_from, event.zone_to}
+    counts = Counter(event.component for event in result.events)
+    return counts, Counter(family(event.component)[0] for event in result.events), zones
+
+
+def _roles(result: Result) -> dict[str, str]:
+    """What the kinds of part of a line are, for those who do not know their names."""
+    found = {}
+    for record in result.run.get("routes") or ():
+        line, layers = record["line"], record["layers"]
+        if len(layers) > 1:
+            found[f"{line}.inner[*]"] = f" ({layers[1]} on {layers[0]})"
+        found[f"{line}.outer[*]"] = " (line on its devices)"
+        found |= {f"{line}.{layer}[*]": f" (elements of the {layer})" for layer in layers}
+    return found
 
 
 def _sentence(

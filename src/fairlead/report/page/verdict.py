@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fairlead.analysis.margins.ruck import sentence as of_ruck
 from fairlead.analysis.margins.ruck import verdicts
+from fairlead.analysis.margins.ruck_cause import why
 from fairlead.analysis.record.reported import told
 from fairlead.analysis.treatments.friction_record import sentence as of_friction
-from fairlead.report.page.zones import meaning, starts
+from fairlead.report.page.slow import slowest
 
 if TYPE_CHECKING:
-    from fairlead.results import Result
+    from fairlead.results import Event, Result
 
 CLOSED = 1e-2
 """Energy that may be missing before a reader is told to look: a hundredth of what passed."""
@@ -24,18 +24,24 @@ CLOSE = 0.05
 
 
 class Sentence(NamedTuple):
-    """One line of the verdict."""
+    """One line of the verdict; `points` are more sentences, each with the word for what it is about."""
 
     about: str
     mood: str
     text: str
+    points: Sequence[tuple[str, str]] = ()
+
+    @property
+    def worth(self) -> bool:
+        """True for what tells how far the numbers can be trusted; it is folded away where nothing is wrong."""
+        return self.about in ("Against statics", "Energy", "Worst creep", "Accuracy")
 
 
 def verdict(result: Result) -> list[Sentence]:
-    """All that is known of how a run went. The first is whether it finished."""
+    """All that is known of how a run went: what broke first, then what it cost and what its numbers are worth."""
     run = result.run
-    return [*_finished(run), *_ruck(result), *_limits(run), *_statics(run), *_energy(run), *_creep(run),
-            *_accuracy(run), *_remarks(run)]  # fmt: skip
+    return [*_ruck(result), *_limits(run), *_finished(run), *_slow(result), *_statics(run), *_energy(run),
+            *_creep(run), *_accuracy(run), *_remarks(run)]  # fmt: skip
 
 
 def _finished(run: dict[str, Any]) -> Iterator[Sentence]:
@@ -54,53 +60,53 @@ def _finished(run: dict[str, Any]) -> Iterator[Sentence]:
 def _ruck(result: Result) -> Iterator[Sentence]:
     found = result.run.get("ruck")
     for one in verdicts(result) if found is None else found:
-        why = f" {_extent(result, one)} {_why(result, one)}".rstrip() if one["rucks"] else ""
-        yield Sentence("The hose rucks" if one["rucks"] else "No ruck", "bad" if one["rucks"] else "good",
-                       f"{_sentence(of_ruck(one))}{why}")  # fmt: skip
+        if not one["rucks"]:
+            yield Sentence("No ruck", "good", f"{_sentence(of_ruck(one))}", why(one))
+            continue
+        margin = f", a margin of {one['margin']:.2g}" if one.get("margin") else ""
+        yield Sentence("The hose rucks", "bad",
+                       f"{one['line']} is compressed by more than the {_number(one['ruck_force'])} N that it bears"
+                       f"{margin}.", [*_points(result, one), *why(one)])  # fmt: skip
+
+
+def _points(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
+    """When, where, how much and why a line rucks, a sentence or two each."""
+    route = f", {_number(found['place'])} m on the route" if found.get("place") is not None else ""
+    station = f" on {found['station']}" if found.get("station") else ""
+    where = f"First in element {found['element']}{station}"
+    where += f" ({_number(found['along'])} m along the line{route})." if found.get("along") is not None else "."
+    compressed = f" The greatest compression is {_number(found['compressed'])} N." if found.get("compressed") else ""
+    return [
+        ("When", f"First at t = {_number(found['t'])} s.{_last(result, found)}"), ("Where", where),
+        ("How much", f"{_extent(result, found)}{compressed}".strip()),
+    ]  # fmt: skip
+
+
+def _mine(result: Result, found: dict[str, Any]) -> list[Event]:
+    """Every beginning of a ruck in a line."""
+    return [one for one in result.events if one.component.startswith(f"{found['line']}.") and one.zone_to in BEYOND]
+
+
+def _last(result: Result, found: dict[str, Any]) -> str:
+    mine = _mine(result, found)
+    return f" The last element begins at t = {_number(mine[-1].t)} s." if len(mine) > 1 else ""
 
 
 def _extent(result: Result, found: dict[str, Any]) -> str:
-    """How much of the line rucks, and over what time."""
-    mine = [one for one in result.events if one.component.startswith(f"{found['line']}.") and BEYOND & {one.zone_to}]
-    who = {one.component for one in mine}
+    """How much of the line rucks."""
+    who = {one.component for one in _mine(result, found)}
     most, now = 0, set[str]()
     for one in result.events:
         if one.component in who:
             now = now | {one.component} if one.zone_to in BEYOND else now - {one.component}
             most = max(most, len(now))
-    return (
-        f"In the whole run {len(who)} elements ruck at some time, {most} at once at most; "
-        f"the last of them begins at t = {mine[-1].t:.4g} s."
-    ) if mine else ""
+    return f"{len(who)} elements ruck at some time, at most {most} at once." if who else ""
 
 
-def _why(result: Result, found: dict[str, Any]) -> str:
-    """What the contacts of the hose did at the instant of the first ruck: counts, read from the zone changes."""
-    line, t = found["line"], found["t"]
-    zones = _zones_at(result, t)
-    drags = Counter(meaning(zone) for name, zone in zones.items() if name.startswith(f"{line}.outer"))
-    inner = Counter(meaning(zone) for name, zone in zones.items() if name.startswith(f"{line}.inner["))
-    sliding = drags["forward"] + drags["backward"]
-    loose, held = inner["forward"] + inner["backward"], inner["stuck"]
-    if not sliding + drags["stuck"] or not loose + held:
-        return ""
-    where = f" {found['station']}" if found.get("station") else " its devices"
-    return (
-        f"Why: at that instant the hose rubs on{where} at {sliding + drags['stuck']} places ({sliding} of them slide), "
-        f"and the core slides inside the hose at {loose} of {loose + held} pressed places: what drags the hose along "
-        "is weaker than what holds it back, so it is pushed together."
-    )
-
-
-def _zones_at(result: Result, t: float) -> dict[str, str]:
-
-
-    zones = starts(result.run)
-    for event in result.events:
-        if event.t > t:
-            break
-        zones[event.component] = event.zone_to
-    return zones
+def _slow(result: Result) -> Iterator[Sentence]:
+    said = slowest(result)
+    if said:
+        yield Sentence("What made it slow", "plain", said)
 
 
 def _limits(run: dict[str, Any]) -> Iterator[Sentence]:

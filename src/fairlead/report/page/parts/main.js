@@ -132,7 +132,7 @@ async function begin() {
   let later; new ResizeObserver(() => { clearTimeout(later); later = setTimeout(() => page.resized(), 80); }).observe($("stage"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
   signals(readable); zones(readable); maps(readable); links();
-  addEventListener("beforeprint", () => { for (const d of document.querySelectorAll("#scene details")) d.open = true; });
+  addEventListener("beforeprint", () => { for (const d of document.querySelectorAll("#scene details, details.worth")) d.open = true; });
   const ruck = readable[0].rucks[0]; clock.set(ruck ? ruck.t : clock.end * .4);
   document.body.dataset.ready = "yes";
 }

@@ -1,0 +1,168 @@
+"""Why a hose rucks, or does not: what the device at its place takes out of the line, and who bears it.
+
+A bend with the coefficient mu takes q = mu (T_hose + T_core)/R per length out of the hose, which touches it. The
+bulkheads are pressed by the core's tension alone and hand at most q_i = mu_i T_core/R on to the core. What they cannot
+hand on stays in the hose. They hold it while
+
+    mu <= mu_i EA_core/(EA_hose + EA_core)          both layers with one strain          (physics 7a)
+
+All tensions are those of the run at one instant, in the elements next to the device.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from fairlead.analysis.record.recorded_line import RecordedLine
+from fairlead.results import Result
+
+LAYERS = 2
+LEAST = 0.5
+"""Share of the compression that a device has to explain before it is called the cause."""
+
+
+def cause(result: Result, record: dict[str, Any], found: Mapping[str, Any]) -> dict[str, Any] | None:
+    """What the device at the place of a verdict does there; None where that cannot be told.
+
+    Tensions [N] on both sides of the device by layer (`inboard`, `outboard`), its `friction` and that of the layers on
+    each other (from rest, sliding), `turn` [rad], `critical`: the coefficient up to which the layers hold each other,
+    `devices`: names of the bends from here to the outboard end, `sum` of their mu times angle.
+    """
+    nodes = RecordedLine(result, record).nodes
+    here = _station(record, found)
+    if here is None or nodes is None:
+        return None
+    row = max(int(np.searchsorted(result.t, found["t"], side="right")) - 1, 0)
+    sides = _sides(nodes[row], here["begin"], here["end"])
+    names = [[f"{record['line']}.{layer}[{k}].tension" for layer in record["layers"]] for k in sides]
+    if not all(name in result for each in names for name in each):
+        return None
+    inboard, outboard = ([float(result.at(name, found["t"])) for name in each] for each in names)
+    bends = [one for one in record["stations"] if _rubs(one) and not one["moves"]
+             and here["begin"] <= one["begin"] < nodes[row][-1]]  # fmt: skip
+    return {
+        "station": _called(here), "friction": list(here["friction"]), "turn": _turn(here), "moves": here["moves"],
+        "inner_friction": record.get("inner_friction"), "inboard": inboard, "outboard": outboard,
+        "critical": _critical(record, here), "devices": [_called(one) for one in bends],
+        "sum": sum(one["friction"][1] * _turn(one) for one in bends),
+    }  # fmt: skip
+
+
+def _rubs(station: Mapping[str, Any]) -> bool:
+    """True for a bend with friction."""
+    ends = station["begin"] is not None and station["end"] is not None
+    return bool(ends and station["curvature"] and station.get("friction"))
+
+
+def _station(record: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The bend in which a place is, or beside which it is: not farther than an element."""
+    place, k = found.get("place"), found["element"]
+    if place is None or len(record["layers"]) != LAYERS or k + 1 >= len(record["places"]):
+        return None
+    away = [(max(one["begin"] - place, place - one["end"], 0.0), one) for one in record["stations"] if _rubs(one)]
+    far, here = min(away, key=lambda each: each[0], default=(math.inf, None))
+    return here if far <= record["places"][k + 1] - record["places"][k] else None
+
+
+def _sides(nodes: Any, begin: float, end: float) -> tuple[int, int]:
+    """The last element inboard of a device and the first one outboard of it, else elements at the ends."""
+    last = len(nodes) - 2
+    inner = int(np.searchsorted(nodes, begin, side="right")) - 2
+    outer = int(np.searchsorted(nodes, end, side="left"))
+    return min(max(inner, 0), last), min(max(outer, 0), last)
+
+
+def _called(station: Mapping[str, Any]) -> str:
+    """Its name; with an article where it was given none and has that of its type."""
+    name = str(station["name"])
+    return f"the {name}" if name == str(station["type"]).lower() else name
+
+
+def _turn(station: Mapping[str, Any]) -> float:
+    return float(station["curvature"] * (station["end"] - station["begin"]))
+
+
+def _critical(record: Mapping[str, Any], station: Mapping[str, Any]) -> float | None:
+    """Coefficient up to which the layers hold each other on a bend; None where something else presses them as well."""
+    inner, stiff = record.get("inner_friction"), record.get("stiffnesses") or ()
+    if not inner or len(stiff) != LAYERS or station.get("squeeze"):
+        return None
+    return float(inner[0] * stiff[1] / sum(stiff))
+
+
+def why(found: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The cause of a verdict in words: what they are about, and a sentence or two; empty where it is not known."""
+    one = found.get("cause")
+    if not one or one["moves"]:
+        return []
+    if not found["rucks"]:
+        return _holds(one)
+    hose = (one["inboard"][0], one["outboard"][0])
+    if max(hose) - min(hose) < LEAST * found["ruck_force"]:
+        return [("Why", f"Not told: on both sides of {one['station']} the hose has nearly the same tension "
+                        f"({_n(hose[0])} and {_n(hose[1])} N), so friction there is not the cause.")]  # fmt: skip
+    return [("Why", f"{_friction(one)} {_shared(one)}"), *_capstan(one), *_way_out(one)]
+
+
+def _friction(one: Mapping[str, Any]) -> str:
+    """What the device takes."""
+    low, high = sorted((sum(one["inboard"]), sum(one["outboard"])))
+    grows = f"from {_n(low)} to {_n(high)} N" if low > 0 else f"by {_n(high - low)} N"
+    return (
+        f"Friction on {one['station']}. The line slides over it with mu = {_n(one['friction'][1])}, and its tension "
+        f"grows {grows} there. These {_n(high - low)} N act on the hose, which touches {one['station']}."
+    )
+
+
+def _shared(one: Mapping[str, Any]) -> str:
+    """Who bears it."""
+    sense = math.copysign(1.0, sum(one["inboard"]) - sum(one["outboard"]))
+    hose, core = (sense * (a - b) for a, b in zip(one["inboard"], one["outboard"], strict=True))
+    inner, critical = one["inner_friction"], one["critical"]
+    limit = ""
+    if critical is not None and one["friction"][1] > critical:
+        limit = (f" They cannot hand on all, for only the core's tension presses them (mu = {_n(inner[0])} while they "
+                 f"hold, {_n(inner[1])} while they slide).")  # fmt: skip
+    return (
+        f"The bulkheads hand {_n(max(core, 0.0))} N of them on to the core.{limit} The hose is left with {_n(hose)} N: "
+        f"its tension is {_n(one['inboard'][0])} N inboard of {one['station']} and {_n(one['outboard'][0])} N outboard "
+        "of it. Below zero it is pushed together."
+    )
+
+
+def _capstan(one: Mapping[str, Any]) -> list[tuple[str, str]]:
+    devices: Sequence[str] = one["devices"]
+    if not devices or not one["sum"]:
+        return []
+    names = devices[0] if len(devices) == 1 else f"{', '.join(devices[:-1])} and {devices[-1]}"
+    return [("Capstan", f"From the outboard end to here the line runs over {names}. The sum of mu × angle is "
+                        f"{_n(one['sum'])}, which multiplies a steady tension by exp({_n(one['sum'])}) = "
+                        f"{_n(math.exp(one['sum']))}.")]  # fmt: skip
+
+
+def _way_out(one: Mapping[str, Any]) -> list[tuple[str, str]]:
+    critical = one["critical"]
+    if critical is None or one["friction"][1] <= critical:
+        return []
+    inner = _n(one["inner_friction"][0])
+    return [("Way out", f"Below mu = {_n(critical)} on {one['station']} the bulkheads would hold the hose. "
+                        f"That is their mu, {inner}, times the core's share of the tension.")]  # fmt: skip
+
+
+def _holds(one: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Why it does not ruck, where a bend would be the place for it."""
+    critical = one["critical"]
+    if critical is None or one["friction"][1] > critical:
+        return []
+    return [("Why", f"On {one['station']} mu = {_n(one['friction'][1])} is below {_n(critical)}, up to which "
+                    "the bulkheads hold the hose on the core. So both move as one, and the core bears the friction.",
+             )]  # fmt: skip
+
+
+def _n(value: float) -> str:
+    """Three digits, without an exponent where a reader would not write one."""
+    return f"{float(f'{value:.3g}'):g}"

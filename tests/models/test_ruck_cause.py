@@ -1,0 +1,122 @@
+"""Why a hose rucks: what the page says of the cause is what the tensions of the run and closed forms say."""
+
+import math
+
+import numpy as np
+import pytest
+
+import fairlead
+from fairlead.analysis.margins.ruck import verdicts
+from fairlead.analysis.margins.ruck_cause import why
+from fairlead.report.page.verdict import verdict
+
+MU, TOW = 0.6, 800.0
+
+
+@pytest.fixture(scope="module")
+def rucking(bundled):
+    return bundled("single_bend", {"mu": MU, "run.stop": "8 s"})
+
+
+def test_the_cause_is_the_bend_whose_friction_the_core_cannot_take(rucking):
+    """Tensions beside the bend, read from the recorded rows; the capstan ratio; the limit of bulkheads by strain."""
+    (found,) = verdicts(rucking)
+    one = found["cause"]
+    row = int(np.searchsorted(rucking.t, found["t"], side="right")) - 1
+    nodes = [float(rucking[f"line.hose_node[{k}].x"][row]) for k in range(61)]
+    inner = max(k for k in range(60) if nodes[k + 1] <= 3.0)
+    outer = min(k for k in range(60) if nodes[k] >= 3.0 + math.pi / 2)
+    for side, k in (("inboard", inner), ("outboard", outer)):
+        recorded = [float(rucking[f"line.{layer}[{k}].tension"][row]) for layer in ("hose", "core")]
+        assert one[side] == pytest.approx(recorded, abs=0.05 * TOW)  # a row is up to 10 ms away
+    assert sum(one["inboard"]) / sum(one["outboard"]) == pytest.approx(math.exp(MU * math.pi / 2), rel=0.1)  # it swings
+    assert one["critical"] == pytest.approx(0.5 * 500 / 508)  # stiction of bulkheads, EA of core and hose
+    assert one["sum"] == pytest.approx(MU * math.pi / 2)
+    told = dict(why(found))
+    assert told["Why"].startswith("Friction on the bend. The line slides over it with mu = 0.6")
+    assert "exp(0.942) = 2.57" in told["Capstan"]
+    assert told["Way out"].startswith("Below mu = 0.492 on the bend")
+
+
+def test_a_line_that_does_not_ruck_is_told_what_holds_it(bundled):
+    (found,) = verdicts(bundled("single_bend", {"run.stop": "4 s"}))
+    assert dict(why(found))["Why"].startswith("On the bend mu = 0.35 is below 0.492, up to which the bulkheads hold")
+
+
+def test_the_verdict_names_when_where_why_and_the_contact_that_changed_most(rucking):
+    told = {one.about: one for one in verdict(rucking)}
+    assert [about for about, _ in told["The hose rucks"].points][:4] == ["When", "Where", "How much", "Why"]
+    changes = {}
+    for event in rucking.events:
+        if event.component.startswith(("line.inner[", "line.outer[")):
+            changes[event.component] = changes.get(event.component, 0) + 1
+    most = max(changes.values())
+    said = told["What made it slow"].text
+    assert f"{most} of {len(rucking.events)} zone changes" in said
+    assert any(f"is {name} " in said for name, n in changes.items() if n == most)
+
+
+def cause_of(rucking, **changes):
+    """The verdict with a cause of which some is different."""
+    (found,) = verdicts(rucking)
+    return found | {"cause": found["cause"] | changes}
+
+
+def test_a_cause_that_the_numbers_do_not_bear_is_not_told(rucking):
+    (alike,) = why(cause_of(rucking, inboard=[-170.0, 900.0], outboard=[-160.0, 800.0]))
+    assert alike[1].startswith("Not told: ")
+    assert why(cause_of(rucking, moves=True)) == []
+    below = dict(why(cause_of(rucking, friction=[0.4, 0.4])))
+    assert "cannot hand on all" not in below["Why"]
+    assert "Way out" not in below
+    (found,) = verdicts(rucking)
+    assert why(found | {"cause": None}) == []
+
+
+def test_a_run_without_coefficients_has_no_cause_but_a_verdict(rucking):
+    """A run of an earlier version, whose record of its route lacks them."""
+    old = fairlead.Result.open(rucking.path)
+    for record in old.run["routes"]:
+        for station in record["stations"]:
+            del station["friction"]
+    (found,) = verdicts(old)
+    assert found["rucks"]
+    assert found["cause"] is None
+
+
+TWO = """
+schema: 1
+name: two_bends
+components:
+  line:
+    type: ArrayModule
+    length: 8 m
+    element: 0.25 m
+    start: 1 m
+    tension: 500 N
+    ruck_force: 60 N
+    hose: {mass: 1.6 kg/m, stiffness: 8 kN, damping_ratio: 0.05}
+    core: {mass: 4.2 kg/m, stiffness: 500 kN, damping_ratio: 0.05}
+    bulkhead_friction: {curve: coulomb, coulomb: 0.3}
+  way:
+    type: Route
+    stations:
+      - {type: Bend, name: near, start: 3 m, angle: 60 deg, radius: 1 m, edge: 0.25 m, friction: 0.6}
+      - {type: Bend, name: far, start: 6 m, angle: 30 deg, radius: 1 m, edge: 0.25 m, friction: 0.2}
+  haul: {type: MotionSource, velocity: {ramp: {to: -0.3 m/s, over: 0.5 s}}}
+  tow: {type: ForceSource, force: 500 N}
+connections: [[haul.flange, line.inboard], [tow.flange, line.outboard], [line.path, way.path]]
+run: {stop: 2 s, accuracy: 1e-3}
+record: {every: 10 ms, signals: ["line.hose[*].tension", "line.core[*].tension", "line.hose_node[*].x"]}
+"""
+
+
+def test_of_several_bends_the_one_at_the_place_is_told_and_the_sum_of_all_outboard_of_it(tmp_path):
+    (tmp_path / "two.yaml").write_text(TWO, encoding="utf-8")
+    (found,) = verdicts(fairlead.load(tmp_path / "two.yaml").run(out=None))
+    assert found["rucks"]
+    told = dict(why(found))
+    assert told["Why"].startswith("Friction on near.")
+    assert "runs over near and far" in told["Capstan"]
+    assert found["cause"]["sum"] == pytest.approx(0.6 * math.pi / 3 + 0.2 * math.pi / 6)
+    assert "Below mu = 0.295 on near" in told["Way out"]  # 0.3 * 500/508
