@@ -63,9 +63,16 @@ def _station(record: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, A
     place, k = found.get("place"), found["element"]
     if place is None or len(record["layers"]) != LAYERS or k + 1 >= len(record["places"]):
         return None
-    away = [(max(one["begin"] - place, place - one["end"], 0.0), one) for one in record["stations"] if _rubs(one)]
-    far, here = min(away, key=lambda each: each[0], default=(math.inf, None))
-    return here if far <= record["places"][k + 1] - record["places"][k] else None
+    bends = [one for one in record["stations"] if _rubs(one)]
+    if not bends:
+        return None
+    here: dict[str, Any] = min(bends, key=lambda one: _away(one, place))
+    return here if _away(here, place) <= record["places"][k + 1] - record["places"][k] else None
+
+
+def _away(station: Mapping[str, Any], place: float) -> float:
+    """How far a place is from a station [m]."""
+    return float(max(station["begin"] - place, place - station["end"], 0.0))
 
 
 def _sides(nodes: Any, begin: float, end: float) -> tuple[int, int]:
