@@ -95,7 +95,7 @@ def _turn(station: Mapping[str, Any]) -> float:
 
 def _critical(record: Mapping[str, Any], station: Mapping[str, Any]) -> float | None:
     """Coefficient up to which the layers hold each other on a bend; None where something else presses them as well."""
-    inner, stiff = record.get("inner_friction"), record.get("stiffnesses") or ()
+    inner, stiff = record.get("inner_friction"), record.get("stiffnesses") or []
     if not inner or len(stiff) != LAYERS or station.get("squeeze"):
         return None
     return float(inner[0] * stiff[1] / sum(stiff))
