@@ -278,3 +278,81 @@ def test_printed_the_page_has_its_verdict_and_no_buttons_and_every_control_has_a
     assert nameless == []
     headings = [one for one in tree if one.get("role", {}).get("value") == "heading" and not one.get("ignored")]
     assert len(headings) >= 6
+
+
+def told_under_the_pointer(browser, plot, across=0.5, up=0.5) -> str:
+    """What the box beside the pointer says at a share of a plot's frame."""
+    return browser.execute_async_script(
+        "const [plot, u, v, done] = arguments; plot.scrollIntoView({block: 'center', behavior: 'instant'});"
+        "setTimeout(() => { const r = plot.getBoundingClientRect();"
+        "plot.dispatchEvent(new PointerEvent('pointermove', {clientX: r.left + u * r.width, clientY: r.top + (1 - v) * r.height}));"
+        "const tip = plot.querySelector('.tip'); done(tip && !tip.hidden ? tip.innerText : ''); }, 300)",
+        plot, across, up,
+    )  # fmt: skip
+
+
+def test_of_many_elements_a_few_are_drawn_and_others_are_picked(browser, two_bends):
+    """Sixty lines of one colour tell nothing: ends, middle and extremes over a band that holds all."""
+    show(browser, two_bends)
+    assert settled(browser) is None
+    drawn = "return fairlead.page.panels.map(p => p.curves.length)"
+    title = "return fairlead.page.panels.map(p => p.title)"
+    hose = browser.execute_script(title).index("Hose tension")
+    few = browser.execute_script(drawn)[hose]
+    assert 3 <= few <= 2 * 5
+    panel = browser.find_elements("css selector", "#panels .panel")[hose]
+    assert "below -160 N the hose rucks" in panel.text
+    assert "all 60 of line.hose[*].tension lie in here" in panel.text
+    choose = (
+        "const [panel, value, done] = arguments, list = panel.querySelector('select'); list.value = value;"
+        "list.dispatchEvent(new Event('change')); setTimeout(done, 600)"
+    )
+    browser.execute_async_script(choose, panel, "17")
+    assert browser.execute_script(drawn)[hose] == few + 2  # of either run
+    assert "line.hose[17].tension (picked)" in panel.text
+    browser.execute_async_script(choose, panel, "all")
+    assert browser.execute_script(drawn)[hose] == 2 * 60
+    assert complaints(browser) == []
+
+
+def test_the_band_of_a_family_holds_every_recorded_value(browser, bend):
+    show(browser, bend)
+    assert settled(browser) is None
+    outside = browser.execute_async_script(
+        "const done = arguments[0], run = fairlead.page.runs[0]; let bad = 0;"
+        "(async () => { for (const panel of fairlead.page.panels) for (const band of panel.bands) {"
+        "  const all = await run.values(band.name), d = band.source.data; const t = run.times;"
+        "  all.first.forEach(v => d.x.forEach((x, k) => { const next = k + 1 < d.x.length ? d.x[k + 1] : Infinity;"
+        "    for (let i = t.indexOf(x); i >= 0 && i < t.length && t[i] < next; i++)"
+        "      if (v[i] < d.y1[k] - 1e-6 || v[i] > d.y2[k] + 1e-6) bad++; })); } done(bad); })()"
+    )
+    assert outside == 0
+
+
+def test_zones_of_many_alike_contacts_are_a_map_that_tells_what_is_under_the_pointer(browser, bend):
+    show(browser, bend)
+    assert settled(browser) is None
+    titles = browser.execute_script("return [...document.querySelectorAll('#zone-chart b')].map(b => b.textContent)")
+    assert any(title.startswith("line.inner[*] (core on hose)") for title in titles)
+    assert any(title.startswith("line.outer[*] (line on its devices)") for title in titles)
+    plots = browser.find_elements("css selector", "#zone-chart .panel > div")
+    told = told_under_the_pointer(browser, plots[0])
+    assert "line.outer[" in told
+    assert " long" in told
+    assert "held: sticks" in browser.find_element("id", "zone-legend").text
+    assert complaints(browser) == []
+
+
+def test_a_signal_tells_its_name_and_value_under_the_pointer(browser, bend):
+    show(browser, bend)
+    assert settled(browser) is None
+    plots = browser.find_elements("css selector", "#panels .panel > div:nth-child(2)")
+    said = [told_under_the_pointer(browser, plots[-1], 0.5, share / 40) for share in range(6, 38)]
+    assert any("haul.force" in one and " N at " in one for one in said)
+
+
+def test_single_parts_keep_a_row_each(browser, tmp_path):
+    show(browser, made(tmp_path, "winch_drive", stop=1.0))
+    assert settled(browser) is None
+    assert browser.find_elements("css selector", "#zone-chart b") == []
+    assert browser.find_element("id", "zone-note").text.startswith("2 rows")

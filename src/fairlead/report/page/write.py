@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "report.html"
 PARTS = Path(__file__).parent / "parts"
-SCRIPTS = ("data.js", "clock.js", "colours.js", "route.js", "mechanism.js", "plots.js", "main.js")
+SCRIPTS = ("data.js", "clock.js", "colours.js", "hover.js", "route.js", "mechanism.js", "plots.js", "zones.js", "main.js")
 MOST_RUNS = 8
 
 
@@ -115,5 +115,6 @@ def _data(result: Result, label: str, share: float) -> dict[str, Any]:
     return {
         "label": label, **signal_data(result, share), "panels": first_panels(result), "zones": zone_data(result),
         "lines": line_data(result), "mechanism": mechanism_data(result),
+        "limits": [{key: one[key] for key in ("signal", "bound", "text")} for one in result.run.get("limits") or ()],
         "rucks": [one for one in result.run.get("ruck") or () if one.get("rucks")],
     }  # fmt: skip

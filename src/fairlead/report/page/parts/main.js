@@ -99,7 +99,7 @@ function zones(runs) {
     $("zone-of").parentElement.hidden = !choices.length;
     if (!choices.length) { $("zone-note").textContent = "Nothing in this scene has zones."; $("zone-chart").replaceChildren(); $("zone-legend").replaceChildren(); return; }
     options($("zone-of"), choices.map(([text], k) => [k, text]), Math.max(0, choices.findIndex(([text]) => text === before)));
-    const draw = () => chart.show(choices[$("zone-of").value][1]);
+    const draw = () => chart.show(...choices[$("zone-of").value].slice(1));
     $("zone-of").onchange = draw;
     if (now) draw(); else whenSeen($("zones"), draw);
   });
@@ -122,6 +122,8 @@ function mapped(run) {
 async function begin() {
   page.runs = DATA.runs.map(d => new Run(d));
   for (const run of page.runs) await run.begin();
+  const labels = page.runs.map(r => r.label.match(/^(.*) \((.*)\)$/)), alike = labels.every(m => m && m[1] === labels[0][1]);
+  page.runs.forEach((r, k) => { r.short = alike ? labels[k][2] : r.label; });
   clock.end = Math.max(...page.runs.map(r => r.end)); span.begin(clock.end);
   const readable = page.runs.filter(r => r.rows > 0);
   if (!readable.length) { $("state").textContent = "No row of signals was recorded."; for (const id of ["signals", "zones", "maps"]) $(id).hidden = true; $("stage").hidden = true; return; }

@@ -63,52 +63,89 @@ const span = {
   whole() { this.set(0, this.whole_end); },
 };
 
-/* One panel: families of one unit, of all runs that have them. */
+/* One panel: families of one unit, of all runs that have them. Of many elements it shows ends, middle and extremes. */
+const FEW = 8, ROLES = ["first", "lowest", "middle", "highest", "last"];
 class Panel {
-  constructor(runs, title, families) { Object.assign(this, {runs, title, families}); }
+  constructor(runs, title, families) { Object.assign(this, {runs, title, families}); this.picked = "few"; this.more = new Set(); }
   async show(list) {
     this.box = document.createElement("div"); this.box.className = "panel";
     const head = document.createElement("div"), name = document.createElement("b"), away = document.createElement("button");
     head.className = "head"; name.textContent = this.title; away.type = "button"; away.textContent = "Remove"; away.setAttribute("aria-label", `Remove ${this.title}`);
     away.onclick = () => { this.gone = true; this.box.remove(); };
-    head.append(name, away); this.plot = document.createElement("div"); this.box.append(head, this.plot);
+    head.append(name, this.picker(), away); this.plot = document.createElement("div"); this.box.append(head, this.plot);
     this.box.setAttribute("role", "group"); this.box.setAttribute("aria-label", `Plot of ${this.title}`); list.append(this.box);
     await this.draw(); span.heard.push(() => this.fill());
   }
+  /* A choice of elements; nothing to choose where there are few. */
+  picker() {
+    const elements = [...new Set(this.runs.flatMap(run => this.families.flatMap(name => run.family.get(name) && run.family.get(name).elements.length > FEW ? run.family.get(name).elements : [])))].sort((a, b) => a - b);
+    const label = document.createElement("label"), list = document.createElement("select"); label.className = "small pick"; label.append("Elements ", list); label.hidden = !elements.length;
+    options(list, [["few", "ends, middle, extremes"], ["all", `all ${elements.length}`], ...elements.map(e => [e, `${e} as well`])], "few");
+    list.onchange = async () => {
+      const all = list.value === "all" || list.value === "few";
+      if (all) { this.picked = list.value; this.more.clear(); } else { this.picked = "few"; this.more.add(Number(list.value)); }
+      this.note_at?.remove(); this.plot.replaceChildren(); await this.draw();
+    };
+    return label;
+  }
+  /* Which elements of a family are drawn, each with its role. */
+  chosen(family, values) {
+    const n = values.first.length, found = new Map();
+    if (n <= FEW || this.picked === "all") return new Map(values.first.map((_, k) => [k, ""]));
+    let low = Infinity, high = -Infinity, kl = 0, kh = 0;
+    values.low.forEach((v, k) => { for (const y of v) if (y < low) { low = y; kl = k; } });
+    values.high.forEach((v, k) => { for (const y of v) if (y > high) { high = y; kh = k; } });
+    [0, kl, n >> 1, kh, n - 1].forEach((k, i) => found.set(k, found.has(k) ? `${found.get(k)}, ${ROLES[i]}` : ROLES[i]));
+    family.elements.forEach((e, k) => { if (this.more.has(e) && !found.has(k)) found.set(k, "picked"); });
+    return found;
+  }
   async draw() {
-    this.curves = [];
-    const unit = this.unit();
+    this.curves = []; this.bands = [];
+    const unit = this.unit(), several = this.runs.length > 1;
     const p = this.p = figure({x_range: span.range(), y_range: new Bokeh.DataRange1d({})}, "time [s]", unit === "1" ? "value" : `[${unit}]`);
-    const few = [];
-    for (const [r, run] of this.runs.entries()) for (const [f, name] of this.families.entries()) {
+    let drawn = 0;
+    for (const [r, run] of this.runs.entries()) for (const name of this.families) {
       const family = run.family.get(name);
       if (!family) continue;
-      const values = await run.values(name), many = values.first.length > 8;
-      values.first.forEach((_, k) => {
-        const colour = many ? (this.runs.length > 1 ? LINES[r % LINES.length] : PALETTE[Math.round(235 * k / (values.first.length - 1))]) : LINES[(few.length) % LINES.length];
-        const label = `${name.replace("[*]", family.elements[k] === null ? "" : `[${family.elements[k]}]`)}${this.runs.length > 1 ? ", " + run.label : ""}`;
-        this.curves.push({run, values, k, colour, dash: many ? "solid" : DASHES[r], label, many, family, name});
-        if (!many) few.push(label);
-      });
+      const values = await run.values(name), n = values.first.length, picked = this.chosen(family, values), many = n > FEW && this.picked === "all";
+      if (n > FEW && !many) this.bands.push({run, name, values: hull(values), colour: several ? LINES[r % LINES.length] : css("soft"), count: n});
+      for (const [k, role] of picked) {
+        const own = many ? PALETTE[Math.round(235 * k / (n - 1))] : LINES[drawn % LINES.length], at = role && role !== "picked" ? ROLES.indexOf(role.split(", ")[0]) : 0;
+        const label = `${name.replace("[*]", family.elements[k] === null ? "" : `[${family.elements[k]}]`)}${role ? ` (${role})` : ""}${several ? ", " + run.short : ""}`;
+        const together = several && n > FEW;
+        this.curves.push({run, values, k, colour: together ? LINES[r % LINES.length] : own, dash: many ? "solid" : together ? ["solid", "dotdash", "dotted", "dashdot", "dashed"][at] : DASHES[r], label, many, family, name});
+        if (!together && !many) drawn++;
+      }
+    }
+    for (const band of this.bands) {
+      band.source = new Bokeh.ColumnDataSource({data: {x: [], y1: [], y2: []}});
+      p.varea({field: "x"}, {field: "y1"}, {field: "y2"}, {source: band.source, fill_color: band.colour, fill_alpha: .16});
     }
     this.source = new Bokeh.ColumnDataSource({data: {xs: [], ys: [], colour: [], dash: [], label: []}});
     const alpha = this.curves.length > 20 ? .75 : 1;
-    p.multi_line({field: "xs"}, {field: "ys"}, {source: this.source, line_color: {field: "colour"}, line_dash: {field: "dash"}, line_width: this.curves.length > 20 ? 1.1 : 1.8, line_alpha: alpha});
+    p.multi_line({field: "xs"}, {field: "ys"}, {source: this.source, line_color: {field: "colour"}, line_dash: {field: "dash"}, line_width: this.curves.length > 20 ? 1.1 : 1.6, line_alpha: alpha});
+    this.marks = marked(p, this.runs, this.families, true);
     this.fill();
     this.view = await put(p, this.plot);
-    cursor(this.plot, this.view); this.note();
+    cursor(this.plot, this.view); hover(this.plot, this.view, (t, y, scale) => this.nearest(t, y, scale)); this.note();
+  }
+  /* The curve nearest to the pointer, if it is near. */
+  nearest(t, y, scale) {
+    let best = null, far = 24;
+    for (const c of this.curves) { const v = c.values.first[c.k][c.run.row(t)], d = Math.abs(v - y) * scale; if (d < far) { far = d; best = [c, v]; } }
+    return best && [best[0].label, `${shown(best[1], best[0].family.unit)} at ${shown(best[0].run.times[best[0].run.row(t)], "s")}`];
   }
   unit() { for (const run of this.runs) for (const name of this.families) if (run.family.get(name)) return run.family.get(name).unit; return ""; }
   note() {
-    const list = document.createElement("ul"); list.className = "legend";
-    const singles = this.curves.filter(c => !c.many);
-    const entries = singles.slice(0, 16).map(c => [c.colour, c.label]);
-    for (const [name, run] of new Set(this.curves.filter(c => c.many).map(c => c.name)).size ? [...new Set(this.curves.filter(c => c.many).map(c => c.name))].flatMap(name => this.runs.filter(r => r.family.get(name)).map(run => [name, run])) : []) {
-      const own = this.curves.filter(c => c.name === name && c.run === run);
-      entries.push([this.runs.length > 1 ? own[0].colour : `linear-gradient(90deg, ${own[0].colour}, ${own[own.length >> 1].colour}, ${own[own.length - 1].colour})`,
-        `${name}, elements ${own[0].family.elements[0]} to ${own[own.length - 1].family.elements[own.length - 1]}${this.runs.length > 1 ? ", " + run.label : ""}`]);
+    const list = this.note_at = document.createElement("ul"); list.className = "legend";
+    const entries = this.curves.filter(c => !c.many).slice(0, 24).map(c => [dashed(c.colour, c.dash), c.label]);
+    for (const name of this.families) for (const run of this.runs) {
+      const own = this.curves.filter(c => c.many && c.name === name && c.run === run);
+      if (own.length) entries.push([`linear-gradient(90deg, ${own[0].colour}, ${own[own.length >> 1].colour}, ${own[own.length - 1].colour})`,
+        `${name}, elements ${own[0].family.elements[0]} to ${own[own.length - 1].family.elements[own.length - 1]}${this.runs.length > 1 ? ", " + run.short : ""}`]);
     }
-    legend(list, entries); this.box.append(list);
+    for (const b of this.bands) entries.push([`color-mix(in srgb, ${b.colour} 25%, transparent)`, `all ${b.count} of ${b.name} lie in here${this.runs.length > 1 ? ", " + b.run.short : ""}`]);
+    legend(list, [...entries, ...this.marks]); this.box.append(list);
   }
   fill() {
     if (this.gone || !this.curves) return;
@@ -119,7 +156,24 @@ class Panel {
       d.xs.push(x); d.ys.push(y); d.colour.push(c.colour); d.dash.push(c.dash); d.label.push(c.label);
     }
     this.source.data = d;
+    for (const b of this.bands) b.source.data = hulled(b.run, b.values, start, end, 1200);
   }
+}
+/* Lowest and highest value of all elements, by row. */
+function hull(values) {
+  const n = values.first[0].length, low = new Float32Array(n).fill(Infinity), high = new Float32Array(n).fill(-Infinity);
+  for (const v of values.low) for (let i = 0; i < n; i++) if (v[i] < low[i]) low[i] = v[i];
+  for (const v of values.high) for (let i = 0; i < n; i++) if (v[i] > high[i]) high[i] = v[i];
+  return {low, high};
+}
+function hulled(run, {low, high}, from, to, most) {
+  const t = run.times, a = Math.max(upper(t, from) - 2, 0), b = Math.min(upper(t, to) + 1, run.rows), size = Math.max(1, Math.ceil((b - a) / most)), d = {x: [], y1: [], y2: []};
+  for (let i = a; i < b; i += size) {
+    let lo = Infinity, hi = -Infinity;
+    for (let j = i; j < Math.min(i + size, b); j++) { if (low[j] < lo) lo = low[j]; if (high[j] > hi) hi = high[j]; }
+    d.x.push(t[i]); d.y1.push(lo === Infinity ? NaN : lo); d.y2.push(hi === -Infinity ? NaN : hi);
+  }
+  return d;
 }
 
 /* Values along the line at the time of the clock. */
@@ -141,7 +195,17 @@ class Profile {
       const x = this.line.positions && one.family.get(this.line.positions) ? (await one.values(this.line.positions)).first : null;
       this.parts.push({one, source, x, values: (await one.values(name)).first, family: one.family.get(name)});
     }
+    const marks = marked(p, this.runs, [name], false);
+    legend(document.getElementById("profile-legend"), [...(this.runs.length > 1 ? this.runs.map((r, k) => [dashed(LINES[k], DASHES[k]), r.short]) : []), ...marks]);
     this.view = await put(p, box); this.draw(clock.t, true);
+    hover(box, this.view, (x, y, scale) => {
+      let best = null, far = 40;
+      for (const {one, source, family} of this.parts) source.data.x.forEach((at, k) => {
+        const d = Math.hypot((at - x) * this.view.frame.bbox.width / (this.view.frame.x_range.end - this.view.frame.x_range.start), (source.data.y[k] - y) * scale);
+        if (d < far) { far = d; best = [`${name.replace("[*]", `[${family.elements[k]}]`)} = ${shown(source.data.y[k], family.unit)}`, `at ${shown(at, this.line.positions ? "m" : "")}${this.runs.length > 1 ? ", " + one.short : ""}`]; }
+      });
+      return best;
+    });
   }
   draw(t, now) {
     if (!this.parts) return;
@@ -156,40 +220,12 @@ class Profile {
   }
 }
 
-/* Rows of zones as coloured spans. */
-class ZoneChart {
-  constructor(run) { this.run = run; }
-  choices() {
-    const busy = this.run.zones.families.filter(z => !z.inner && z.counts.some(n => n)), total = busy.reduce((n, z) => n + z.rows.filter(r => r.t.length).length, 0);
-    const list = [];
-    if (busy.length > 1 && total <= 260) list.push(["all that changed", busy]);
-    const rank = z => (z.zones.some(w => ["stuck", "forward"].includes((this.run.zones.words.find(o => o.name === w) || {}).means)) ? 1e9 : 0) + z.counts.reduce((a, b) => a + b, 0);
-    for (const z of [...busy].sort((a, b) => rank(b) - rank(a))) list.push([z.name, [z]]);
-    for (const z of this.run.zones.families.filter(z => z.inner && z.counts.some(n => n))) list.push([`${z.name} (pieces of a table)`, [z]]);
-    for (const z of this.run.zones.families.filter(z => !z.counts.some(n => n))) list.push([`${z.name} (never changed)`, [z]]);
-    return list;
-  }
-  async show(families) {
-    const box = document.getElementById("zone-chart"); box.replaceChildren();
-    const rows = families.flatMap(z => { const moved = z.rows.filter(r => r.t.length); return moved.length ? moved : z.rows; }).slice(0, 1200);
-    const d = {left: [], right: [], top: [], bottom: [], colour: [], name: [], zone: []}, end = this.run.end, used = new Set(), n = rows.length;
-    rows.forEach((row, k) => {
-      let from = this.run.times[0] || 0, zone = row.start;
-      const add = to => { if (to > from || n < 0) { d.left.push(from); d.right.push(to); d.top.push(n - k - .06); d.bottom.push(n - k - .94); d.colour.push(zoneColour(this.run, zone)); d.name.push(row.name); d.zone.push(this.run.zones.words[zone].name); used.add(zone); } };
-      row.t.forEach((t, i) => { add(t); from = t; zone = row.to[i]; });
-      add(Math.max(end, from));
-    });
-    const height = Math.min(Math.max(70 + n * (n > 60 ? 5 : n > 20 ? 11 : 22), 130), 1000);
-    const p = figure({height, x_range: span.range(), y_range: new Bokeh.Range1d({start: 0, end: n})}, "time [s]", "");
-    p.quad({field: "left"}, {field: "right"}, {field: "top"}, {field: "bottom"}, {source: new Bokeh.ColumnDataSource({data: d}), fill_color: {field: "colour"}, line_color: null});
-    p.add_tools(new Bokeh.HoverTool({tooltips: [["part", "@name"], ["zone", "@zone"], ["from", "@left{0.0000} s"], ["to", "@right{0.0000} s"]]}));
-    const every = Math.max(1, Math.ceil(n / ((height - 60) / 13))), ticks = [], labels = new Map();
-    rows.forEach((row, k) => { if (k % every === 0) { ticks.push(n - k - .5); labels.set(n - k - .5, row.name.length > 26 ? "..." + row.name.slice(-24) : row.name); } });
-    p.yaxis.ticker = new Bokeh.FixedTicker({ticks}); p.yaxis.major_label_overrides = labels; p.ygrid.visible = false;
-    this.view = await put(p, box); cursor(box, this.view);
-    legend(document.getElementById("zone-legend"), [...used].map(z => [zoneColour(this.run, z), this.run.zones.words[z].name]));
-    const left = this.run.zones.left_out, still = families.flatMap(z => z.rows).length - n;
-    document.getElementById("zone-note").textContent = [`${n} rows`, still > 0 ? `${still} parts that never changed zone are not shown` : "", left ? `${left} parts that change too often for a page are left out` : ""].filter(Boolean).join("; ") + ".";
+/* Devices of a route as bands across a map. */
+function devices(p, line, bottom, top, from, to, colour) {
+  for (const s of line.stations) if (s.type !== "Straight") {
+    const a = s.begin ?? bottom, b = s.end ?? top; if (b < bottom || a > top) continue;
+    p.add_layout(new Bokeh.BoxAnnotation({bottom: Math.max(a, bottom), top: Math.min(b, top), fill_color: null, line_color: colour, line_dash: "dashed", line_alpha: .8}));
+    p.add_layout(new Bokeh.Label({x: from + .006 * (to - from), y: (Math.max(a, bottom) + Math.min(b, top)) / 2, text: s.name, text_font_size: "11px", text_baseline: "middle", text_color: "#ffffff", background_fill_color: "#000000", background_fill_alpha: .55, padding: 2}));
   }
 }
 
@@ -225,13 +261,14 @@ async function map(run, line, name, element) {
   const p = figure({height: 280, x_range: span.range(), y_range: new Bokeh.Range1d({start: bottom, end: top})}, "time [s]", xs ? "place [m]" : "element");
   const t0 = run.times[0];
   p.image_url({value: canvas.toDataURL()}, t0, bottom, run.end - t0, top - bottom, {anchor: "bottom_left"});
-  for (const s of line.stations) if (xs && s.type !== "Straight") {
-    const a = s.begin ?? bottom, b = s.end ?? top; if (b < bottom || a > top) continue;
-    p.add_layout(new Bokeh.BoxAnnotation({bottom: Math.max(a, bottom), top: Math.min(b, top), fill_color: null, line_color: "#ffffff", line_dash: "dashed", line_alpha: .8}));
-    p.add_layout(new Bokeh.Label({x: t0 + .006 * (run.end - t0), y: (Math.max(a, bottom) + Math.min(b, top)) / 2, text: s.name, text_font_size: "11px", text_baseline: "middle", text_color: "#ffffff", background_fill_color: "#000000", background_fill_alpha: .55, padding: 2}));
-  }
+  if (xs) devices(p, line, bottom, top, t0, run.end, "#ffffff");
   p.scatter([worst.tl, worst.th].filter(Number.isFinite), [worst.yl, worst.yh].filter(Number.isFinite), {marker: "x", size: 12, line_width: 3, line_color: "#ff5a4d"});
   const mapper = new Bokeh.LinearColorMapper({palette: PALETTE, low, high});
   p.add_layout(new Bokeh.ColorBar({color_mapper: mapper, background_fill_color: null, major_label_text_color: css("soft"), width: 12, title: null}), "right");
-  cursor(at, await put(p, at));
+  const view = await put(p, at); cursor(at, view);
+  hover(at, view, (t, y) => {
+    const i = run.row(t); let k = -1, far = Infinity;
+    for (let j = 0; j < n; j++) { const d = Math.abs(place(j, i) - y); if (d < far) { far = d; k = j; } }
+    return k < 0 ? null : [`${name.replace("[*]", `[${elements[k]}]`)} = ${shown(values.first[k][i], family.unit)}`, `t = ${shown(run.times[i], "s")}, ${xs ? shown(place(k, i), "m") + " on the route" : ""}`];
+  });
 }
