@@ -285,7 +285,8 @@ def told_under_the_pointer(browser, plot, across=0.5, up=0.5) -> str:
     return browser.execute_async_script(
         "const [plot, u, v, done] = arguments; plot.scrollIntoView({block: 'center', behavior: 'instant'});"
         "setTimeout(() => { const r = plot.getBoundingClientRect();"
-        "plot.dispatchEvent(new PointerEvent('pointermove', {clientX: r.left + u * r.width, clientY: r.top + (1 - v) * r.height}));"
+        "const at = {clientX: r.left + u * r.width, clientY: r.top + (1 - v) * r.height};"
+        "plot.dispatchEvent(new PointerEvent('pointermove', at));"
         "const tip = plot.querySelector('.tip'); done(tip && !tip.hidden ? tip.innerText : ''); }, 300)",
         plot, across, up,
     )  # fmt: skip

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "report.html"
 PARTS = Path(__file__).parent / "parts"
-SCRIPTS = ("data.js", "clock.js", "colours.js", "hover.js", "route.js", "mechanism.js", "plots.js", "zones.js", "main.js")
+SCRIPTS = ("data.js", "clock.js", "colours.js", "hover.js", "route.js", "mechanism.js", "plots.js", "zones.js",
+           "main.js")  # fmt: skip
 MOST_RUNS = 8
 
 
