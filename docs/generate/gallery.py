@@ -16,11 +16,35 @@ TAKEN = {"single_bend": "page_light.png", "guidance_route": "page_dark.png"}
 DEAR = frozenset({"guidance_route_electric", "guidance_route_ideal", "long_deployment", "long_route"})
 """Models whose runs take too long for a build: they show their wiring only."""
 
+QUESTIONS = {
+    "belt": "When does a block on a moving belt stick, and when does it slip?",
+    "block_and_spring": "How late does a block break away that is pulled through a spring, and does it creep before?",
+    "capstan": "How does the tension of a rope grow round a bend?",
+    "crustacean": "Does an array that carries its load in the hose ruck in two bends and a tube?",
+    "friction_anchor": "How far does a line on a guide give way to a pull, and what of that stays?",
+    "guidance_route": "What do winch and deployer have to do while an array is deployed and hauled back?",
+    "guidance_route_electric": "The same with electric drives: what do play and friction of the gears change?",
+    "guidance_route_ideal": "What do the line and its friction do by themselves, with drives that have no limits?",
+    "guidance_route_torsion": "How much does a line twist that is hauled in through a route and wound on a drum?",
+    "hundred_blocks": "How do fronts of sticking and slipping run through a rod on a hundred guides?",
+    "long_deployment": "What tension has a line of 300 m while nearly all of it goes from the drum into the sea?",
+    "long_route": "Which of three bends and a pulley makes the tension?",
+    "power_unit": "How does the pressure of a power unit swing when a large flow is opened and slammed shut?",
+    "sandwich": "Who holds a hose that lies between a device and its core?",
+    "single_bend": "Does the hose of an array ruck in a bend, where, when and why?",
+    "slack_start": "Does the core go slack when a line with hardly any pull behind it is started?",
+    "torsion": "How far does a twist reach along a line on a guide, and what of it stays?",
+    "valve_motor": "How fast does a hydraulic motor run up when its valve opens?",
+    "weak_clamp": "How hard must belts press a line so that it does not slip when it starts?",
+    "winch_drive": "How well does a controlled winch keep its speed when the line pulls harder?",
+}
+"""What each bundled model answers."""
+
 
 def pages(docs: Path, folder: Path) -> dict[str, str]:
     """gallery.md."""
     models = sorted(Path(str(fairlead.models.__file__)).parent.glob("*.yaml"))
-    lines = ["# Gallery", "", "Every bundled model runs by its name: with a question, a command and a picture.", ""]
+    lines = ["# Gallery", "", "Every bundled model, with the question that it answers, its command and a picture.", ""]
     for model in models:
         lines += _entry(model, folder / "gallery")
     return {"gallery.md": "\n".join(lines)}
@@ -29,7 +53,9 @@ def pages(docs: Path, folder: Path) -> dict[str, str]:
 def _entry(model: Path, folder: Path) -> Iterator[str]:
     question, told = comment(model)
     wiring(model, folder)
-    yield from (f"## {model.stem}", "", question, "", *fence("sh", f"fairlead run {model.stem} --report"))
+    asked = QUESTIONS.get(model.stem)
+    yield from (f"## {model.stem}", "", *((f"**{asked}**", "") if asked else ()), question, "")
+    yield from fence("sh", f"fairlead run {model.stem} --report")
     if model.stem in TAKEN:
         yield from (f"![The page of {model.stem}](../figures/{TAKEN[model.stem]})", "")
     elif model.stem not in DEAR:

@@ -22,9 +22,13 @@ LONGEST = 220  # characters of a reason
 HEAD = """\
 # Hard cases: what stays stable
 
-Scenes chosen to break an engine, each with an oracle from physics: a closed form, a balance of energy or momentum,
-monotonicity, symmetry. Each is played on every engine (`rodas`, with its second method as `rodas3p`; `stepping`; `ida`)
-and with exact hold, robust binding (creep 1e-5 m/s unless the case says otherwise) and LuGre, where they apply.
+How far can you trust a run of a difficult scene? This page plays scenes that were chosen to break an engine. Physics
+says what is right in each: a closed form, a balance of energy or momentum, monotonicity, symmetry. That is its
+*oracle*.
+
+Each scene is played on every engine: `rodas` (with its second method as `rodas3p`), `stepping` and `ida`. Each is
+played with exact hold, with robust binding (creep 1e-5 m/s unless the case says otherwise) and with LuGre, where they
+apply. If you want to know about your own scene, find the case nearest to it below, and read its row.
 
 ```sh
 make hard                                                # all rows; an interrupted round goes on, at the same commit

@@ -245,3 +245,11 @@ def test_read_from_disk_the_site_searches_fits_narrow_windows_and_complains_of_n
         found = browser.execute_script(links)
         assert "RuckTrip" in found
         assert complaints(browser) == []
+
+
+def test_every_bundled_model_has_a_question_in_the_gallery():
+    from generate.gallery import QUESTIONS
+
+    models = {path.stem for path in (ROOT / "models").glob("*.yaml")}
+    assert set(QUESTIONS) == models
+    assert all(question.endswith("?") for question in QUESTIONS.values())
