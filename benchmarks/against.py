@@ -1,0 +1,114 @@
+"""What a run costs beside another checkout of the project: counters, CPU time of the loop and of a call, in pairs.
+
+    git worktree add ../old ac213c8 && make -C ../old .venv/test.done
+    python benchmarks/against.py ../old                      all scenes, nine interleaved pairs, an hour
+    python benchmarks/against.py ../old --scene belt --pairs 3
+
+Each run has a process of its own, with the Python of its checkout; the two take turns. A scene is run once to fill the
+caches, and then timed. Ratios are this checkout over the other, the median of the pairs. Nothing is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import pathlib
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+import warnings
+from typing import Any
+
+HERE = pathlib.Path(__file__).resolve()
+SCENES: dict[str, tuple[str, dict[str, str]]] = {
+    "belt": ("belt", {}),
+    "hundred_blocks": ("hundred_blocks", {}),
+    "thousand_blocks": ("hundred_blocks", {"blocks": "1000"}),
+    "single_bend_50": ("single_bend", {"element": "0.3 m"}),
+    "single_bend_800": ("single_bend", {"element": "0.01875 m", "run.stop": "4 s"}),
+    "guidance_route": ("guidance_route", {}),
+    "long_deployment": ("long_deployment", {}),
+    "long_route": ("long_route", {}),
+}
+COUNTS = ("steps", "rejected", "rhs", "jacobians", "factorisations", "solves", "guards", "switches", "located")
+SHORT = 0.5  # s of CPU: a run that takes less is repeated
+REPEATS = 15
+
+
+def run(scene: str) -> dict[str, Any]:
+    """One scene by the Python that runs this: counters, CPU of the loop and of the whole call, peak memory."""
+    import fairlead
+    import fairlead.run as runner
+
+    kept: list[Any] = []
+    integrate = runner.integrate
+
+    def watched(*given: Any, **named: Any) -> Any:
+        kept.append(integrate(*given, **named))
+        return kept[-1]
+
+    runner.integrate = watched
+    name, settings = SCENES[scene]
+    path = HERE.parent.parent / "models" / f"{name}.yaml"
+    model = fairlead.load(str(path) if path.exists() else name, set=settings)
+    calls: list[float] = []
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        os.chdir(folder)  # a checkout that cannot keep a run in memory writes it there
+        while len(calls) < (REPEATS if not calls or calls[-1] < SHORT else 2):
+            begun = time.process_time()
+            model.run(out=None, force=True)
+            calls.append(time.process_time() - begun)
+    counters = kept[-1].counters
+    return {
+        **{count: int(getattr(counters, count)) for count in COUNTS},
+        "loop": min(one.loop_cpu for one in kept[1:]),
+        "aside": min(call - one.loop_cpu for call, one in zip(calls[1:], kept[1:], strict=True)),
+        "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+        "end": float(kept[-1].t),
+    }
+
+
+def by(checkout: pathlib.Path, scene: str) -> dict[str, Any]:
+    """The same by the Python of a checkout."""
+    words = [str(checkout / ".venv" / "bin" / "python"), str(HERE), "--run", scene]
+    told = subprocess.run(words, check=True, stdout=subprocess.PIPE, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+    return json.loads(told.stdout.splitlines()[-1])
+
+
+def compare(other: pathlib.Path, scene: str, pairs: int) -> None:
+    """Print the table of one scene."""
+    found = [(by(HERE.parent.parent, scene), by(other, scene)) for _ in range(pairs)]
+    print(f"\n{scene}, {pairs} pairs, to t = {found[0][0]['end']:g} and {found[0][1]['end']:g} s\n")
+    print("| figure | here | there | ratio | least to largest |\n|" + 5 * " --- |")
+    for figure in (*COUNTS, "loop", "aside", "memory"):
+        here, there = (statistics.median(pair[k][figure] for pair in found) for k in (0, 1))
+        ratios = sorted(a[figure] / b[figure] for a, b in found if b[figure])
+        middle = f"{statistics.median(ratios):.2f} | {ratios[0]:.2f} to {ratios[-1]:.2f}" if ratios else " | "
+        print(f"| {figure} | {here:.6g} | {there:.6g} | {middle} |")
+    sys.stdout.flush()
+
+
+def main() -> None:
+    """Compare, or run one scene for the process that compares."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("other", nargs="?", type=pathlib.Path, help="the other checkout, with a .venv of its own")
+    parser.add_argument("--scene", action="append", choices=SCENES, help="one scene; may be given several times")
+    parser.add_argument("--pairs", type=int, default=9)
+    parser.add_argument("--run", choices=SCENES, help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.run:
+        print(json.dumps(run(given.run)))
+        return
+    if given.other is None:
+        parser.error("name the other checkout")
+    for scene in given.scene or SCENES:
+        compare(given.other.resolve(), scene, given.pairs)
+
+
+if __name__ == "__main__":
+    main()
