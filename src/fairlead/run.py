@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import pathlib
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -49,6 +49,7 @@ if TYPE_CHECKING:
 
 SIDES = np.array([0, -1, +1, 2], dtype=np.int8)  # as the results do: ordinary, before an event, after it, inside a step
 MOST_JUMPS_TOLD = 5
+ZoneChange = tuple[float, str, str, str, str]  # when [s], whose, zones before and after, guard
 CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none
 
 
@@ -76,14 +77,15 @@ class Watch:
     begun: bool = field(init=False)
     extremes: Extremes = field(init=False)
     thinning: Thinning = field(init=False)
+    names: dict[tuple[int, ...], tuple[str, str, str, str]] = field(init=False)  # by machine, zones and guard
     creeping: NDArray[np.int64] = field(init=False)  # columns of what `creep` watches
     metered: NDArray[np.int64] | None = field(init=False, default=None)  # and of what `ledger` does
 
     def __post_init__(self) -> None:
         """Find the columns."""
-        self.steps, self.batches, self.begun = WholeSteps(), Batches(), False
+        self.steps, self.batches, self.begun = WholeSteps(), Batches(len(self.recording.recorded)), False
         self.extremes = Extremes(len(self.recording.recorded))
-        self.thinning = Thinning(self.accuracy, self.chosen)
+        self.thinning, self.names = Thinning(self.accuracy, self.chosen), {}
         columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
         self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
         if "energy.supplied" in columns:
@@ -113,7 +115,7 @@ class Watch:
         whole = self.steps.take(rows._replace(values=rows.values[:, : self.chosen]))
         if whole is not None:
             self._take_steps(whole)
-        self.sink.events(named_change(self.system, row) for row in block.events)
+        self.sink.events(self._named(block.events))
         if self.together is not None:
             self.together.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
@@ -123,6 +125,14 @@ class Watch:
             self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
+
+    def _named(self, events: NDArray[Any]) -> Iterator[ZoneChange]:
+        """Zone changes with names; those of a change are looked up once."""
+        for row in events.tolist():
+            change = row[1:5]
+            if change not in self.names:
+                self.names[change] = names_of_change(self.system, *change)
+            yield row[0], *self.names[change]
 
     def _take_steps(self, rows: Rows) -> None:
         if self.event_rows is None:
@@ -376,12 +386,16 @@ def _status(outcome: Outcome) -> str:
     return "finished" if outcome.ok else "failed"
 
 
-def named_change(system: System, row: Any) -> tuple[float, str, str, str, str]:
+def named_change(system: System, row: Any) -> ZoneChange:
     """One zone change with names."""
-    machine, before, after = int(row["machine"]), int(row["before"]), int(row["after"])
+    change = (int(row[name]) for name in ("machine", "before", "after", "guard"))
+    return float(row["t"]), *names_of_change(system, *change)
+
+
+def names_of_change(system: System, machine: int, before: int, after: int, guard: int) -> tuple[str, str, str, str]:
+    """Contact, zones before and after, and guard of a change."""
     zones = system.zone_names(machine)
-    guard = system.guard_name(int(row["guard"]), machine, before)
-    return float(row["t"]), system.machine_names[machine], zones[before], zones[after], guard
+    return system.machine_names[machine], zones[before], zones[after], system.guard_name(guard, machine, before)
 
 
 def _profile(outcome: Outcome, compiled: float, wall: float) -> str:

@@ -46,7 +46,7 @@ def told(blocks):
     """All that is kept and told of these blocks."""
     kept, creep, ledger = EventRows(LEAST), WorstCreep(["one", "two", "three"]), Ledger()
     limit = Limit("below 3", np.arange(3), ["one", "two", "three"], 1.0, 3.0, "m")
-    written, batches, extremes = [], Batches(), Extremes(3)
+    written, batches, extremes = [], Batches(3), Extremes(3)
     for block in blocks:
         written.append(kept.take(block))
         creep.watch(block.t, block.values)

@@ -11,9 +11,10 @@ creep, which every run tells by itself (`creep.py`); nodes of such contacts are 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import weakref
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,16 +113,47 @@ def _told(one: Mapping[str, Any]) -> str:
     return f"{one['signal']} {says} {one['size']:.2g} {one['unit']}, its error weight is {one['weight']:.2g}"
 
 
+class _Sums(NamedTuple):
+    """Outputs of one block that are sums of unknowns of one unit."""
+
+    places: list[int]
+    """[m]: among all outputs."""
+    sizes: Floats
+    """[m, terms]: sizes of the factors of the unknowns, 0 where there is none."""
+    unknowns: NDArray[np.int64]
+    """[m, terms]"""
+    moves: NDArray[np.bool_]
+    """[m]: whether all of them are positions."""
+
+
+_SUMS: weakref.WeakKeyDictionary[System, list[_Sums]] = weakref.WeakKeyDictionary()
+
+
 def _weights(system: System, accuracy: float) -> list[tuple[int, tuple[float, bool]]]:
     """Place among all outputs -> weight, and whether it is a sum of positions, of those that are sums of unknowns."""
     assert system.scales is not None, "a part has the weights of the whole"
     given = system.scales.weights(accuracy)
     weight = np.minimum(given.absolute, given.cap)
+    found = list[tuple[int, tuple[float, bool]]]()
+    for one in _sums(system):
+        sizes = np.max(np.where(one.sizes > 0.0, weight[one.unknowns] * one.sizes, 0.0), axis=1)
+        found += zip(one.places, zip(sizes.tolist(), one.moves.tolist(), strict=True), strict=True)
+    return found
+
+
+def _sums(system: System) -> list[_Sums]:
+    """What of that is the same in every run of a system."""
+    if (known := _SUMS.get(system)) is None:
+        known = _SUMS[system] = list(_sums_of(system))
+    return known
+
+
+def _sums_of(system: System) -> Iterator[_Sums]:
+    assert system.scales is not None, "a part has the weights of the whole"
     creeping = np.isfinite(system.scales.creep)
     creeping[[x for x, v in system.numbering.pairs if creeping[v]]] = True
     units = np.array([unknown.unit for unknown in system.numbering.unknowns])
     position = np.array([unknown.kind == "position" for unknown in system.numbering.unknowns])
-    found = list[tuple[int, tuple[float, bool]]]()
     for block, share in zip(system.blocks, shares(system.blocks)[0], strict=True):
         s, declared = block.kernel.structure, block.kernel.variant.type.declaration.outputs
         fixed = set(s.fixed_signals)
@@ -134,9 +166,7 @@ def _weights(system: System, accuracy: float) -> list[tuple[int, tuple[float, bo
             counts = (ratio > 0.0) & (block.in_index[:, inputs] < system.n)
             at = np.where(counts, block.in_index[:, inputs], 0)
             other = creeping[at] | np.not_equal(units[at], declared[name].unit)
-            judged = counts.any(axis=1) & ~(counts & other).any(axis=1)
-            moves = np.atleast_1d(np.all(position[at] | ~counts, axis=1))
-            sizes = np.max(np.where(counts, weight[at] * ratio, 0.0), axis=1)
-            first, step = share.outputs + k, len(s.all_outputs)
-            found += [(int(first + i * step), (float(sizes[i]), bool(moves[i]))) for i in np.flatnonzero(judged)]
-    return found
+            judged = np.flatnonzero(counts.any(axis=1) & ~(counts & other).any(axis=1))
+            moves = np.all(position[at] | ~counts, axis=1)
+            places = share.outputs + k + judged * len(s.all_outputs)
+            yield _Sums(places.tolist(), np.where(counts, ratio, 0.0)[judged], at[judged], moves[judged])

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,8 @@ from fairlead.analysis.record.step_rows import Integers, curved_steps
 from fairlead.results.curves import basis
 
 POINTS = np.linspace(0.0, 1.0, 33)
+STRETCH = 64
+"""Rows of which the best one is searched round: a motion may have a peak in each."""
 MARGIN = 0.1
 """Steps are searched of which a row comes as near to the largest value so far, in the range of the signal so far."""
 AGREE = 0.25
@@ -48,10 +51,9 @@ class Extremes:
         values = rows.values[:, : self.signals]
         steps = [which for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
         # the lowest of a signal is the highest of its negative: both in one go, since a call costs more than a column
-        both = np.concatenate([values, -values], axis=1)
+        both = np.concatenate([values.T, -values.T])
         before = np.concatenate([self.highest, -self.lowest])
-        least = np.concatenate([self.lowest, -self.highest])
-        best, when = _highest(rows, both, steps, before, least)
+        best, when = _highest(rows, both, steps, before)
         top, bottom = best[: self.signals], best[self.signals :]
         t_top, t_bottom = when[: self.signals], when[self.signals :]
         higher, lower = top > self.highest, -bottom < self.lowest
@@ -65,45 +67,66 @@ class Extremes:
         return {name: row.tolist() for name, row in rows if np.isfinite(row).all()}
 
 
-def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, least: Floats) -> tuple[Floats, Floats]:
-    """The highest value of each signal in these rows, and when, where it may be above that of `before`."""
-    row = values.argmax(axis=0)
-    best = values[row, np.arange(len(row))]
-    if np.isnan(best).any():
-        known = np.where(np.isnan(values), -np.inf, values)
-        row = known.argmax(axis=0)
-        best = known[row, np.arange(len(row))]
-    when = rows.t[row]
-    with np.errstate(invalid="ignore"):
-        near = np.flatnonzero((best > before - MARGIN * (before - least)) | ~np.isfinite(before))
+def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) -> tuple[Floats, Floats]:
+    """The highest value of each signal in these rows, and when, where it may be above that of `before`.
+
+    `values` [2 signals, rows] has each signal and its negative. Searched is round the best row of every stretch.
+    """
+    columns = np.arange(len(values))
+    rows_of = _best_rows(values)
+    best = values[columns[:, None], rows_of]
+    best[np.isnan(best)] = -np.inf
+    when = rows.t[rows_of]
+    signal, stretch = np.nonzero(_near(best, before))
+    row, value, t = rows_of[signal, stretch], best[signal, stretch], when[signal, stretch]
     for which in steps:
         for begins in (True, False):
-            step = np.searchsorted(which[:, 0], row[near], side="right") - 1
+            step = np.searchsorted(which[:, 0], row, side="right") - 1
             if not begins:  # the row is the end of a step: that one as well
-                step = np.where((step >= 0) & (which[step, 0] == row[near]), step - 1, -1)
-            inside = (step >= 0) & (row[near] <= which[step, -1])
-            at, of = step[inside], near[inside]
+                step = np.where((step >= 0) & (which[step, 0] == row), step - 1, -1)
+            of = np.flatnonzero((step >= 0) & (row <= which[step, -1]))
             if len(of):
-                value, share = peak_of_curves(values[which[at], of[:, None]])
-                t0, t1 = rows.t[which[at, 0]], rows.t[which[at, -1]]
-                _raise_to(best, when, of, value, t0 + share * (t1 - t0))
-    of, value, t = peak_of_neighbours(rows, values, row, near)
-    _raise_to(best, when, of, value, t)
-    return best, when
+                at = which[step[of]]
+                peak, share = peak_of_curves(values[signal[of, None], at])
+                t0, t1 = rows.t[at[:, 0]], rows.t[at[:, -1]]
+                _raise_to(value, t, of, peak, t0 + share * (t1 - t0))
+    _raise_to(value, t, *peak_of_neighbours(rows, values, row, signal))
+    best[signal, stretch], when[signal, stretch] = value, t
+    first = best.argmax(axis=1)
+    return best[columns, first], when[columns, first]
+
+
+def _best_rows(values: Floats) -> Integers:
+    """[signals, stretches]: the first row with the highest value, of each stretch of rows; NaN is none."""
+    signals, rows = values.shape
+    whole = rows - rows % STRETCH
+    known = np.where(np.isnan(values), -np.inf, values) if np.isnan(values).any() else values
+    found = known[:, :whole].reshape(signals, -1, STRETCH).argmax(axis=2)
+    if whole < rows:
+        found = np.concatenate([found, known[:, whole:].argmax(axis=1)[:, None]], axis=1)
+    return np.asarray(found + STRETCH * np.arange(found.shape[1]))
+
+
+def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:
+    """[2 signals, stretches]: whether a stretch comes near to the highest so far, in the range of the signal so far."""
+    so_far = np.fmax.accumulate(np.concatenate([before[:, None], best], axis=1), axis=1)[:, :-1]
+    least = -np.roll(so_far, len(before) // 2, axis=0)
+    with np.errstate(invalid="ignore"):
+        return np.asarray((best > so_far - MARGIN * (so_far - least)) | ~np.isfinite(so_far))
 
 
 def _raise_to(best: Floats, when: Floats, of: Integers, value: Floats, t: Floats) -> None:
-    """Take values of the signals `of` that are above the best."""
+    """Take values of the places `of` that are above the best."""
     higher = value > best[of]
     best[of[higher]], when[of[higher]] = value[higher], t[higher]
 
 
-def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, near: Integers) -> tuple[Integers, Floats, Floats]:
-    """Of ends of short steps: the peaks of parabolas through the highest row and its neighbours; of which, and when.
+def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, signal: Integers) -> tuple[Integers, Floats, Floats]:
+    """Of ends of short steps: the peaks of parabolas through highest rows and their neighbours; of which, and when.
 
     Only where five rows lie on one: where their three second differences agree.
     """
-    inner = near[(row[near] >= 2) & (row[near] + 2 < len(rows.t))]
+    inner = np.flatnonzero((row >= 2) & (row + 2 < len(rows.t)))
     at = row[inner][:, None] + np.arange(-2, 3)
     t, sides = rows.t[at], rows.side[at]
     gaps = t[:, 1:] - t[:, :-1]
@@ -111,7 +134,7 @@ def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, near: Integers
     inner, at, t, gaps = inner[plain], at[plain], t[plain], gaps[plain]
     if not len(inner):
         return inner, np.empty(0), np.empty(0)
-    v = values[at, inner[:, None]]
+    v = values[signal[inner, None], at]
     slopes = (v[:, 1:] - v[:, :-1]) / gaps
     bends = (slopes[:, 1:] - slopes[:, :-1]) / (gaps[:, :-1] + gaps[:, 1:])
     spread = bends.max(axis=1) - bends.min(axis=1)
@@ -124,8 +147,8 @@ def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, near: Integers
 
 def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
     """Of curves through evenly spaced values [k, n]: the highest value of each, and after which share of the way."""
-    nodes = np.linspace(0.0, 1.0, v.shape[1])
-    found = v @ basis(POINTS, nodes).T
+    at_points, powers = _evenly_spaced(v.shape[1])
+    found = v @ at_points
     place = found.argmax(axis=1)
     middle = np.clip(place, 1, len(POINTS) - 2)
     k = np.arange(len(v))
@@ -133,7 +156,18 @@ def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
     bend = left - 2.0 * centre + right
     with np.errstate(divide="ignore", invalid="ignore"):
         shift = np.where(bend < 0.0, 0.5 * (left - right) / bend, 0.0)
-    shift = np.clip(np.nan_to_num(shift), -1.0, 1.0)
+    shift = np.where(np.isfinite(shift), np.clip(shift, -1.0, 1.0), 0.0)
     share = np.where(place == middle, POINTS[middle] + shift * POINTS[1], POINTS[place])
-    value = np.maximum((v * basis(share, nodes)).sum(axis=1), found[k, place])
-    return value, share
+    # what the curve has above its first value, so that a constant stays what it is
+    coefficients = (v - v[:, :1]) @ powers
+    value = coefficients[:, -1]
+    for n in range(v.shape[1] - 2, -1, -1):
+        value = value * share + coefficients[:, n]
+    return np.maximum(value + v[:, 0], found[k, place]), share
+
+
+@cache
+def _evenly_spaced(n: int) -> tuple[Floats, Floats]:
+    """Of n evenly spaced values, the weights [n, points] at POINTS, and those [n, n] of the powers of the share."""
+    nodes = np.linspace(0.0, 1.0, n)
+    return basis(POINTS, nodes).T, np.linalg.inv(np.vander(nodes, increasing=True)).T

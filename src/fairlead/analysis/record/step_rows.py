@@ -22,8 +22,9 @@ KEPT = 0.5
 Integers = NDArray[np.int64]
 
 
-BATCH = 64
-"""Rows that are searched together."""
+MOST_VALUES = 2**18
+"""Values of a batch, 2 MB, if its rows are not fewer than LEAST_ROWS."""
+LEAST_ROWS, MOST_ROWS = 64, 2048
 
 
 class WholeSteps:
@@ -52,25 +53,30 @@ class WholeSteps:
 class Batches:
     """The same in batches that follow from the rows alone, and not from how they were handed over."""
 
-    def __init__(self) -> None:
+    def __init__(self, signals: int) -> None:
         """Nothing waits."""
-        self._waiting: Rows | None = None
+        self.length = min(max(MOST_VALUES // max(signals, 1), LEAST_ROWS), MOST_ROWS)
+        self._waiting: list[Rows] = []
+        self._many = 0
 
     def take(self, rows: Rows) -> Iterator[Rows]:
         """Batches that are complete."""
-        if self._waiting is not None:
-            rows = joined(self._waiting, rows)
+        self._waiting.append(rows)
+        self._many += len(rows.t)
+        if self._many <= self.length:
+            return
+        rows = joined(*self._waiting)
         ends = np.flatnonzero(is_end(rows.side))
         begin = 0
-        while (next_end := int(np.searchsorted(ends, begin + BATCH))) < len(ends):
+        while (next_end := int(np.searchsorted(ends, begin + self.length))) < len(ends):
             end = int(ends[next_end])
             yield rows.where(slice(begin, end + 1))
             begin = end
-        self._waiting = rows.where(slice(begin, None))
+        self._waiting, self._many = [rows.where(slice(begin, None))], len(rows.t) - begin
 
     def rest(self) -> Rows | None:
         """What is no complete batch yet."""
-        return self._waiting
+        return joined(*self._waiting) if self._waiting else None
 
 
 def is_end(side: NDArray[np.int8]) -> NDArray[np.bool_]:
@@ -87,10 +93,11 @@ def curved_steps(side: NDArray[np.int8], inside: int) -> Integers:
     return on_curve[starts[:, None] + np.arange(inside + 2)]
 
 
-def joined(first: Rows, more: Rows) -> Rows:
+def joined(first: Rows, *more: Rows) -> Rows:
     """Rows and those that follow them."""
-    t, values = np.concatenate([first.t, more.t]), np.concatenate([first.values, more.values])
-    return Rows(t, values, np.concatenate([first.side, more.side]))
+    if not more:
+        return first
+    return Rows(*(np.concatenate(parts) for parts in zip(first, *more, strict=True)))
 
 
 class Thinning:

@@ -158,8 +158,10 @@ def refusal(system: System, settings: RunSettings) -> Fault | None:
 
 def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
     """What `stepping`, asked for by name, does not do as exactly as its accuracy says."""
+    if settings.engine != "stepping":
+        return
     found = handling(system, settings)
-    if settings.engine == "stepping" and found.way == INSIDE and found.parts:
+    if found.way == INSIDE and found.parts:
         yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
 
 
