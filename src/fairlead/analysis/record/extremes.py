@@ -148,7 +148,8 @@ def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, signal: Intege
 def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
     """Of curves through evenly spaced values [k, n]: the highest value of each, and after which share of the way."""
     at_points, powers = _evenly_spaced(v.shape[1])
-    found = v @ at_points
+    above = v - v[:, :1]  # its first value: what is constant stays what it is
+    found = above @ at_points
     place = found.argmax(axis=1)
     middle = np.clip(place, 1, len(POINTS) - 2)
     k = np.arange(len(v))
@@ -158,12 +159,11 @@ def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
         shift = np.where(bend < 0.0, 0.5 * (left - right) / bend, 0.0)
     shift = np.where(np.isfinite(shift), np.clip(shift, -1.0, 1.0), 0.0)
     share = np.where(place == middle, POINTS[middle] + shift * POINTS[1], POINTS[place])
-    # what the curve has above its first value, so that a constant stays what it is
-    coefficients = (v - v[:, :1]) @ powers
+    coefficients = above @ powers
     value = coefficients[:, -1]
     for n in range(v.shape[1] - 2, -1, -1):
         value = value * share + coefficients[:, n]
-    return np.maximum(value + v[:, 0], found[k, place]), share
+    return np.maximum(value, found[k, place]) + v[:, 0], share
 
 
 @cache

@@ -1,0 +1,53 @@
+"""Highest and lowest values in rows of steps, however many are searched at once: against a closed form."""
+
+import numpy as np
+import pytest
+
+from fairlead.analysis.record.event_rows import Rows
+from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.step_rows import INSIDE, LEAST_ROWS, MOST_ROWS, MOST_VALUES, Batches
+
+PEAK = 1700.3 * np.pi
+
+
+def swing(t):
+    """A swing with one highest and one lowest value, its negative, and one that does not move; NaN now and then."""
+    one = np.cos(t - PEAK) * np.exp(-(((t - PEAK) / 20.0) ** 2))
+    broken = np.where(np.arange(len(t)) % 97 == 5, np.nan, one)
+    return np.stack([one, -one, np.full(len(t), 0.1), broken], axis=1)
+
+
+def steps_of(inside):
+    """Rows of 8000 steps of 1 s, with so many rows inside."""
+    t = np.linspace(0.0, 8000.0, 8000 * (inside + 1) + 1)
+    side = np.where(np.arange(len(t)) % (inside + 1), INSIDE, 0).astype(np.int8)
+    return Rows(t, swing(t), side)
+
+
+@pytest.mark.parametrize("inside", [1, 3])
+def test_the_highest_of_thousands_of_peaks_is_found_in_whatever_batch_it_lies(inside):
+    """A curve through rows h apart is off by h^3/(9 sqrt 3) (three rows, h = 0.5) or 0.03 h^5 (five, h = 0.25)."""
+    rows, batches, extremes = steps_of(inside), Batches(4), Extremes(4)
+    searched = 0
+    for k in range(0, len(rows.t), 1009):
+        for batch in batches.take(rows.where(slice(k, k + 1009))):
+            assert MOST_ROWS < len(batch.t) <= MOST_ROWS + 2 + inside
+            extremes.watch(batch)
+            searched += 1
+    extremes.watch(batches.rest())
+    assert searched > 5
+    off = 3e-5 if inside == 3 else 8e-3
+    assert extremes.highest[0] == pytest.approx(1.0, abs=off)
+    assert extremes.t_highest[0] == pytest.approx(PEAK, abs=0.2)
+    assert extremes.lowest[0] == pytest.approx(-1.0, abs=off + 0.03)  # half a swing later the other way
+    np.testing.assert_array_equal(extremes.highest[1], -extremes.lowest[0])
+    np.testing.assert_array_equal(extremes.lowest[1], -extremes.highest[0])
+    assert extremes.highest[2] == extremes.lowest[2] == 0.1
+    assert extremes.highest[3] >= np.nanmax(rows.values[:, 3])
+    assert extremes.highest[3] <= 1.0 + off
+
+
+def test_batches_of_many_signals_have_fewer_rows():
+    assert Batches(1).length == MOST_ROWS
+    assert Batches(MOST_VALUES // 100).length == 100
+    assert Batches(10**9).length == LEAST_ROWS
