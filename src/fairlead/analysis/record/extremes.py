@@ -170,4 +170,5 @@ def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
 def _evenly_spaced(n: int) -> tuple[Floats, Floats]:
     """Of n evenly spaced values, the weights [n, points] at POINTS, and those [n, n] of the powers of the share."""
     nodes = np.linspace(0.0, 1.0, n)
-    return basis(POINTS, nodes).T, np.linalg.inv(np.vander(nodes, increasing=True)).T
+    powers: Floats = np.linalg.inv(np.vander(nodes, increasing=True)).astype(np.float64)
+    return basis(POINTS, nodes).T, powers.T
