@@ -3,6 +3,7 @@
 from fairlead.components.hydraulics.fluid import Fluid, throttled
 
 from fairlead.component import (
+    Choice,
     Component,
     Hydraulic,
     Law,
@@ -28,13 +29,15 @@ class Accumulator(Component):
     charged   gas volume  V = volume (precharge/p)^(1/n),  dV/dt = -Q;   flow through the neck from p_port to p
     empty     p_port <= precharge: no flow
 
-    n = 1 would be slow (isothermal), 1.4 fast (adiabatic); the gas is ideal. The state is ln(p/precharge).
+    The gas is ideal. n = 1.4 is fast (adiabatic), n = 1 slow: write  heat: isothermal  for a gas that keeps its
+    temperature and takes its heat from the air around. The state is ln(p/precharge).
     """
 
     port = Hydraulic("the neck")
     volume = Parameter("m^3", "Volume of the gas at its precharge.", above=0)
     precharge = Parameter("Pa", "p_0, pressure of the gas without oil.", above=0)
-    exponent = Parameter("1", "n, polytropic exponent.", default=1.2, above=1, most=2)
+    heat = Choice(("polytropic", "isothermal"), "How the gas keeps its heat.", default="polytropic")
+    exponent = Parameter("1", "n, polytropic exponent; 1 of an isothermal gas.", default=1.2, above=1, most=2)
     neck = Parameter("m", "Diameter of the neck.", default=0.03, above=0)
     pressure = Parameter("Pa", "Pressure of the gas at the start; empty when not given.", default=None, above=0,
                          physics=False)  # fmt: skip
@@ -64,13 +67,13 @@ class Accumulator(Component):
     @zone("charged", "empty")
     def gas_law(p, port, log_pressure, zone):
         """The poppet lets nothing through when the oil is out."""
-        n, level = p.exponent, p.precharge * exp(log_pressure)
+        n, level = p.exponent if p.heat == "polytropic" else 1, p.precharge * exp(log_pressure)
         drop = port.pressure - level
         flow = throttled(p.conductance, drop, CRITICAL) if zone == "charged" else 0
         rate = n * flow * exp(log_pressure / n) / p.volume
-        stored = p.precharge * p.volume / (n - 1) * (exp(log_pressure * (n - 1) / n) - 1)
+        work = log_pressure if n == 1 else (exp(log_pressure * (n - 1) / n) - 1) / (n - 1)
         return Law(port=flow, log_pressure=rate, level=level, gas=p.volume * exp(-log_pressure / n), flow=flow,
-                   stored=stored, dissipated=flow * drop)  # fmt: skip
+                   stored=p.precharge * p.volume * work, dissipated=flow * drop)  # fmt: skip
 
     @guard("charged", to="empty", unit="1")
     def runs_out(p, port, log_pressure):

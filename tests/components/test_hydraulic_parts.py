@@ -67,3 +67,46 @@ def test_a_flow_is_kept_until_the_drop_is_too_small():
     assert np.ptp(share[inside]) < 1e-3 * share[inside].max()
     half = share[np.argmin(np.abs(result.t - 0.1))]
     assert half == pytest.approx(share[inside][0] / 2, rel=1e-3)
+
+
+def test_a_pump_keeps_a_drop_whatever_the_load_and_another_turns_with_its_signal():
+    """The flow is that of the orifice at the drop kept, which the band lessens by its share of the full flow."""
+    result = run("pumps_that_follow")
+    flow, drop = result["pump.flow"][-1], result["line.level"][-1] - result["side.level"][-1]
+    assert drop == pytest.approx(20e5 - 4e5 * flow / 1e-3, rel=1e-4)
+    assert result["side.level"][-1] == pytest.approx(1e5 + flow / 3e-11, rel=1e-4)
+    assert result["swash.flow"][-1] == pytest.approx(4e-6 * 100, rel=1e-9)  # beyond 1 it stays at 1
+    level = result["circuit.level"][-1]
+    assert result["swash.torque"][-1] == pytest.approx(4e-6 * (level - 1e5), rel=1e-9)
+    assert level == pytest.approx(1e5 + 4e-4 / 5e-11, rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_a_load_that_is_too_high_has_the_pressure_of_the_limit(engine):
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    result = run("pumps_that_follow", **{"resistance.conductance": "1e-12 m^3/s/Pa", "run.engine": engine})
+    flow = result["pump.flow"][-1]
+    assert result["line.level"][-1] == pytest.approx(200e5 - 4e5 * flow / 1e-3, rel=1e-4)
+
+
+@pytest.mark.slow
+def test_a_lift_stands_where_spring_air_and_load_say():
+    result = run("single_acting_cylinder", **{"lever.value": "40e5", "run.stop": "6 s", "effects.seal_friction": "off"})
+    area = np.pi * 0.04**2 / 4
+    assert result["load.x"][-1] == pytest.approx((area * 39e5 - 500 - 2943) / 1e4, rel=1e-4)
+    assert result["lift.level"][-1] == pytest.approx(40e5, rel=1e-4)
+
+
+def test_gas_that_keeps_its_temperature_follows_boyle(simulate):
+    result = simulate("""
+        components:
+          sump: {type: Tank}
+          pump: {type: FixedPump, flow: 0.1 L/s}
+          store: {type: Accumulator, volume: 1 L, precharge: 20 bar, heat: isothermal, pressure: 25 bar}
+        connections: [[sump.port, pump.inlet], [pump.outlet, store.port]]
+        run: {stop: 4 s, accuracy: 1e-7}
+    """)
+    assert result["store.level"][-1] == pytest.approx(20e5 * 1e-3 / (1e-3 * 20 / 25 - 4e-4), rel=1e-6)
+    assert result.run["energy"]["closure"] < 1e-6

@@ -110,3 +110,29 @@ def test_a_pin_crosses_its_play_before_it_drives():
     meets = float(table["first"][(table["component"] == "pin") & (table["zone_to"] == "drive")].min())
     assert 0.01 * np.sin(2 * np.pi * meets) == pytest.approx(0.002, rel=1e-5)
     assert result.at("slide.x", 0.3) == pytest.approx(0.008, rel=5e-3)
+
+
+@pytest.mark.parametrize("stops", ["rigid", pytest.param("elastic", marks=pytest.mark.slow)])
+def test_a_slide_gives_back_its_share_at_a_stop_and_comes_to_rest_by_friction(simulate, stops):
+    """v^2 falls by 2 F s/m on the way; a rigid stop gives back its share, an elastic one without damping all."""
+    result = simulate(f"""
+        components:
+          slide: {{type: MassWithStops, mass: 2 kg, upper: 0.1 m, sliding: 4 N, stops: {stops}, restitution: 0.5,
+                  damping: 0, stiffness: 1e10 N/m, position: 0, velocity: 1 m/s}}
+          free: {{type: ForceSource, force: 0 N}}
+        connections: [[slide.flange, free.flange]]
+        run: {{stop: 1 s, accuracy: 1e-6}}
+    """)
+    back = (0.25 if stops == "rigid" else 1) * (1 - 2 * 4 * 0.1 / 2)
+    way = min(back / (2 * 4 / 2), 0.1)
+    again = max(back - 2 * 4 * 0.1 / 2, 0) * (1 if stops == "elastic" else 0.25)  # it comes to the other stop
+    assert result["slide.x"][-1] == pytest.approx(0.1 - way + again / 4, rel=2e-3)
+    assert result["slide.v"][-1] == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_slide_that_is_driven_to_and_fro_stays_between_its_stops():
+    result = run("mass_with_stops")
+    assert np.abs(result["slide.x"]).max() <= 0.01 + 1e-9
+    assert np.abs(result["slide.friction"]).max() <= 4 + 5 * np.abs(result["slide.v"]).max()
+    assert (result["slide.v"] == 0).any()

@@ -24,9 +24,10 @@ INNARDS = frozenset((
     "BearingLoad", "BeltSpans", "CavitatingVolume", "Chamber", "ChainStrands", "Clamp", "ClampLoad", "Core",
     "CurrentLimit", "Dancer", "Drum", "FarNode", "Flank", "FlankLoad", "Hose", "LaidOn", "LateralLoad", "LeverArm",
     "LineWeight", "LoadLoss", "LoopedCore", "LoopedHose", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
-    "PlanarContact", "PressedLoad", "Pressing", "Registration", "RelaxingHose", "RoundLoad", "RuckingHose",
-    "SeaDrag", "SealForce", "StoredNode", "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "ToothLoad",
-    "ToothLoss", "Tow", "Turning", "TwistElement", "Untouched", "WatchedHose", "WoundNode",
+    "PlanarContact", "PressedLoad", "Pressing", "Registration", "RelaxingHose", "ReturnSpring", "RoundLoad",
+    "RuckingHose", "SeaDrag", "SealForce", "StoredNode", "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told",
+    "ToothLoad", "ToothLoss", "Tow", "TransferStage", "TransferThrough", "Turning", "TwistElement", "Untouched",
+    "WatchedHose", "WoundNode",
 ))  # fmt: skip
 """Bundled types that other types are made of, and that a netlist hardly names; limits of effects are so anyway."""
 

@@ -1,0 +1,75 @@
+"""A hydraulic cylinder with oil on one side."""
+
+from fairlead.components.hydraulics.chamber import Chamber
+from fairlead.components.hydraulics.cylinder import CYLINDER, mechanics
+from fairlead.components.hydraulics.fluid import Fluid
+
+from fairlead.component import (
+    Component,
+    Composite,
+    Effect,
+    Expansion,
+    Hydraulic,
+    Law,
+    Output,
+    Parameter,
+    Part,
+    Translational,
+    pi,
+)  # fmt: skip
+
+
+class ReturnSpring(Component):
+    """What pulls a rod in:  force = preload + stiffness travel + area air,  travel = rod.x - body.x."""
+
+    body, rod = Translational("the barrel"), Translational("the rod")
+    preload = Parameter("N", "Force of the spring on a rod that is in.", least=0)
+    stiffness = Parameter("N/m", "Of the spring.", least=0)
+    area = Parameter("m^2", "Area on which the air presses.", least=0)
+    air = Parameter("Pa", "Pressure of the air.", least=0)
+    force = Output("N", "Force that pulls the rod in.")
+
+    def law(p, body, rod):
+        """A spring and the air."""
+        travel = rod.x - body.x
+        always = p.preload + p.area * p.air
+        force = always + p.stiffness * travel
+        return Law(rod=force, body=-force, force=force, stored=always * travel + p.stiffness * travel**2 / 2)
+
+
+class SingleActingCylinder(Composite):
+    """Pressure at a pushes the rod out; a spring, the air and the load bring it back. The travel ends at stops.
+
+    m dv/dt = A (p_a - air) - preload - stiffness travel - seal friction - load. A plunger is one whose seal is at the
+    rod: its diameter is the `bore_diameter`.
+    """
+
+    a = Hydraulic("the bore")
+    body, rod = Translational("the barrel"), Translational("the rod")
+    bore_diameter, stroke = CYLINDER["bore_diameter"], CYLINDER["stroke"]
+    dead_volume = Parameter("m^3", "Volume that the piston does not sweep.", default=1e-4, above=0)
+    preload = Parameter("N", "Force of the spring on a rod that is in.", default=0.0, least=0)
+    stiffness = Parameter("N/m", "Of the spring.", default=0.0, least=0)
+    air = Parameter("Pa", "Pressure of the air on the other side.", default=1e5, least=0)
+    port_diameter, seal_force = CYLINDER["port_diameter"], CYLINDER["seal_force"]
+    stop_stiffness, stop_damping = CYLINDER["stop_stiffness"], CYLINDER["stop_damping"]
+    pressure = Parameter("Pa", "Pressure at the start; 1 bar when not given.", default=None, least=0, physics=False)
+    fluid = Part(Fluid, "What fills it.", default="oil")
+    cavitation = Effect("Pressure does not fall below zero; a void opens and closes.")
+    seal_friction = Effect("The seals stick and slide.")
+    level = Output("Pa", "Pressure of the oil.")
+    travel = Output("m", "rod.x - body.x, 0 when it is in.")
+
+    def expand(p, scene):
+        """A chamber, a spring and a pair of stops; seals where wanted."""
+        area = pi * p.bore_diameter**2 / 4
+        children = {
+            "chamber": scene.make(Chamber, side="cap", area=area, stroke=p.stroke, dead_volume=p.dead_volume,
+                                  bore=p.port_diameter, fluid=p.fluid, pressure=p.pressure, cavitation=p.cavitation),
+            "back": scene.make(ReturnSpring, preload=p.preload, stiffness=p.stiffness, area=area, air=p.air),
+        }  # fmt: skip
+        joins = []
+        bodies, rods = ["chamber.body", "back.body"], ["chamber.rod", "back.rod"]
+        mechanics(p, p.seal_friction, scene, children, joins, bodies, rods)
+        shown = {"level": "chamber.level", "travel": "stops.travel"}
+        return Expansion(children, joins, {"a": "chamber.port", "body": "chamber.body", "rod": "chamber.rod"}, shown)

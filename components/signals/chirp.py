@@ -1,0 +1,38 @@
+"""A sine whose frequency grows."""
+
+from fairlead.component import Choice, Component, Law, Output, Parameter, exp, log, pi, sin
+
+
+class SignalChirp(Component):
+    """signal = offset + amplitude sin(phase(t)),  a sine whose frequency goes from `first` at 0 to `last` at `over`.
+
+    linear        frequency = first + (last - first) t/over
+    exponential   frequency = first (last/first)^(t/over): as many octaves a second
+
+    It goes on so after `over`. What else a signal is in time, a SignalSource tells: ramps, pulses, a table from a file.
+    """
+
+    amplitude = Parameter("1", "Of the sine, in SI of what it feeds.", default=1.0)
+    offset = Parameter("1", "What is added.", default=0.0)
+    first = Parameter("1/s", "Frequency at the start.", above=0)
+    last = Parameter("1/s", "Frequency at `over`; another one than the first.", above=0)
+    over = Parameter("s", "Time in which the frequency changes.", above=0)
+    sweep = Choice(("linear", "exponential"), "How the frequency changes.", default="linear")
+    signal = Output("1", "The signal.")
+    frequency = Output("1/s", "Frequency now.")
+
+    def check(p):
+        """A sweep goes somewhere."""
+        if p.first == p.last:
+            yield "last", f"last is the same frequency as first, {p.first:g} Hz", "Take a SignalSource with a sine."
+
+    def law(p, t):
+        """The phase is the integral of the frequency."""
+        if p.sweep == "linear":
+            slope = (p.last - p.first) / p.over
+            turns, frequency = p.first * t + slope * t**2 / 2, p.first + slope * t
+        else:
+            rate = log(p.last / p.first) / p.over
+            frequency = p.first * exp(rate * t)
+            turns = (frequency - p.first) / rate
+        return Law(signal=p.offset + p.amplitude * sin(2 * pi * turns), frequency=frequency)

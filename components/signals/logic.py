@@ -1,0 +1,120 @@
+"""Logic of signals that are 0 or 1: gates, and what counts and times their edges in samples."""
+
+from fairlead.component import (
+    Choice,
+    Component,
+    Discrete,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Zones,
+    exceeds,
+    greatest,
+    guard,
+    least,
+    sampled,
+    zone,
+)  # fmt: skip
+
+HALF = 0.5  # above it a signal counts as on
+
+
+class LogicGate(Component):
+    """signal = 1 while `gate` holds of a and b, else 0; a signal is on above 1/2, and `inverse` is 1 - signal.
+
+    and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of an `or` of one signal.
+    """
+
+    exempt = {"odd": "On and off are not symmetric."}
+    a = Input("1", "One signal.", signed=True)
+    b = Input("1", "The other; off when nothing is connected.", 0.0, signed=True)
+    gate = Choice(("and", "or", "xor"), "What must hold.")
+    signal = Output("1", "1 while it holds.")
+    inverse = Output("1", "1 while it does not.")
+    zones = Zones("off", "on")
+
+    @zone("off", "on")
+    def told(p, zone):
+        """One of the two."""
+        return Law(signal=1.0 if zone == "on" else 0.0, inverse=0.0 if zone == "on" else 1.0)
+
+    @guard("off", to="on", unit="1")
+    def comes_to_hold(p, a, b):
+        """It holds."""
+        return above_half(p, a, b)
+
+    @guard("on", to="off", unit="1")
+    def ceases(p, a, b):
+        """It does not."""
+        return -above_half(p, a, b)
+
+
+def above_half(p, a, b):
+    """By how much the gate holds of two signals."""
+    if p.gate == "and":
+        return least(a, b) - HALF
+    either = greatest(a, b) - HALF
+    return either if p.gate == "or" else least(either, HALF - least(a, b))
+
+
+class SignalEdge(Component):
+    """signal = 1 for one sample after value has come on (above 1/2), or gone off, since the last; it counts them too.
+
+    What is shorter than a `period` is not seen, as in a controller that scans its inputs. `reset` above 1/2 sets the
+    count to zero and keeps it there.
+    """
+
+    value = Input("1", "What is watched.", signed=True)
+    reset = Input("1", "Above 1/2 the count is zero.", 0.0, signed=True)
+    edge = Choice(("rising", "falling", "both"), "Which edges.", default="rising")
+    period = Parameter("s", "Time between samples.", default=0.01, above=0)
+    was = Discrete("1", "1 if it was on at the last sample.")
+    found = Discrete("1", "1 if an edge was found.")
+    edges = Discrete("1", "Edges counted.")
+    signal = Output("1", "1 for the sample at which an edge is found.")
+    count = Output("1", "Edges since the start or the last reset.")
+    last = Output("1", "1 if the value was on at the last sample.")
+
+    def law(p, was, found, edges):
+        """Held between samples."""
+        return Law(signal=found, count=edges, last=was)
+
+    @sampled(every="period")
+    def sample(p, value, reset, was, edges):
+        """Compare with the last sample."""
+        on = exceeds(value, HALF)
+        rises, falls = on * (1 - was), was * (1 - on)
+        new = {"rising": rises, "falling": falls}.get(p.edge, rises + falls)
+        return Law(was=on, found=new, edges=(1 - exceeds(reset, HALF)) * (edges + new))
+
+
+class SignalTimer(Component):
+    """elapsed = the time for which value has been on (above 1/2); signal = 1 once that is `delay`. In samples.
+
+    It begins anew when the value goes off: a delay on making, as a timer relay has it. `keep: on` keeps what has
+    elapsed, which `reset` alone sets to zero: a meter of hours.
+    """
+
+    value = Input("1", "What is timed.", signed=True)
+    reset = Input("1", "Above 1/2 what has elapsed is zero.", 0.0, signed=True)
+    delay = Parameter("s", "Time after which the signal comes on.", default=0.0, least=0)
+    keep = Choice(("off", "on"), "Whether what has elapsed is kept while the value is off.", default="off")
+    period = Parameter("s", "Time between samples.", default=0.01, above=0)
+    lasted = Discrete("s", "Time for which it has been on.")
+    done = Discrete("1", "1 when the delay is over.")
+    elapsed = Output("s", "Time for which it has been on.")
+    signal = Output("1", "1 when the delay is over.")
+
+    def law(p, lasted, done):
+        """Held between samples."""
+        return Law(elapsed=lasted, signal=done)
+
+    @sampled(every="period")
+    def sample(p, value, reset, lasted):
+        """A sample at which it is on stands for the time after it; half a sample is the room for rounding."""
+        on = exceeds(value, HALF)
+        before = lasted if p.keep == "on" else lasted * on
+        over = exceeds(before - p.delay + p.period / 2, 0.0)
+        cleared = 1 - exceeds(reset, HALF)
+        return Law(lasted=cleared * (before + on * p.period), done=cleared * over * (1 if p.keep == "on" else on))
