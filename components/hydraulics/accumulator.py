@@ -71,7 +71,7 @@ class Accumulator(Component):
         drop = port.pressure - level
         flow = throttled(p.conductance, drop, CRITICAL) if zone == "charged" else 0
         rate = n * flow * exp(log_pressure / n) / p.volume
-        work = log_pressure if n == 1 else (exp(log_pressure * (n - 1) / n) - 1) / (n - 1)
+        work = log_pressure if p.heat == "isothermal" else (exp(log_pressure * (n - 1) / n) - 1) / (n - 1)
         return Law(port=flow, log_pressure=rate, level=level, gas=p.volume * exp(-log_pressure / n), flow=flow,
                    stored=p.precharge * p.volume * work, dissipated=flow * drop)  # fmt: skip
 

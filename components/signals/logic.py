@@ -23,12 +23,12 @@ HALF = 0.5  # above it a signal counts as on
 class LogicGate(Component):
     """signal = 1 while `gate` holds of a and b, else 0; a signal is on above 1/2, and `inverse` is 1 - signal.
 
-    and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of an `or` of one signal.
+    and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of a signal joined to both.
     """
 
     exempt = {"odd": "On and off are not symmetric."}
     a = Input("1", "One signal.", signed=True)
-    b = Input("1", "The other; off when nothing is connected.", 0.0, signed=True)
+    b = Input("1", "The other.", signed=True)
     gate = Choice(("and", "or", "xor"), "What must hold.")
     signal = Output("1", "1 while it holds.")
     inverse = Output("1", "1 while it does not.")
