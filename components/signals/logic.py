@@ -21,15 +21,17 @@ HALF = 0.5  # above it a signal counts as on
 
 
 class LogicGate(Component):
-    """signal = 1 while `gate` holds of a and b, else 0; a signal is on above 1/2, and `inverse` is 1 - signal.
+    """signal = 1 while `gate` holds of a and b, else 0; a signal is on above `level`, and `inverse` is 1 - signal.
 
     and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of a signal joined to both.
     """
 
     exempt = {"odd": "On and off are not symmetric."}
+    asked_with = {"level": 0.01}  # or random signals would hardly both be on
     a = Input("1", "One signal.", signed=True)
     b = Input("1", "The other.", signed=True)
     gate = Choice(("and", "or", "xor"), "What must hold.")
+    level = Parameter("1", "Above it a signal is on.", default=0.5)
     signal = Output("1", "1 while it holds.")
     inverse = Output("1", "1 while it does not.")
     zones = Zones("off", "on")
@@ -42,20 +44,20 @@ class LogicGate(Component):
     @guard("off", to="on", unit="1")
     def comes_to_hold(p, a, b):
         """It holds."""
-        return above_half(p, a, b)
+        return holding(p, a, b)
 
     @guard("on", to="off", unit="1")
     def ceases(p, a, b):
         """It does not."""
-        return -above_half(p, a, b)
+        return -holding(p, a, b)
 
 
-def above_half(p, a, b):
+def holding(p, a, b):
     """By how much the gate holds of two signals."""
     if p.gate == "and":
-        return least(a, b) - HALF
-    either = greatest(a, b) - HALF
-    return either if p.gate == "or" else least(either, HALF - least(a, b))
+        return least(a, b) - p.level
+    either = greatest(a, b) - p.level
+    return either if p.gate == "or" else least(either, p.level - least(a, b))
 
 
 class SignalEdge(Component):
