@@ -11,7 +11,6 @@ from `FairleadError` and carries the exit code of the command line.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -155,6 +154,8 @@ def did_you_mean(word: str, allowed: Iterable[str]) -> str:
         }
     near = _one_letter_off(_key(word), by_key)
     if len(near) != 1:
+        import difflib
+
         near = difflib.get_close_matches(_key(word), [*by_key][:MOST_WORDS_COMPARED], n=1, cutoff=0.6)
     if not near:
         near = [key for key in by_key if len(word) > 2 and _key(word) in key]

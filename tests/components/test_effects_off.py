@@ -12,7 +12,7 @@ import pytest
 import fairlead
 from fairlead.analysis.effects.effect_row import Size
 from fairlead.component.base import Composite
-from fairlead.component.registry import bundled
+from fairlead.component.bundled import bundled
 from fairlead.component.scene import Scene, is_head
 from fairlead.component.values import variant_of
 from fairlead.kernels.kernel import kernel

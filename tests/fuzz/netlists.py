@@ -17,7 +17,7 @@ from typing import Any
 import fairlead.models
 import yaml
 
-from fairlead.component.registry import bundled
+from fairlead.component.bundled import bundled
 from fairlead.netlist.yaml12 import read_yaml
 
 QUICK = ("belt", "block_and_spring", "capstan", "power_unit", "all_sorts")

@@ -30,7 +30,7 @@ def netlists(incomplete: str) -> list[str]:
 
 def subjects(incomplete: str) -> list[str]:
     """What `describe` knows: types, and netlists."""
-    from fairlead.component.registry import bundled
+    from fairlead.component.bundled import bundled
 
     types = [*bundled()] if incomplete[:1].isupper() or not incomplete else []
     return _fitting(["types", *types], incomplete) + netlists(incomplete)
@@ -54,8 +54,8 @@ def parameters(ctx: typer.Context, incomplete: str) -> list[str]:
 def signals(ctx: typer.Context, incomplete: str) -> list[str]:
     """Signals of the netlist."""
     from fairlead.analysis.record.names import signals_of
+    from fairlead.component.bundled import bundled
     from fairlead.component.instantiate import survey
-    from fairlead.component.registry import bundled
 
     netlist = _netlist(ctx)
     if netlist is None:
@@ -87,7 +87,7 @@ def _netlist(ctx: typer.Context) -> Any:
 
 def _names(netlist: Any) -> Iterator[str]:
     """Scene parameters, parameters of components, and the keys of the blocks that --set reaches."""
-    from fairlead.component.registry import bundled
+    from fairlead.component.bundled import bundled
     from fairlead.component.scene import is_head
     from fairlead.netlist.settings import RunSettings
 

@@ -14,7 +14,6 @@ and `transmit = True` does not pass for silence.
 
 from __future__ import annotations
 
-import difflib
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, field, fields
@@ -22,14 +21,14 @@ from typing import Any
 
 from fairlead.component.declaration import Declaration
 from fairlead.component.given import Choice, Waveform
+from fairlead.component.near import near_to
 
-NEAR = 0.82
-"""Likeness (Ratcliff and Obershelp, as difflib has it) from which on a name counts as misspelt: one letter of four."""
 BY_NAME = ("law", "sample", "dissipated", "supplied", "stored")
 """Methods whose arguments are given by their names, so that a class asks for those it wants."""
 SET_HERE = ("declaration", "answers", "members", "everyone", "shown", "needs", "gives")
 """What the framework itself leaves in a class."""
 DECLARED_IN = ("fairlead.component.declare", "fairlead.component.given")
+STARS = inspect.CO_VARARGS | inspect.CO_VARKEYWORDS
 BUDGETS = ("max_steps", "max_events")
 EVERYWHERE, COMPONENT, COMPOSITE, CONTROLLER = "any class", "a Component", "a Composite", "a Controller"
 
@@ -43,6 +42,22 @@ class Kind:
     method: bool = False
 
 
+def arguments_of(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Names of what a function takes; `inspect.signature` is asked where its code does not say so outright."""
+    plain = _plain_arguments(function)
+    return tuple(inspect.signature(function).parameters) if plain is None else plain
+
+
+def _plain_arguments(function: Callable[..., Any]) -> tuple[str, ...] | None:
+    """The arguments of a function without stars, without arguments by keyword alone, and without a wrapper."""
+    code = getattr(function, "__code__", None)
+    if code is None or code.co_flags & STARS or code.co_kwonlyargcount or inspect.ismethod(function):
+        return None
+    if hasattr(function, "__wrapped__") or hasattr(function, "__signature__"):
+        return None
+    return tuple(code.co_varnames[: code.co_argcount])
+
+
 def method(*arguments: str) -> Kind:
     """A method that is called with these arguments, in their order."""
     takes = f"({', '.join(arguments)})"
@@ -50,6 +65,8 @@ def method(*arguments: str) -> Kind:
     def wrong(value: Any, has: Declaration) -> str:
         if not inspect.isfunction(value):
             return f"is {_shown(value)}, and a method {takes} is asked for"
+        if len(_plain_arguments(value) or ()) == len(arguments) and not value.__defaults__:
+            return ""
         try:
             inspect.signature(value).bind(*arguments)
         except TypeError:
@@ -62,7 +79,7 @@ def method(*arguments: str) -> Kind:
 def _law(value: Any, has: Declaration) -> str:
     if not inspect.isfunction(value):
         return f"is {_shown(value)}, and a law is asked for"
-    unknown = sorted(set(inspect.signature(value).parameters) - has.arguments)
+    unknown = sorted(set(arguments_of(value)) - has.arguments)
     return f"asks for {', '.join(map(repr, unknown))}; known: {sorted(has.arguments)}" if unknown else ""
 
 
@@ -316,7 +333,7 @@ def misspelt(bodies: Iterable[Mapping[str, Any]], sort: str) -> Iterator[str]:
                 yield from _other_kind(name, value, known[name])
             elif _plain(value) and (whose := _of_others(name, sort)):
                 yield f"{name!r} is asked of {whose}, and never of {sort}"
-            elif _plain(value) and (near := _near(name, known)):
+            elif _plain(value) and (near := near_to(name, known)):
                 yield (
                     f"nobody asks for {name!r}. Did you mean {near}? A helper of its own with such a name takes "
                     "a leading underscore"
@@ -333,7 +350,7 @@ def _of_others(name: str, sort: str) -> str:
 def _other_kind(name: str, value: Any, before: Any) -> Iterator[str]:
     """A method stands for one with as many arguments, a value for one of its type."""
     if inspect.isfunction(value) and inspect.isfunction(before) and name not in BY_NAME:
-        wanted = list(inspect.signature(before).parameters)
+        wanted = list(arguments_of(before))
         said = method(*wanted).wrong(value, None)  # type: ignore[arg-type]
         if said:
             yield f"{name} {said}"
@@ -344,26 +361,6 @@ def _other_kind(name: str, value: Any, before: Any) -> Iterator[str]:
 def _plain(value: Any) -> bool:
     """False for declarations, which say themselves what they are, so that a parameter may be called `start`."""
     return type(value).__module__ not in DECLARED_IN
-
-
-def _near(word: str, known: Iterable[str]) -> str:
-    by_key = {_key(name): name for name in known}
-    found = difflib.get_close_matches(_key(word), by_key, n=1, cutoff=NEAR)
-    found = found or [key for key in by_key if len(key) > 3 and _exchanged(_key(word), key)]
-    return by_key[found[0]] if found else ""
-
-
-def _exchanged(word: str, other: str) -> bool:
-    """Whether two words differ by two neighbouring letters that changed places, as in `strat`."""
-    differ = [k for k, (one, two) in enumerate(zip(word, other, strict=False)) if one != two]
-    return (
-        len(word) == len(other) and len(differ) == 2 and differ[1] == differ[0] + 1
-        and word[differ[0]] == other[differ[1]] and word[differ[1]] == other[differ[0]]
-    )  # fmt: skip
-
-
-def _key(word: str) -> str:
-    return word.lower().replace("_", "")
 
 
 def _shown(value: Any) -> str:

@@ -28,6 +28,7 @@ from fairlead.component.answers import (
     EVERYWHERE,
     Answers,
     answers_of,
+    arguments_of,
     method,
     misspelt,
     unfit,
@@ -276,7 +277,7 @@ def _check_directions(cls: type[Declared]) -> None:
     one_sided = [mark for mark in cls.declaration.guards.values() if not mark.direction]
     asking += [(mark.function, name) for mark in one_sided for name in mark.zones]
     for function, name in asking if "direction" not in cls.declaration.inputs else ():
-        told = zones.direction(name) != 0 or "direction" not in inspect.signature(function).parameters
+        told = zones.direction(name) != 0 or "direction" not in arguments_of(function)
         _demand(cls, told, f"{function.__name__} asks for the direction of {name!r}, which the zones do not tell")
     _check_mirrors(cls)
 
@@ -294,7 +295,7 @@ def _check_mirrors(cls: type[Declared]) -> None:
         _demand(cls, not taken, f"guard {name!r} makes its mirror {mark.mirrored!r}, a name the class has already")
         known = "direction" not in cls.declaration.inputs
         _demand(cls, known, f"guard {name!r} is mirrored by `direction`, which is an input here; rename the input")
-        asks = "direction" in inspect.signature(mark.function).parameters
+        asks = "direction" in arguments_of(mark.function)
         more = f"def {name}(p, ..., direction), +1 as written and -1 in its mirror"
         _demand(cls, asks, f"guard {name!r} is mirrored, and does not ask for the direction: {more}")
 
@@ -369,7 +370,7 @@ def _check_limits(cls: type[Declared]) -> None:
 
 
 def _check_arguments(cls: type, function: Callable[..., Any], allowed: Iterable[str]) -> None:
-    for argument in inspect.signature(function).parameters:
+    for argument in arguments_of(function):
         _demand(cls, argument in allowed, f"{function.__name__} asks for {argument!r}; known: {sorted(allowed)}")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from fairlead.component.base import Component, Declared, Family
+from fairlead.component.bundled import Bundled
 from fairlead.component.mistakes import elsewhere
 from fairlead.component.parameters import read
 from fairlead.component.scene import Scene, is_head
@@ -15,7 +16,7 @@ from fairlead.netlist.netlist import Netlist, Value
 
 def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene, list[Fault]]:
     """The scene with those of its friction settings that can be used, and what is wrong with the others."""
-    heads = [kind for kind in types.values() if is_head(kind)]
+    heads = _heads(types) if netlist.friction else []
     known = {name for head in heads for m in head.members.values() for name in (*m.declaration.parameters, m.key)}
     kept: dict[str, Value] = {}
     faults: list[Fault] = []
@@ -31,6 +32,11 @@ def sound(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Scene,
     return Scene(kept, netlist.effects, netlist.path.parent, foreign_code=netlist.foreign_code), list(
         dict.fromkeys(faults)
     )
+
+
+def _heads(types: Mapping[str, type[Declared]]) -> list[type[Family]]:
+    """The families of components; the bundled library knows them without importing the rest."""
+    return types.heads() if isinstance(types, Bundled) else [kind for kind in types.values() if is_head(kind)]
 
 
 def unheard(netlist: Netlist, kinds: Iterable[type[Declared]]) -> list[Fault]:

@@ -6,7 +6,7 @@ libraries first, and shows those of its own (`registry.known_types`).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from fairlead.component.base import Family
@@ -36,6 +36,18 @@ def hide_libraries() -> None:
 def show(number: int) -> None:
     """Add the members of one library; they go before others of the same word."""
     _put_in_view((*(one for one in Family.shown if one != number), number))
+
+
+def in_order(place: Mapping[tuple[str, str], int]) -> None:
+    """Put the members of the bundled library first, in the order told by module and name, whenever they were imported.
+
+    So messages and pages list them alike whatever a scene imports, and one of a user's own of the same word counts.
+    """
+    last = len(place)
+    known = [place.get((member.__module__, member.__name__), last) for member in Family.everyone]
+    if known != sorted(known):
+        Family.everyone.sort(key=lambda member: place.get((member.__module__, member.__name__), last))
+        _put_in_view(Family.shown)
 
 
 def view() -> tuple[int, tuple[int, ...]]:

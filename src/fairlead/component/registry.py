@@ -1,4 +1,4 @@
-"""Component types by name: the bundled library, plug-ins, and files given by --library."""
+"""Component types by name: the bundled library (bundled.py), plug-ins, and files given by --library."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import importlib.metadata
 import importlib.util
 import linecache
 import pathlib
-import pkgutil
 import sys
 import warnings
 from collections.abc import Iterable, Mapping
 from types import ModuleType
 
-from fairlead.component.base import Component, Composite, Declared, Family
+from fairlead.component.base import Declared
+from fairlead.component.bundled import Bundled, bundled, types_in
 from fairlead.component.members import defined_by_a_library, hide_libraries, show
 from fairlead.errors import Fault, ModelError
 
@@ -26,24 +26,27 @@ NUMBER = "__number__"
 """In the module of a library: under which number its members of families are kept."""
 _loaded: dict[str, ModuleType] = {}
 """Libraries as they were loaded last, by path; those of one name in two folders do not disturb each other."""
-Types = Mapping[str, type[Declared]]
 
 
-def known_types(libraries: Iterable[str] = ()) -> dict[str, type[Declared]]:
+def known_types(libraries: Iterable[str] = ()) -> Mapping[str, type[Declared]]:
     """Every type a netlist may name: bundled, from installed plug-ins, and from `libraries`.
 
     A plug-in that fails to import is reported with its name and left out. A library given by path
     that cannot be loaded raises ModelError, since the user asked for it.
     """
+    plug_ins, libraries = _plug_ins(_installed()), tuple(libraries)
+    if not plug_ins and not libraries:
+        hide_libraries()
+        return Bundled()
     types = dict(bundled())
-    for point in _plug_ins(_installed()):
+    for point in plug_ins:
         try:
-            types.update(_types_in(point.load()))
+            types.update(types_in(point.load()))
         except Exception as error:  # noqa: BLE001 - any failure of foreign code must not stop the start
             warnings.warn(f"plug-in {point.name} ({point.value}) is left out: {error}", stacklevel=2)
     hide_libraries()
     for path in libraries:
-        types.update(_types_in(load_library(path)))
+        types.update(types_in(load_library(path)))
     return types
 
 
@@ -59,38 +62,13 @@ def _plug_ins(installed: tuple[tuple[str, int], ...]) -> tuple[importlib.metadat
     return tuple(importlib.metadata.entry_points(group=ENTRY_POINTS))
 
 
-@functools.cache
-def bundled() -> dict[str, type[Declared]]:
-    """The types of the bundled library; from then on its families have all their members."""
-    package = importlib.import_module("fairlead.components")
-    types: dict[str, type[Declared]] = {}
-    for info in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
-        types.update(_types_in(importlib.import_module(info.name)))
-    return types
-
-
-def _types_in(module: object) -> dict[str, type[Declared]]:
-    """Component classes a module defines itself: leaves, composites and the heads of families."""
-    if isinstance(module, type):
-        return {module.__name__: module}
-    found = {n: v for n, v in vars(module).items() if isinstance(v, type) and issubclass(v, Component | Composite)}
-    here = getattr(module, "__name__", None)
-    return {n: v for n, v in found.items() if v.__module__ == here and not n.startswith("_") and _is_type(v)}
-
-
-def _is_type(kind: type[Declared]) -> bool:
-    """True for what a netlist may name: not a half-model, and not a member of a family (its head is named)."""
-    if issubclass(kind, Family) and kind.key:
-        return "members" in kind.__dict__
-    return "declaration" in kind.__dict__
-
-
 def load_library(path: str) -> ModuleType:
     """Import a user's Python file (or package folder) of components; runs its code, again if it has been edited.
 
     Models that were loaded before keep their classes. Raises ModelError when it is missing or fails, with the line in
     the user's file.
     """
+    bundled()  # or members that its imports bring would be taken for its own
     file = pathlib.Path(path).resolve()
     target = file / "__init__.py" if file.is_dir() else file
     if not target.is_file():

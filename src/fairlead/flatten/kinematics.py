@@ -11,8 +11,6 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-import networkx as nx
-
 from fairlead.component.declare import TRANSLATIONAL
 from fairlead.component.instantiate import Assembly, Instance, PortRef
 from fairlead.component.replies import AnswerError
@@ -95,21 +93,31 @@ def _told_by_a_body(tied: list[tuple[int, float, float]], nodes: list[Node], fac
 
 def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> list[Fault]:
     faults: list[Fault] = []
-    written = nx.Graph()
+    written: list[tuple[int, int, str]] = []  # the two nodes of every tie, and whose it is
     for instance in assembly.instances.values():
         for a, b, ratio, offset in asked(instance, "ties", faults) or ():
             one, two = node_of[PortRef(instance.path, a)], node_of[PortRef(instance.path, b)]
             if not ties.tie(one, two, ratio, offset):
-                loop = nx.shortest_path(written, one, two) if one in written and two in written else []
-                names = [instance.path, *(written.edges[edge]["path"] for edge in itertools.pairwise(loop))]
+                names = [instance.path, *_between(written, one, two)]
                 gap = _gap(ties, instance, (one, two, ratio, offset))
                 what = f"the rigid loop {' - '.join(dict.fromkeys(names))} contradicts itself: {gap}."
                 way_out = (
                     f"Its ratios and lengths must agree all round, or one of {listing(dict.fromkeys(names))} must go."
                 )
                 faults.append(Fault(instance.where, what, way_out))
-            written.add_edge(one, two, path=instance.path)
+            written.append((one, two, instance.path))
     return faults
+
+
+def _between(written: list[tuple[int, int, str]], one: int, two: int) -> list[str]:
+    """Whose ties lead from one node to another, by the shortest way."""
+    import networkx as nx
+
+    graph = nx.Graph()
+    for a, b, path in written:
+        graph.add_edge(a, b, path=path)
+    loop = nx.shortest_path(graph, one, two) if one in graph and two in graph else []
+    return [graph.edges[edge]["path"] for edge in itertools.pairwise(loop)]
 
 
 def _gap(ties: Ties, instance: Instance, tie: tuple[int, int, float, float]) -> str:

@@ -1,17 +1,15 @@
-"""Connected components of the port graph: nodes, and the links of signals.
-
-vertices   ports, as PortRef; vertex data `declared` is the Port, Input or Output
-edges      written connections, with the place they were written
-"""
+"""Connected components of the port graph: nodes, and the links of signals."""
 
 from __future__ import annotations
 
-import networkx as nx
+from dataclasses import dataclass, field
+from typing import Any
 
 from fairlead.component.declare import PATH, Input, Output, Port
 from fairlead.component.instantiate import Assembly, Join, PortRef
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import Node
+from fairlead.flatten.graph import connected_parts
 from fairlead.quantities import NONE, article, parse_unit
 
 ENDS = {
@@ -23,31 +21,46 @@ ENDS = {
 """By domain, what is joined to a port that leads nowhere."""
 
 
-def port_graph(assembly: Assembly) -> nx.Graph:
+@dataclass(frozen=True)
+class PortGraph:
+    """All ports, and the signals that are joined."""
+
+    declared: dict[PortRef, Port | Input | Output] = field(default_factory=dict)
+    where: dict[PortRef, Location] = field(default_factory=dict)
+    joined: dict[PortRef, dict[PortRef, Location]] = field(default_factory=dict)
+    """For every two that are joined, both ways, where that is written."""
+
+    def add(self, ref: PortRef, declared: Port | Input | Output, where: Location) -> None:
+        """Add one, joined with nothing yet."""
+        self.declared[ref], self.where[ref] = declared, where
+        self.joined[ref] = {}
+
+
+def port_graph(assembly: Assembly) -> PortGraph:
     """The graph of all ports and of the joined signals, with an edge for every two that are joined."""
-    graph = nx.Graph()
+    graph = PortGraph()
     for path, instance in assembly.instances.items():
         for name, port in instance.type.declaration.ports.items():
-            graph.add_node(PortRef(path, name), declared=port, where=instance.where)
+            graph.add(PortRef(path, name), port, instance.where)
     for join in assembly.joins:
         for ref in join.ports:
-            if ref not in graph:
+            if ref not in graph.declared:
                 has, where = assembly.instances[ref.instance].type.declaration, assembly.instances[ref.instance].where
-                graph.add_node(ref, declared=has.inputs.get(ref.port) or has.outputs[ref.port], where=where)
+                graph.add(ref, has.inputs.get(ref.port) or has.outputs[ref.port], where)
         for a, b in zip(join.ports, join.ports[1:], strict=False):
-            graph.add_edge(a, b, where=join.where)
+            graph.joined[a][b] = graph.joined[b][a] = join.where
     return graph
 
 
-def wire(assembly: Assembly, graph: nx.Graph) -> tuple[list[Node], dict[PortRef, PortRef], list[Fault]]:
+def wire(assembly: Assembly, graph: PortGraph) -> tuple[list[Node], dict[PortRef, PortRef], list[Fault]]:
     """Nodes and signal links, and everything wrong with the connections."""
     faults = [_to_itself(assembly, join) for join in assembly.joins if len(set(join.ports)) < len(join.ports)]
     nodes: list[Node] = []
     links: dict[PortRef, PortRef] = {}
     alone: dict[str, list[PortRef]] = {}
-    for members in nx.connected_components(graph):
-        ports = sorted(members, key=str) if len(members) < 50 else list(members)
-        declared = {ref: graph.nodes[ref]["declared"] for ref in ports}
+    for members in connected_parts(graph.joined):
+        ports = sorted(members, key=str) if len(members) < 50 else members
+        declared: dict[PortRef, Any] = {ref: graph.declared[ref] for ref in ports}
         if len({_kind(d) for d in declared.values()}) > 1:
             faults.append(_mixed(assembly, graph, declared))
             assembly.excuse({ref.instance for ref, d in declared.items() if not isinstance(d, Port)})
@@ -69,11 +82,8 @@ def _kind(declared: Port | Input | Output) -> str:
     return declared.domain.name if isinstance(declared, Port) else "signal"
 
 
-def _written(graph: nx.Graph, ports: list[PortRef]) -> Location:
-    for a in ports:
-        for data in graph.adj[a].values():
-            return data["where"]
-    return graph.nodes[ports[0]]["where"]
+def _written(graph: PortGraph, ports: list[PortRef]) -> Location:
+    return next((where for a in ports for where in graph.joined[a].values()), graph.where[ports[0]])
 
 
 def _signal(
@@ -105,11 +115,11 @@ def _other_unit(declared: dict[PortRef, Input | Output], output: PortRef) -> Por
     return None
 
 
-def _mixed(assembly: Assembly, graph: nx.Graph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
+def _mixed(assembly: Assembly, graph: PortGraph, declared: dict[PortRef, Port | Input | Output]) -> Fault:
     """Told where the two kinds meet."""
-    edges = graph.subgraph(declared).edges
-    a, b = min(tuple(sorted(ends)) for ends in edges if len({_kind(declared[end]) for end in ends}) > 1)
-    one, two, where = _kind(declared[a]), _kind(declared[b]), edges[a, b]["where"]
+    unlike = ((a, b) for a in declared for b in graph.joined[a] if _kind(declared[a]) != _kind(declared[b]))
+    a, b = min((a, b) for a, b in unlike if a < b)
+    one, two, where = _kind(declared[a]), _kind(declared[b]), graph.joined[a][b]
     first, second = assembly.named(a), assembly.named(b)
     if "signal" in (one, two):
         first, second, one = (second, first, two) if one == "signal" else (first, second, one)

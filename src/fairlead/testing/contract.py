@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.base import Composite, Declared
+from fairlead.component.bundled import bundled
 from fairlead.component.composition import expanded
-from fairlead.component.registry import bundled
 from fairlead.component.scene import Scene
 from fairlead.component.trace import TraceError
 from fairlead.errors import ModelError

@@ -15,7 +15,7 @@ from fairlead.netlist.netlist import Entry, Value
 ALONE = re.compile(r"\{\s*([A-Za-z_]\w*)\s*\}")  # an expression that is one scene parameter
 
 
-def types_of(model: Any) -> dict[str, type[Declared]]:
+def types_of(model: Any) -> Mapping[str, type[Declared]]:
     """The component types that a model may name."""
     return known_types(getattr(model, "libraries", ()))
 

@@ -15,13 +15,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-import networkx as nx
 import numpy as np
 
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import OWN, PORT, RATE, key, rate_of
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.kernels import layout
 from fairlead.kernels.break_away import number_of
 from fairlead.kernels.structure import Structure
@@ -183,15 +183,14 @@ def _told(flat: FlatModel, structures: Mapping[str, Structure], source: PortRef)
 
 def _holding(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]) -> set[int]:
     """Rated groups at which a row may hold, and what moves with them."""
-    graph = nx.Graph()
-    graph.add_nodes_from(groups)
+    paths: list[list[int]] = []
     found = set()
     for instance in flat.instances:
         s = structures[instance.path]
         at = {flat.place(PortRef(instance.path, port))[0] for port in _ports(instance, flat)} & groups
-        nx.add_path(graph, sorted(at))
+        paths.append(sorted(at))
         found |= {flat.place(PortRef(instance.path, key(s.inputs[j]).name))[0] for _, j in s.mass} & groups
-    return {k for part in nx.connected_components(graph) if part & found for k in part}
+    return {k for part in connected_parts(of_paths(sorted(groups), paths)) if found.intersection(part) for k in part}
 
 
 def rated_rows(flat: FlatModel, numbering: Numbering, blocks: Sequence[Block]) -> Memory:
@@ -230,11 +229,8 @@ def _yielding(flat: FlatModel, structures: Mapping[str, Structure], groups: set[
 def rated_terms(numbering: Numbering, found: Sequence[Join]) -> list[tuple[int, int]]:
     """Pairs (i, j) of rated nodes: the row of i may have the rate of the balance of j."""
     number = {index: k for k, index in enumerate(numbering.rated)}
-    graph = nx.Graph()
-    graph.add_nodes_from(range(len(number)))
-    for one in found:
-        nx.add_path(graph, [number[index] for index in one.groups])
-    return [(i, j) for part in nx.connected_components(graph) for i in sorted(part) for j in sorted(part)]
+    joined = connected_parts(of_paths(range(len(number)), ([number[index] for index in one.groups] for one in found)))
+    return [(i, j) for part in joined for i in sorted(part) for j in sorted(part)]
 
 
 def add_rated_entries(entries: Entries, memory: Memory, m: int, first: int) -> None:

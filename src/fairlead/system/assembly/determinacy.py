@@ -15,13 +15,13 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterable, Iterator
 
-import networkx as nx
 import numpy as np
 
 from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel, Node
+from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.numbering.unknowns import Numbering
@@ -71,18 +71,17 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
     anchors = [k for k, group in enumerate(flat.groups) if not group.free or group.mass > 0]
     if len(anchors) == len(flat.groups):
         return
-    graph = nx.Graph()
-    graph.add_nodes_from(range(len(flat.groups)))
+    joints: list[list[int]] = []
     for block in blocks:
         has, moved = block.kernel.variant.type.declaration, _depends_on_motion(block)
         for instance in block.instances:
             ports = (PortRef(instance.path, name) for name in has.ports)
             joined = [flat.place(port)[0] for port in ports if port in flat.node_of]
-            nx.add_path(graph, joined)
+            joints.append(joined)
             anchors += joined[:1] if has.states or (len(joined) == 1 and moved) else []
     held = set(anchors)
-    for groups in nx.connected_components(graph):
-        if not groups & held:
+    for groups in connected_parts(of_paths(range(len(flat.groups)), joints)):
+        if held.isdisjoint(groups):
             nodes = [flat.nodes[number] for k in sorted(groups) for number in flat.groups[k].nodes]
             what = f"{_named(nodes)} hang together without any mass, and on no fixed or driven point."
             way_out = "Join one of them to a Ground or a source of motion, or add a Mass."

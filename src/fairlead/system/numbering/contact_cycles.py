@@ -10,8 +10,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-import networkx as nx
-
 from fairlead.component.instantiate import PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.structure import Structure
@@ -35,6 +33,8 @@ def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPa
     edges = [_edge(flat, pair) for pair in pairs]
     if _forest(edges):
         return []
+    import networkx as nx  # takes a tenth of a second; most scenes have no circle
+
     parallel = Counter(edges)
     bridges = {_sorted(edge) for edge in nx.bridges(nx.Graph(edge for edge in edges if edge[0] != edge[1]))}
     return [pair for pair, edge in zip(pairs, edges, strict=True) if parallel[edge] > 1 or edge not in bridges]

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import networkx as nx
-
 from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, PORT, key
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.flatten.graph import ranks
 from fairlead.kernels.kernel import Kernel
 from fairlead.kernels.structure import Structure
 
 
 def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
     """Rank of every instance that gives a signal. Raises ModelError for a loop of signals without delay."""
-    graph = nx.DiGraph()
+    followers: dict[str, dict[str, None]] = {}
     needed = set(flat.sources.values())
     for group in flat.groups:
         if group.prescribed is not None and group.prescribed.outputs is not None:
@@ -22,19 +21,21 @@ def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
     _refuse_unfit(flat, kernels, needed)
     deciding: dict[tuple[int, str], list[str]] = {}
     for output in needed:
-        graph.add_node(output.instance)
+        followers.setdefault(output.instance, {})
         s = kernels[output.instance].structure
         if (id(s), output.port) not in deciding:  # once a class: a long line has thousands of instances
             deciding[id(s), output.port] = _deciding(s, output.port)
         for source in _read_by(flat, output, deciding[id(s), output.port]):
-            graph.add_edge(source.instance, output.instance)
-    try:
-        return {path: rank for rank, layer in enumerate(nx.topological_generations(graph)) for path in layer}
-    except nx.NetworkXUnfeasible:
-        loop = [a for a, _ in nx.find_cycle(graph)]
-        where = flat.assembly.instances[loop[0]].where
-        what = f"signals run in a loop without delay: {' -> '.join([*loop, loop[0]])}."
-        raise ModelError([Fault(where, what, "Break it with a State or a sampled component.")]) from None
+            followers.setdefault(source.instance, {})[output.instance] = None
+    known = ranks(followers)
+    if len(known) == len(followers):
+        return known
+    import networkx as nx
+
+    loop = [a for a, _ in nx.find_cycle(nx.DiGraph((a, b) for a, found in followers.items() for b in found))]
+    where = flat.assembly.instances[loop[0]].where
+    what = f"signals run in a loop without delay: {' -> '.join([*loop, loop[0]])}."
+    raise ModelError([Fault(where, what, "Break it with a State or a sampled component.")])
 
 
 def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: set[PortRef]) -> None:
