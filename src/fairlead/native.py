@@ -23,7 +23,6 @@ import contextlib
 import ctypes
 import functools
 import hashlib
-import importlib.metadata
 import json
 import os
 import pathlib
@@ -100,7 +99,10 @@ def digest(*parts: str) -> str:
 
 @functools.cache
 def _environment() -> tuple[str, ...]:
-    versions = tuple(importlib.metadata.version(name) for name in ("llvmlite", "numpy"))
+    import llvmlite
+    import numpy
+
+    versions = (llvmlite.__version__, numpy.__version__)
     chosen = processor()
     own = pathlib.Path(__file__).read_text(encoding="utf-8")
     return (*versions, chosen.cpu, chosen.features, platform.platform(), platform.machine(), sys.version, own)

@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from fairlead.component.base import Declared, slips_of
 from fairlead.component.bundled import Bundled, bundled, written
 from fairlead.netlist.files import bundled_models
 
@@ -66,6 +67,16 @@ def test_a_class_by_name_is_that_of_the_whole_library_and_an_unknown_one_is_none
     assert types.get("Sprung") is None
     assert "Placed" not in types  # a class of the library that is no type
     assert [head.__name__ for head in types.heads()] == ["Contact"]
+
+
+def test_no_bundled_class_has_a_slip_of_the_pen() -> None:
+    bundled()
+    kinds = list(Declared.__subclasses__())
+    for kind in kinds:
+        kinds += kind.__subclasses__()
+    ours = [kind for kind in kinds if kind.__module__.startswith("fairlead.components.")]
+    assert len(ours) > 200
+    assert {kind.__name__: slips for kind in ours if (slips := list(slips_of(kind)))} == {}
 
 
 OWN = """

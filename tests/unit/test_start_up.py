@@ -1,11 +1,13 @@
 """Starting is light: what is heavy loads when it is needed, not before."""
 
 import json
+import pathlib
 import subprocess
 import sys
 
 import pytest
 
+BELT = pathlib.Path(__file__).resolve().parents[2] / "models" / "belt.yaml"
 HEAVY = {"numpy", "sympy", "xarray", "matplotlib", "numba", "pandas", "scipy", "pint"}
 
 
@@ -41,3 +43,12 @@ def test_a_model_of_known_classes_runs_without_what_traces_and_compiles_them() -
     run = "import fairlead; fairlead.load('belt').run(out=None, stop=0.1)"
     loaded_by(run)
     assert loaded_by(run) & {"sympy", "numba", "matplotlib"} == set()
+
+
+def test_a_run_from_the_shell_loads_no_library_that_it_does_without(tmp_path) -> None:
+    netlist = tmp_path / "plain.yaml"
+    netlist.write_text(BELT.read_text(encoding="utf-8").partition("  plots:")[0], encoding="utf-8")
+    arguments = ["fairlead", "run", str(netlist), "--force", "--out", str(tmp_path / "out")]
+    run = f"import fairlead.cli; sys.argv = {arguments}; fairlead.cli.main()"
+    loaded_by(run)
+    assert loaded_by(run) & {"networkx", "rich", "sympy", "numba", "matplotlib", "scipy", "xarray", "pandas"} == set()

@@ -5,6 +5,7 @@ standard error. A verb imports what it needs when it runs, so that `--help` stay
 """
 
 import io
+import os
 import sys
 
 import typer
@@ -74,4 +75,5 @@ def main() -> None:
     """Run the command line with the arguments of this process; does not return."""
     if isinstance(sys.stdout, io.TextIOWrapper):  # what it cannot write, such as ° in ASCII, is no reason to fail
         sys.stdout.reconfigure(errors="replace")
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # to find some, pydantic reads a file of every package
     app(prog_name="fairlead")

@@ -9,7 +9,7 @@ import typer
 
 from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
-from fairlead.cli.terminal import console, echo
+from fairlead.cli.terminal import echo
 from fairlead.errors import RunWarning
 
 if TYPE_CHECKING:
@@ -134,9 +134,9 @@ def _extras(model: "Model", result: "Result", *, csv: bool, report: bool) -> "It
 
 def _print_summary(result: "Result", *, profile: bool) -> None:
     """The closing table, and the profile when asked."""
-    from fairlead.cli.summary import summary_table
+    from fairlead.cli.summary import print_summary
 
-    console().print(summary_table(result.run, result.folder))
+    print_summary(result.run, result.folder)
     if profile:
         echo(result.run.get("profile", "no profile was kept"))
 

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
-import importlib
-import importlib.metadata
 import importlib.util
 import linecache
+import os
 import pathlib
 import sys
 import warnings
 from collections.abc import Iterable, Mapping
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from fairlead.component.base import Declared
 from fairlead.component.bundled import Bundled, bundled, types_in
 from fairlead.component.members import defined_by_a_library, hide_libraries, show
 from fairlead.errors import Fault, ModelError
+
+if TYPE_CHECKING:
+    import importlib.metadata
 
 ENTRY_POINTS = "fairlead.components"
 WRITTEN = "__written__"
@@ -58,8 +62,24 @@ def _installed() -> tuple[tuple[str, int], ...]:
 
 @functools.lru_cache(maxsize=1)
 def _plug_ins(installed: tuple[tuple[str, int], ...]) -> tuple[importlib.metadata.EntryPoint, ...]:
-    """The plug-ins among what is installed. To find them, Python reads a file of every package: milliseconds."""
+    """The plug-ins among what is installed."""
+    if not any(_may_have_plug_ins(pathlib.Path(folder)) for folder, _ in installed):
+        return ()
+    import importlib.metadata  # parses what pip knows of every package, tens of milliseconds
+
     return tuple(importlib.metadata.entry_points(group=ENTRY_POINTS))
+
+
+def _may_have_plug_ins(folder: pathlib.Path) -> bool:
+    """Whether the text of some package's entry points names the group; what is no folder (a zip) may well."""
+    if not folder.is_dir():
+        return True
+    for entry in os.scandir(folder):
+        if entry.name.endswith((".dist-info", ".egg-info")):
+            with contextlib.suppress(OSError):
+                if ENTRY_POINTS.encode() in pathlib.Path(entry.path, "entry_points.txt").read_bytes():
+                    return True
+    return False
 
 
 def load_library(path: str) -> ModuleType:

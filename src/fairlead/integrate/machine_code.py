@@ -8,7 +8,6 @@ from __future__ import annotations
 import ctypes
 import functools
 import hashlib
-import importlib.metadata
 import importlib.util
 import os
 import pathlib
@@ -77,10 +76,21 @@ def numba_or_reason(module: str, reason: str) -> None:
         )
 
 
+@functools.cache
 def _version_of_numba() -> str:
+    """Read off the name of the folder that pip leaves beside numba; "" without numba. Importing it takes 0.3 s."""
+    found = importlib.util.find_spec("numba")
+    if found is None or found.origin is None:
+        return ""
+    beside = pathlib.Path(found.origin).parents[1].glob("numba-*.dist-info")
+    told = [folder.name.removesuffix(".dist-info").partition("-")[2] for folder in beside]
+    if len(told) == 1:
+        return told[0]
+    from importlib.metadata import PackageNotFoundError, version  # parses what pip knows of a package: some 20 ms
+
     try:
-        return importlib.metadata.version("numba")
-    except importlib.metadata.PackageNotFoundError:
+        return version("numba")
+    except PackageNotFoundError:
         return ""
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
+from fairlead.netlist.hover import say
 from fairlead.netlist.interface import Interface
 from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
 
@@ -32,7 +33,7 @@ Block = Annotated[dict[str, Any], BeforeValidator(_nothing_is_empty)]
 class ComponentBlock(BaseModel):
     """A component: its type, and its parameters by name."""
 
-    model_config = ConfigDict(extra="allow", frozen=True, strict=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="allow", frozen=True, strict=True, json_schema_extra=say)
 
     type: str
     """Name of the component class, such as Spring."""

@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 
 from fairlead.errors import shown
+from fairlead.netlist.hover import say
 from fairlead.quantities import QuantityError, wanted, whole, written
 
 
@@ -19,7 +20,7 @@ class Strict(BaseModel):
     elsewhere: ClassVar[dict[str, str]] = {}
     """Keys that other tools or commands have, with the key that means the same here."""
     model_config = ConfigDict(
-        extra="forbid", frozen=True, strict=True, use_attribute_docstrings=True, hide_input_in_errors=True
+        extra="forbid", frozen=True, strict=True, hide_input_in_errors=True, json_schema_extra=say
     )
 
 

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.netlist.hover import said_of
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.yaml12 import resolve
@@ -174,8 +175,11 @@ def _keys(model: type[BaseModel]) -> list[str]:
 def _hover(model: type[BaseModel], path: Path) -> str:
     """The sentence that documents the field a path leads to."""
     owner = _model_at(model, path[:-1])
-    fields = {field.alias or name: field for name, field in owner.model_fields.items()} if owner else {}
-    return (fields[str(path[-1])].description or "") if path[-1] in fields else ""
+    fields = {field.alias or name: (name, field) for name, field in owner.model_fields.items()} if owner else {}
+    if owner is None or path[-1] not in fields:
+        return ""
+    name, field = fields[str(path[-1])]
+    return field.description or said_of(owner).get(name, "")
 
 
 def _model_at(model: type[BaseModel], path: Path) -> type[BaseModel] | None:
