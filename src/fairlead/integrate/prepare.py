@@ -59,7 +59,7 @@ def planned(problem: Problem, contacts: bool) -> Planned:
 def new_plan(problem: Problem, contacts: bool) -> Planned:
     """Pivots, patterns, sizes; where `contacts` are planned also who holds what, and who hands its load to whom."""
     n, ng, nz = len(problem.initial), len(problem.guard_machine), len(problem.zones)
-    plan = ordering.plan(problem)
+    plan, light = ordering.plan(problem), of_light(problem)
     most_perturbed = MOST_PERTURBED if contacts and not plan.dense else 0
     numbers: dict[str, float] = {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
@@ -67,12 +67,12 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
         **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
         "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
-        "n_balanced": len(problem.balanced),
+        "n_balanced": len(problem.balanced), "n_light": len(light),
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
-        "n_moves": len(problem.moves), "n_balanced": len(problem.balanced),
+        "n_moves": len(problem.moves), "n_balanced": len(problem.balanced), "n_light": len(light),
         "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],
@@ -95,7 +95,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         **{f"move_{name}": np.ascontiguousarray(problem.moves[:, k], np.int64) for k, name in enumerate(MOVES)},
         "balanced_position": np.ascontiguousarray(problem.balanced[:, 0], np.int64),
         "balanced_speed": np.ascontiguousarray(problem.balanced[:, 1], np.int64),
-        "speed_of": speed_of(problem), "position_of": position_of(problem),
+        "light": light, "speed_of": speed_of(problem), "position_of": position_of(problem),
         "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n),
         **plan.arrays,
     }  # fmt: skip
@@ -109,6 +109,13 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
     by_zone = {name: len(given.get(name, ())) for name in ("own_slopes", "own_masses")} | {"machines": nz}
     lengths |= {f"{name}_by_zone": KNOWN_ZONES * length if contacts else 0 for name, length in by_zone.items()}
     return Planned(lengths, given, numbers)
+
+
+def of_light(problem: Problem) -> Integers:
+    """Entries of M in columns of speeds without inertia: of rows that hold them, which tell their slip."""
+    told = problem.callbacks.get("drift") or problem.callbacks.get("slip")
+    found = np.flatnonzero(~np.asarray(problem.differential, dtype=bool)[columns_of(problem.mass_pattern)])
+    return found.astype(np.int64) if told else found[:0].astype(np.int64)
 
 
 def diagonal(pattern: AnyPattern, n: int) -> Integers:

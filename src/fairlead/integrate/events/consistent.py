@@ -159,6 +159,29 @@ def residual_here(problem, point, matrices, at_r):
         v[k] = -slope[k] if differential[k] == 1 else 0.0
         r[k] = f[k]
     add_mass_times(matrices, point.at_v, at_r)
+    if problem.n_light > 0:
+        slip_of_light(problem, point, matrices, at_r)
+
+
+@compiled
+def slip_of_light(problem, point, matrices, at_r):
+    """Set r in rows that hold nodes without inertia: their slip is zero at once, whatever the surface does.
+
+    Such a row, -slip/tau less the acceleration of what is given, knows the acceleration of no node whose speed is
+    algebraic: zero, it would leave a slip of tau times that of the surface. In units of the row one update is exact.
+    """
+    light, column = indices(problem.at_light, problem.n_light), indices(matrices.at_mass_columns, matrices.n_mass)
+    row, values = indices(matrices.at_mass_rows, matrices.n_mass), reals(matrices.at_mass, matrices.n_mass)
+    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
+    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    slopes = reals(matrices.at_jacobian, matrices.n_jacobian)
+    r, slip = reals(at_r, problem.n), reals(point.at_v, problem.n)
+    field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_v))
+    for e in light:
+        if values[e] != 0.0:
+            for p in range(starts[column[e]], starts[column[e] + 1]):
+                if rows[p] == row[e]:
+                    r[row[e]] = slip[row[e]] * (1.0 - slopes[p] / values[e])
 
 
 @compiled

@@ -15,7 +15,7 @@ PROBLEM = Struct(
         # whether guards have inertias
         "weighs_guards",
         # impacts: whether any row takes impulses; unknowns of the energy ledger (-1: there is none)
-        "takes_impulses", "rebounds", "n_moves", "n_balanced", "dissipated_at", "supplied_at",
+        "takes_impulses", "rebounds", "n_moves", "n_balanced", "n_light", "dissipated_at", "supplied_at",
         # whether friction of a contact falls as it lets go
         "falling", "linear", "n_quadratures", "samples",
         # address of what the callbacks read of means of given motions, 0 where none is given
@@ -31,6 +31,8 @@ PROBLEM = Struct(
         "move_position": "n_moves", "move_speed": "n_moves", "move_acceleration": "n_moves",
         # nodes without inertia: their positions and speeds
         "balanced_position": "n_balanced", "balanced_speed": "n_balanced",
+        # entries of M in columns of speeds without inertia
+        "light": "n_light",
         # the speed of an acceleration that is an unknown; of others they themselves
         "speed_of": "n", "differential": "n", "quadrature": "n", "takes_impulse": "n",
         # the position of each speed (-1: none)
