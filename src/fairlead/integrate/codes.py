@@ -7,6 +7,9 @@ from __future__ import annotations
 
 START, TRY, RECORD, ARRIVE, SETTLE, WAKE = 0, 1, 2, 3, 4, 5
 
+NONE_DUE, SAMPLE_DUE, SETTLING_FOR_IT = 0, 1, 2
+"""Of the first sample (first_sample.py): there is none any more, it is due, the point is being settled for it."""
+
 GO_ON = 100
 """Not a status of a run: the loop takes the next phase."""
 FINISHED, PAUSED, BUFFER_FULL, REPLAN, NARROW, WIDEN = 0, -1, -2, -3, -4, -5

@@ -229,6 +229,7 @@ def point_at_instance(memory: Memory, own: Instance) -> None:
     for name, values in of_run.items():
         memory.point(name, values, np.float64)
     memory.point("zones", own.zones, np.int64)
+    memory.number["first_sample"] = int(own.samples)
     memory.number["rebounds"] = int(back.any())
     memory.number["mean_at"] = own.mean.ctypes.data if len(own.mean) else 0
     memory.number["weighs_guards"] = int(inertia.any())

@@ -13,12 +13,15 @@ from fairlead.integrate.codes import (
     PASSED,
     REBOUND_RUBS,
     REPLAN,
+    SAMPLE_DUE,
     SETTLE,
+    SETTLING_FOR_IT,
     SINGULAR_MATRIX,
     TRY,
     UNSETTLED,
 )
 from fairlead.integrate.events.consistent import NOT_CONSISTENT, correct_forces, keep_positions
+from fairlead.integrate.events.first_sample import settle_for_sample, take_first_sample
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RUBBED
@@ -54,8 +57,10 @@ FARTHER = 100.0
 
 @compiled
 def start(problem, run, point, events):
-    """Sample inputs at the start, then settle there."""
-    if problem.call_at_time != 0:
+    """Move to the pieces in force at the start, sample, and settle there."""
+    if run.first_sample == SAMPLE_DUE:
+        settle_for_sample(problem, run, point, events)
+    elif problem.call_at_time != 0:
         at_time_at(problem.call_at_time, (problem.context, point.t, point.at_y))
     find_next_time(problem, run, point)
     events.guards.n_fired = 0
@@ -251,6 +256,9 @@ def settle_here(m):
         return REPLAN
     if status == NO_ROOM:
         return BUFFER_FULL
+    if run.first_sample == SETTLING_FOR_IT:
+        take_first_sample(problem, run, point, events)
+        return GO_ON
     if status == SINGULAR:
         return not_finite_here(problem, run, point, SINGULAR_MATRIX)
     if status == NOT_CONSISTENT:

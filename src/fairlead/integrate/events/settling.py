@@ -18,6 +18,7 @@ all that must break, as many as the least index).
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import SETTLING_FOR_IT
 from fairlead.integrate.events.balance import MOVES, jump_to_balance
 from fairlead.integrate.events.consistent import consistent
 from fairlead.integrate.events.guards import evaluate_guards
@@ -223,6 +224,8 @@ def all_at_limits(events):
 def log_changes(m):
     """Write an event for every machine that changed and for every guard that fired without changing one."""
     run, point, guards, settling, recorder = m.run, m.point, m.events.guards, m.events.settling, m.recorder
+    if run.first_sample == SETTLING_FOR_IT:
+        return
     nz, ng = settling.n_zones, guards.n_guards
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     machine, fired = indices(guards.at_guard_machine, ng), indices(guards.at_fired, ng)

@@ -11,6 +11,7 @@ RUN = Struct(
         "adaptive", "on_chatter",
         # where the run is
         "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "stop_asked", "dropped",
+        "first_sample",
         # the step at which to look whether less would do, whether this is a part, whether its rim has changed
         "narrow_at", "narrowed", "woken",
         # counters
