@@ -35,8 +35,8 @@ SETTLING = Struct(
         "wrong": "n_guards", "last_toggle": "n_zones", "rank": "n_zones", "patterns_met": "passes",
     },
     indices={
-        "rim": "n_zones", "zones_before": "n_zones", "zones_given": "n_zones", "zones_history": "passes_zones", "streak": "n_zones",
-        "chatters": "n_zones", "switches_by_machine": "n_zones",
+        "rim": "n_zones", "zones_before": "n_zones", "zones_given": "n_zones", "zones_history": "passes_zones",
+        "streak": "n_zones", "chatters": "n_zones", "switches_by_machine": "n_zones",
     },
 )  # fmt: skip
 """A settlement: which violators change, since which pass, who chatters."""
