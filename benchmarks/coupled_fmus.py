@@ -27,8 +27,8 @@ COMMANDS = ("deployer_command", "winch_command")
 class Instance:
     """An FMU of version 3 in FMPy, by names."""
 
-    def __init__(self, file: pathlib.Path) -> None:
-        """Initialised at 0 s."""
+    def __init__(self, file: pathlib.Path, given: dict[str, float] | None = None) -> None:
+        """Initialised at 0 s with these inputs, and with the start values of the others."""
         from fmpy import extract, read_model_description
         from fmpy.fmi3 import FMU3Slave
 
@@ -38,6 +38,7 @@ class Instance:
                                   modelIdentifier=told.coSimulation.modelIdentifier)  # fmt: skip
         self.fmu.instantiate()
         self.fmu.enterInitializationMode(startTime=0.0)
+        self.set(given or {})
         self.fmu.exitInitializationMode()
 
     def set(self, values: dict[str, float]) -> None:
@@ -57,7 +58,7 @@ class Instance:
 
 def master(plant: Instance, electronics: Instance, held: int, stop: float) -> dict[str, NDArray[np.float64]]:
     """What is measured at all multiples of H = `held` Ts up to `stop`."""
-    found = [dict.fromkeys(MEASURED, 0.0)]  # as in the one model, see coupled_route
+    found = [plant.get(MEASURED)]
     for k in range(0, round(stop / PERIOD), held):
         plant.set(electronics.get(COMMANDS))
         step(plant, k, held)
@@ -91,7 +92,8 @@ def exported(folder: pathlib.Path, accuracy: float) -> tuple[pathlib.Path, pathl
 
 def coupled(files: tuple[pathlib.Path, pathlib.Path], held: int, stop: float) -> dict[str, NDArray[np.float64]]:
     """The same, with both begun anew."""
-    both = [Instance(file) for file in files]
+    plant = Instance(files[0])
+    both = [plant, Instance(files[1], plant.get(MEASURED))]  # their first sample is taken while they are initialised
     try:
         return master(both[0], both[1], held, stop)
     finally:

@@ -106,7 +106,7 @@ def wanted(t: float) -> float:
 def coupled(held: int, stop: float = STOP, accuracy: float = ACCURACY) -> dict[str, NDArray[np.float64]]:
     """What is measured at all multiples of H = `held` Ts up to `stop`, with the electronics in Python."""
     plant, electronics = fairlead.load(PLANT).start(accuracy=accuracy), Electronics()
-    found = [[0.0] * len(MEASURED)]  # the first sample of the one model is taken before its sensors have read anything
+    found = [[plant.get(name) for name in MEASURED]]  # settled without a command, as for the first sample of one model
     for k in range(0, round(stop / PERIOD), held):
         for name, value in electronics.sample(*found[-1]).items():
             plant.set(name, value)
@@ -124,8 +124,7 @@ def together(stop: float = STOP, accuracy: float = ACCURACY) -> dict[str, NDArra
         given = {"run.stop": stop, "run.accuracy": accuracy, "record.every": PERIOD}
         one = fairlead.load("guidance_route", set=given).run(out=None)
     times = PERIOD * np.arange(round(stop / PERIOD) + 1)
-    found = {name: one.at(signal, times) for name, signal in ONE.items()}
-    return {name: np.concatenate([[0.0], values[1:]]) for name, values in found.items()}
+    return {name: one.at(signal, times) for name, signal in ONE.items()}
 
 
 def off(
