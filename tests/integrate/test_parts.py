@@ -7,7 +7,8 @@ from fairlead.integrate.parts import NUMBERS as CARRIED
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
     "most_perturbed", "most_inside", "has_limits", "weighs_guards", "rebounds", "takes_impulses",
-    "falling", "dissipated_at", "supplied_at", "samples", "first_sample", "mean_at", "max_passes", "gamma", "error_exponent",
+    "falling", "dissipated_at", "supplied_at", "samples", "first_sample", "mean_at", "max_passes",
+    "gamma", "error_exponent",
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
