@@ -8,7 +8,7 @@ components:
   ground: {type: Ground}
   block: {type: Mass, mass: 2 kg, velocity: 0, position: 0}
   grip: {type: Contact, normal_force: 20 N, curve: {curve: coulomb, coulomb: 0.4, stiction: 0.5}}
-  push: {type: ForceSource, force: 7 N}
+  push: {type: ForceSource, force: {constant: 7 N, ramp: {to: 2 N, over: 0.1 s}}}
   reading: {type: SampledSensor, period: 10 ms}
 connections: [[ground.flange, grip.a], [grip.b, block.flange, push.flange], [grip.friction, reading.value]]
 run: {stop: 0.05 s}
@@ -58,10 +58,12 @@ def needs(engine):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_it_reads_the_force_that_a_contact_holds_with(simulate, engine):
-    """A block that 7 N push stands: friction bears 10 N, and 7 N are read from the first instant on."""
+    """A block stands under a push of 7 N that grows by 20 N/s; it is read from the first instant on, and every 10 ms."""
     needs(engine)
     result = simulate(HELD, **{"run.engine": engine})
-    np.testing.assert_allclose(result["reading.signal"], 7.0, rtol=1e-6)
+    at = np.array([0.005, 0.015, 0.035])
+    np.testing.assert_allclose(result.at("reading.signal", at), [7.0, 7.2, 7.6], rtol=1e-6)
+    assert result["reading.signal"][0] == pytest.approx(7.0)
     assert not result["block.x"].any()
 
 

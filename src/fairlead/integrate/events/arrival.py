@@ -258,6 +258,7 @@ def settle_here(m):
         return BUFFER_FULL
     if run.first_sample == SETTLING_FOR_IT:
         take_first_sample(problem, run, point, events)
+        find_next_time(problem, run, point)
         return GO_ON
     if status == SINGULAR:
         return not_finite_here(problem, run, point, SINGULAR_MATRIX)
