@@ -58,7 +58,7 @@ def needs(engine):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_it_reads_the_force_that_a_contact_holds_with(simulate, engine):
-    """A block stands under a push of 7 N that grows by 20 N/s; it is read from the first instant on, and every 10 ms."""
+    """A block stands under a push of 7 N that grows by 20 N/s and is read from the first instant on."""
     needs(engine)
     result = simulate(HELD, **{"run.engine": engine})
     at = np.array([0.005, 0.015, 0.035])
