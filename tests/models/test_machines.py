@@ -1,0 +1,108 @@
+"""Whole machines of models/machines, each against one thing that is known of it without the engine."""
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import fairlead
+
+SCENES = pathlib.Path(__file__).parents[2] / "models" / "machines"
+G = 9.80665
+pytestmark = pytest.mark.slow
+
+
+def run(name, **settings):
+    """A machine, with other values by their dotted names."""
+    result = fairlead.load(SCENES / f"{name}.yaml", set={"run.accuracy": "1e-6", **settings}).run(out=None)
+    assert result.ok
+    assert result.run["energy"]["closure"] < 1e-4
+    return result
+
+
+def entries(result, where, to):
+    """Times at which a zone is entered [s]."""
+    return np.array([e.t for e in result.events if e.component == where and e.zone_to == to])
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+@pytest.mark.parametrize(("speed", "breakaway"), [(5, 7), (3, 5)])
+def test_a_bit_sticks_and_slips_with_the_period_of_one_mass_behind_a_spring(engine, speed, breakaway):
+    """It sticks while the string winds from u below to u above sliding, and slips for (2 pi - 2 atan(w u/v))/w."""
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    result = run("drill_string", **{"run.engine": engine, "table.speed": f"{speed} rad/s",
+                                    "rock.breakaway": f"{breakaway} kN*m"})  # fmt: skip
+    w, u = np.sqrt(500 / 300), (breakaway - 4) * 1e3 / 500
+    slips = (2 * np.pi - 2 * np.arctan2(w * u, speed)) / w
+    sticks = 2 * u / speed
+    loose, held = entries(result, "rock.contact", "forward"), entries(result, "rock.contact", "held")
+    held = held[held > loose[0]]
+    assert len(loose) >= 4
+    assert held[: len(loose) - 1] - loose[:-1] == pytest.approx(slips, rel=1e-4)
+    assert loose[1:] - held[: len(loose) - 1] == pytest.approx(sticks, rel=1e-4)
+
+
+def test_a_clutch_takes_over_when_two_straight_lines_meet():
+    """With the gear's torque T on the sun: 0.2 s' = 100 + T - C, 0.05 r' = 3 T, 5 c' = -60 - 4 T + C, s + 3 r = 4 c."""
+    result = run("gear_change")
+    first = result.at("sun.speed", 1.0)
+    assert first == pytest.approx((100 - 60 / 4) / (0.2 + 5 / 16), rel=1e-5)  # the ring is held
+    clutch = 4 * 0.1 * 0.4 * 2e3
+    laws = np.array([[0.2, 0, 0, -1], [0, 0.05, 0, -3], [0, 0, 5, 4], [1, 3, -4, 0]])
+    sun, _, carrier, _ = np.linalg.solve(laws, [100 - clutch, 0, -60 + clutch, 0])
+    meets = 1 + (first - first / 4) / (carrier - sun)
+    assert entries(result, "clutch.contact", "held").max() == pytest.approx(meets, rel=1e-5)
+    both = first + sun * (meets - 1)
+    end = both + (100 - 60) / (0.2 + 0.05 + 5) * (2 - meets)
+    assert [result[f"{name}.speed"][-1] for name in ("sun", "ring", "carrier")] == pytest.approx([end] * 3, rel=1e-4)
+
+
+def test_a_worm_keeps_the_load_and_comes_down_after_its_play():
+    """Lifting steadily, the motor gives the load's share, the bearing and the drag; at rest the coupling is loose."""
+    result = run("worm_hoist")
+    k = 0.12 / 30
+    rate = (result.at("rotor.speed", 1.4) - result.at("rotor.speed", 1.2)) / 0.2
+    middle = np.mean([result.at("rotor.speed", t) for t in np.linspace(1.2, 1.4, 41)])
+    carried = 100 * k * (G + k * rate)
+    assert 12 - 0.02 * middle - 0.03 * rate == pytest.approx(carried / 0.42 + 0.2, rel=2e-3)
+    rests = result.at("load.x", 2.6)
+    assert rests == result.at("load.x", 2.9) > 0.1
+    comes_down = entries(result, "worm.rubbing.contact", "backward")
+    assert len(comes_down) >= 1
+    assert comes_down[comes_down > 3].min() > entries(result, "coupling", "reverse")[-1] - 0.5
+
+
+@pytest.mark.parametrize("mass", [200, 120])
+def test_a_winch_lowers_at_the_speed_of_its_pump_whatever_the_load(mass):
+    """The load's torque less the drag and what speeds it up is the drop over the motor, whose leakage adds to the flow.
+
+    The balance of areas gives the rest: p_hold - tank + p_line - tank is 150 bar and the opening's share of 30 bar, at
+    a ratio of one. All are means over a second, while it swings a little.
+    """
+    weight = mass * G
+    result = run("lowering_winch", **{"load.mass": f"{mass} kg", "weight.force": f"{weight} N",
+                                      "hold.pressure": f"{weight * 0.1 / 2e-5 + 1e5} Pa"})  # fmt: skip
+    t = np.linspace(3.9, 4.9, 501)
+    hold, line, speed = (np.mean(result.at(name, t)) for name in ("hold.level", "line.level", "drum.speed"))
+    assert speed == pytest.approx((5e-4 + 5e-13 * (hold - line)) / 2e-5, rel=5e-3)
+    rate = result.at("drum.speed", 4.9) - result.at("drum.speed", 3.9)
+    needs = weight * 0.1 - 2 * speed - (5 + mass * 0.1**2) * rate
+    assert hold - line == pytest.approx(needs / 2e-5, rel=2e-3)
+    lifted = hold + line - 2e5
+    assert lifted == pytest.approx(150e5 + 30e5 * np.mean(result.at("balance.opening", t)), rel=1e-3)
+    crept = 5e-13 * weight * 0.1 / 2e-5 / 2e-5  # past the motor, with the valve shut
+    assert result["drum.speed"][result.t > 7.5].mean() == pytest.approx(crept, abs=0.1)
+
+
+@pytest.mark.parametrize("volume", [40, 15])
+def test_a_tensioner_has_the_tension_of_its_gas(volume):
+    """The gas begins with volume (25/39.2)^(1/1.2) and expands by area times travel; the rod's inertia is little."""
+    result = run("tensioner_in_heave", **{"gas.volume": f"{volume} L"})
+    area, tank = np.pi * 0.1**2 / 4, 1e5
+    start = volume * 1e-3 * (25 / 39.2) ** (1 / 1.2)
+    expands = start + area * (result["tensioner.travel"] - result["tensioner.travel"][0])
+    level = 25e5 * (volume * 1e-3 / expands) ** 1.2
+    late = result.t > 2
+    assert np.allclose(result["line.tension"][late], area * (level - tank)[late], rtol=0.01)
+    assert np.ptp(result["line.tension"][late]) > 0.05 * 30e3
