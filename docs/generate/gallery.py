@@ -43,7 +43,8 @@ QUESTIONS = {
 
 def pages(docs: Path, folder: Path) -> dict[str, str]:
     """gallery.md."""
-    models = sorted(Path(str(fairlead.models.__file__)).parent.glob("*.yaml"))
+    folder_of = Path(str(fairlead.models.__file__)).parent
+    models = [*sorted(folder_of.glob("*.yaml")), *sorted(folder_of.glob("machines/*.yaml"))]
     lines = ["# Gallery", "", "Every bundled model, with the question that it answers, its command and a picture.", ""]
     for model in models:
         lines += _entry(model, folder / "gallery")
@@ -54,8 +55,9 @@ def _entry(model: Path, folder: Path) -> Iterator[str]:
     question, told = comment(model)
     wiring(model, folder)
     asked = QUESTIONS.get(model.stem)
+    name = model.stem if model.parent.name != "machines" else f"machines/{model.stem}"
     yield from (f"## {model.stem}", "", *((f"**{asked}**", "") if asked else ()), question, "")
-    yield from fence("sh", f"fairlead run {model.stem} --report")
+    yield from fence("sh", f"fairlead run {name} --report")
     if model.stem in TAKEN:
         yield from (f"![The page of {model.stem}](../figures/{TAKEN[model.stem]})", "")
     elif model.stem not in DEAR:

@@ -57,7 +57,7 @@ SEEDED = [
     # types and ports
     ("type: Spring", "type: Sprng", "scene.yaml:5:18: spring: there is no component type Sprng. Did you mean Spring?"),
     ("type: Spring", "type: spring", "scene.yaml:5:18: spring: there is no component type spring. Did you mean Spring?"),
-    ("type: Spring", "type: Piston", "scene.yaml:5:18: spring: there is no component type Piston. There are Accumulator, "),
+    ("type: Spring", "type: Piston", "scene.yaml:5:18: spring: there is no component type Piston. There are AccelerationActuator, "),
     ("[spring.b,", "[spring.c,", "scene.yaml:16:6: spring.c: Spring has ports a, b; outputs tension, stretch. Did you mean spring.b?"),
     ("block.flange, pad.b]", "block.flnge, pad.b]", "scene.yaml:16:16: block.flnge: Mass has ports flange; outputs x, v. Did you mean block.flange?"),
     # parameters

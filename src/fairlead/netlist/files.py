@@ -49,11 +49,12 @@ def _unless_ambiguous(bundled: Path, local: Path, where: Location) -> Path:
 
 
 def bundled_models() -> dict[str, Path]:
-    """The netlists that come with fairlead, by name."""
+    """The netlists that come with fairlead, by name; whole machines by `machines/NAME`."""
     spec = importlib.util.find_spec("fairlead.models")
-    folders = spec.submodule_search_locations if spec else None
-    files = (file for folder in folders or () for file in sorted(Path(folder).glob("*.yaml")))
-    return {file.stem: file for file in files}
+    folders = [Path(folder) for folder in (spec.submodule_search_locations if spec else None) or ()]
+    files = [file for folder in folders for file in sorted(folder.glob("*.yaml"))]
+    machines = [file for folder in folders for file in sorted(folder.glob("machines/*.yaml"))]
+    return {file.stem: file for file in files} | {f"machines/{file.stem}": file for file in machines}
 
 
 def inside(folder: Path, base: Path, text: str, where: Location | None) -> Path:
