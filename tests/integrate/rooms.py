@@ -10,6 +10,8 @@ import numpy as np
 
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.memory.layout import INDICES, VECTORS
+from fairlead.native import target_machine
+from fairlead.processor import tell_numba
 
 
 def memory(numbers: dict[str, float] | None = None, **arrays: Any) -> Memory:
@@ -38,11 +40,36 @@ def entry(function: Callable[..., Any], owners: tuple[str, ...], kinds: str = ""
     exec(text, scope)
     types = {"i": numba.int64, "d": numba.float64, "v": numba.void, "b": numba.boolean}
     signature = types[result](numba.int64, *(types[kind] for kind in kinds))
-    made = numba.cfunc(signature, error_model="numpy", _nrt=False)(scope["call"])
+    made = machine_code(signature, scope["call"])
 
     def call(at: Memory, *arguments: Any) -> Any:
-        return made.ctypes(at.address, *(a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments))
+        return made(at.address, *(a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments))
 
+    return call
+
+
+def machine_code(signature: Any, function: Callable[..., Any]) -> Any:
+    """A function with all that it calls, made native as the loop is: linked and optimised once, in a third of the time.
+
+    `signature` is one of numba; its whole numbers may be addresses, and are passed as such.
+    """
+    import llvmlite.binding as llvm
+    import numba
+
+    from fairlead.integrate.link_once import linked_once
+
+    tell_numba()
+    with linked_once():
+        made = numba.cfunc(signature, error_model="numpy", _nrt=False)(function)
+        module = llvm.parse_assembly(made.inspect_llvm())
+    engine = llvm.create_mcjit_compiler(module, target_machine())
+    engine.finalize_object()
+    kinds = {numba.int64: ctypes.c_int64, numba.float64: ctypes.c_double}
+    kinds |= {numba.boolean: ctypes.c_bool, numba.void: None}
+    call = ctypes.CFUNCTYPE(kinds[signature.return_type], *(kinds[kind] for kind in signature.args))(
+        engine.get_function_address(made.native_name)
+    )
+    call.keep_alive = engine  # type: ignore[attr-defined]
     return call
 
 

@@ -16,6 +16,7 @@ from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.memory.layout import INDICES, VECTORS
 from fairlead.integrate.problem import Pattern
 from fairlead.integrate.textbook import textbook
+from tests.integrate.rooms import machine_code
 
 NOTHING_KEPT = np.zeros((0, 3), dtype=np.int64)
 
@@ -30,13 +31,12 @@ def solver():
     from fairlead.integrate.linear.systems import factorise_consistent, factorise_step, solve_watched
     from fairlead.integrate.memory.foreign import memory_at
 
-    @numba.cfunc(numba.int64(numba.int64, numba.float64, numba.int64), error_model="numpy", _nrt=False)
     def run(address, scale, at_x):
         linear = memory_at(address).linear
         status = factorise_step(linear, scale) if scale > 0.0 else factorise_consistent(linear)
         return status if status != 0 else solve_watched(linear, at_x)
 
-    return run.ctypes
+    return machine_code(numba.int64(numba.int64, numba.float64, numba.int64), run)
 
 
 def pattern_of(mask):
