@@ -117,6 +117,11 @@ def reset_period(presliding, relaxation):
         friction = NORMAL * (KINETIC + (STATIC - KINETIC) * np.exp(-abs(v) / FALL)) if slides else spring
         return [pull - friction, 0.0 if slides else v, STIFFNESS * (DRIVE - v)]
 
+    def slopes(t, y, slides):
+        falling = NORMAL * (KINETIC - STATIC) / FALL * np.sign(y[0]) * np.exp(-abs(y[0]) / FALL)
+        by_speed, by_deflection = (falling, 0.0) if slides else (stiffness * relaxation, stiffness)
+        return [[-by_speed, -by_deflection, 1.0], [0.0 if slides else 1.0, 0.0, 0.0], [-STIFFNESS, 0.0, 0.0]]
+
     def breaks(t, y, slides):
         return y[1] - presliding
 
@@ -127,7 +132,8 @@ def reset_period(presliding, relaxation):
     t, y, slides, breakaways = 0.0, [0.0, 0.0, 0.0], False, []
     while len(breakaways) < 5:
         ends = (stops if slides else breaks,)
-        run = solve_ivp(rates, (t, t + 5), y, "Radau", args=(slides,), rtol=1e-9, atol=1e-13, events=ends)
+        how = {"method": "Radau", "jac": slopes, "rtol": 1e-9, "atol": 1e-13}
+        run = solve_ivp(rates, (t, t + 5), y, args=(slides,), events=ends, **how)
         t, y = run.t[-1], run.y[:, -1]
         breakaways += [] if slides else [t]
         slides = not slides
@@ -321,8 +327,16 @@ def lugre_reference(force, stop, points):
         dz = v - s0 * abs(v) * z / g
         return [v, force(t) - s0 * z - s1 * dz - s2 * v, dz]
 
+    def slopes(t, y):
+        _, v, z = y
+        bell = (stiction - coulomb) * math.exp(-((v / stribeck) ** 2))
+        g, falling = coulomb + bell, -2 * v / stribeck**2 * bell
+        by_speed, by_bristle = 1.0 - s0 * z * (np.sign(v) * g - abs(v) * falling) / g**2, -s0 * abs(v) / g
+        return [[0, 1, 0], [0, -s1 * by_speed - s2, -s0 - s1 * by_bristle], [0, by_speed, by_bristle]]
+
     t = np.linspace(0, stop, points)
-    y = solve_ivp(rates, (0, stop), [0, 0, 0], "Radau", t, rtol=1e-9, atol=1e-13, max_step=stop / 400).y
+    how = {"method": "Radau", "jac": slopes, "rtol": 1e-9, "atol": 1e-13, "max_step": stop / 400}
+    y = solve_ivp(rates, (0, stop), [0, 0, 0], t_eval=t, **how).y
     g = coulomb + (stiction - coulomb) * np.exp(-((y[1] / stribeck) ** 2))
     return t, y[0], y[1], s0 * y[2] + s1 * (y[1] - s0 * np.abs(y[1]) * y[2] / g) + s2 * y[1]
 

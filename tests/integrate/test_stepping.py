@@ -121,7 +121,7 @@ def test_a_fixed_step_that_leads_to_no_number_ends_the_run():
     """y' = sqrt(1 - t) - y has no value after one second; a step that may not get shorter would be tried for ever."""
 
     def rhs(t, y, z, f):
-        f[0] = np.sqrt(1.0 - t) - y[0]
+        f[0] = (np.sqrt(1.0 - t) if t <= 1.0 else np.nan) - y[0]
 
     def jacobian(t, y, z, J, ft):
         J[0, 0] = -1.0

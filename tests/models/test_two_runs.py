@@ -5,6 +5,7 @@ by command the files, every variable of `series.nc` and the bytes of `events.csv
 """
 
 import contextlib
+import functools
 import hashlib
 import json
 import os
@@ -42,9 +43,15 @@ ENGINES = ("rodas", "stepping", "ida")
 RUNS = [(name, engine) for name in SECONDS for engine in ENGINES if (name, engine) != ("idle", "ida")]
 
 
+@functools.cache
+def loaded(folder, name):
+    """The model, which is compiled once in a process for all its runs."""
+    return fairlead.load(folder / "idle.yaml" if name == "idle" else name)
+
+
 def told(folder, name, engine):
     """Digest of all a run leaves, its switches and the steps it took with a part of the problem."""
-    model, span = fairlead.load(folder / "idle.yaml" if name == "idle" else name), SECONDS[name]
+    model, span = loaded(folder, name), SECONDS[name]
     start = model.netlist.run.start
     outcome = integrate(model.system, Run(start=start, stop=start + span, every=span / 50, engine=engine))
     assert outcome.ok, outcome.sentence
