@@ -4,6 +4,7 @@ The sources are read as text (ast), so imports inside functions count as well.
 """
 
 import ast
+import functools
 import pathlib
 from collections.abc import Iterator
 
@@ -70,8 +71,13 @@ def imports(name: str, file: pathlib.Path) -> Iterator[tuple[int, str]]:
             yield from ((node.lineno, f"{origin}.{alias.name}") for alias in node.names)
 
 
-def import_edges() -> Iterator[tuple[str, str, str]]:
+@functools.cache
+def import_edges() -> tuple[tuple[str, str, str], ...]:
     """(importer, imported, "file:line") for each import between our modules."""
+    return tuple(_import_edges())
+
+
+def _import_edges() -> Iterator[tuple[str, str, str]]:
     files = source_files()
     for name, file in files.items():
         for line, target in imports(name, file):
