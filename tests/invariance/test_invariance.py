@@ -53,8 +53,9 @@ def test_the_order_of_instances_and_unknowns_changes_no_more_than_rounding(plain
     assert differences(trial, plays, plain, other) == {}
 
 
-def test_the_order_in_which_a_hundred_parts_are_written_changes_no_more_than_rounding(tmp_path):
-    plays = [crowd(2), crowd(3)]
+@pytest.mark.parametrize("seed", [2, 3])
+def test_the_order_in_which_a_hundred_parts_are_written_changes_no_more_than_rounding(seed, tmp_path):
+    plays = [crowd(seed)]
     assert min(one.text.count("{type: ") for one in plays) > 100
     trial = next(trial for trial in trials() if trial.change and not trial.equal)
     one, _ = play(PLAIN, plays, tmp_path / "one")
