@@ -38,6 +38,7 @@ from fairlead.run import engine_settings, failure_of, named_change, not_allowed,
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
+from fairlead.tuning import Tunable, gone_on
 
 if TYPE_CHECKING:
     from fairlead.integrate.engine import Engine
@@ -59,22 +60,34 @@ class Change(NamedTuple):
     guard: str
 
 
+class Standing(NamedTuple):
+    """With which values of tunable parameters a run goes on: in the System with its inputs open."""
+
+    going: Underway
+    tunable: Tunable | None
+    own: System
+
+
 class State(NamedTuple):
     """Where a run was, for `Stepping.restore`."""
 
     saved: Saved
     of: System
+    next: Standing
+    now: Standing
 
 
 class Stepping:
     """A run that is advanced, set and read from outside. `Model.start` makes it; it stands settled at its start."""
 
     def __init__(self, netlist: Netlist, settings: RunSettings, system: System, inputs: Iterable[str],
-                 record: Sequence[str] = EVERYTHING) -> None:  # fmt: skip
+                 record: Sequence[str] = EVERYTHING, tunable: Tunable | None = None) -> None:  # fmt: skip
         """Begin; nothing is evaluated yet. Raises ModelError for inputs and outputs that do not exist.
 
         What can be read: signals whose names fit a pattern in `record`.
         """
+        self.tunable = () if tunable is None else tunable.names
+        """Names of parameters that can be set."""
         self.changes: list[Change] = []
         """Zone changes in the last `advance`, in order."""
         self._of = system
@@ -95,10 +108,8 @@ class Stepping:
         asked = dataclasses.replace(asked, every=NO_GRID, between=False)
         own = opened(system, [one.free for one in self._inputs.values()])
         check(own, asked)
-        self._going = Underway(own, asked, self._take)
-        self._memory.number["narrow_at"] = NEVER_LOOK
-        self._memory.number["samples"] = 1  # forces are those of the point, not of the step before it
-        self._memory.spread()
+        self._now = self._next = Standing(Underway(own, asked, self._take), tunable, own)
+        self._told(self._memory)
         self._values: np.ndarray | None = None
         self._begun = False
         for name, one in self._inputs.items():
@@ -116,13 +127,17 @@ class Stepping:
         return tuple(self._inputs)
 
     def set(self, name: str, value: float | str) -> None:
-        """Set an input, from here on; a number in SI, or a text with its unit.
+        """Set an input or a tunable parameter, from here on; a number in SI, or a text with its unit.
 
-        Raises UsageError for a name that is no input, and for a value that does not fit.
+        Raises UsageError for a name that is neither, and for a value that does not fit; ModelError for a parameter's.
         """
+        if name in self.tunable:
+            self._tune(name, value)
+            return
         if name not in self._inputs:
             near = did_you_mean(name, self._inputs) if isinstance(name, str) else ""
             known = f"Inputs are {listing(self._inputs)}." if self._inputs else "It has none: see docs/coupling.md."
+            known += f" Tunable are {listing(self.tunable)}." if self.tunable else ""
             raise UsageError(f"set: there is no input {shown(str(name))}. {near} {known}".replace("  ", " "))
         try:
             number = si(value, self._inputs[name].seen.unit)
@@ -133,6 +148,27 @@ class Stepping:
         own = self._instance.memory
         own["set_values"][list(self._inputs).index(name)] = number
         own["set_due"][0] = 1
+
+    def _tune(self, name: str, value: float | str) -> None:
+        """Have the model with another value of a parameter; the run goes over to it as it goes on."""
+        assert self._next.tunable is not None, "there are none to set"
+        changed = self._next.tunable.with_value(name, value)
+        own = opened(changed.model.system, [one.free for one in self._inputs.values()])
+        self._next = Standing(self._now.going, changed, own)
+
+    def _go_over(self) -> None:
+        """Go on with the values of parameters that were set."""
+        if self._next.own is not self._now.own:
+            going = gone_on(self._now.going, self._now.own, self._next.own, self.t, begun=self._begun)
+            self._now = self._next = self._next._replace(going=going)
+            self._values = None
+            self._told(self._memory)
+
+    def _told(self, memory: Memory) -> None:
+        """Tell a run that has just been made how it is used."""
+        memory.number["narrow_at"] = NEVER_LOOK
+        memory.number["samples"] = 1  # forces are those of the point, not of the step before it
+        memory.spread()
 
     def get(self, name: str) -> float:
         """A signal where the run is, in SI. Raises UsageError for a name that no signal has."""
@@ -154,6 +190,7 @@ class Stepping:
         """
         goal = self._time(t)
         self.changes = []
+        self._go_over()
         self._begin()
         if goal == self.t:
             self._take_over()
@@ -178,15 +215,25 @@ class Stepping:
 
     def save(self) -> State:
         """Where the run is, with what was set."""
+        if not self._begun:
+            self._go_over()
         self._begin()
-        return State(self._going.save(), self._of)
+        return State(self._going.save(), self._of, self._next._replace(going=self._going), self._now)
 
     def restore(self, state: State) -> None:
         """Go to where this run was, or another one of the same model. Raises UsageError for one of another model."""
         if not isinstance(state, State) or state.of is not self._of:
             raise UsageError("restore: this state is not of a run of this model. Take what `save` of such a run gave.")
         self._begun, self._values, self.changes = True, None, []
+        if state.now.own is not self._now.own:  # with other values of parameters
+            self._now = state.now._replace(going=state.now.going.beside(self._take))
+            self._told(self._memory)
+        self._next = state.next._replace(going=self._going)
         self._going.restore(state.saved)
+
+    @property
+    def _going(self) -> Underway:
+        return self._now.going
 
     @property
     def _memory(self) -> Memory:

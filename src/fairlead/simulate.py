@@ -254,19 +254,25 @@ class Model:
             raise (RunInterrupted if result.status == "interrupted" else RunError)(result)
         return result
 
-    def start(self, inputs: Iterable[str] = (), **settings: Unpack[RunKeywords]) -> Stepping:
+    def start(
+        self, inputs: Iterable[str] = (), *, tunable: Iterable[str] = (), **settings: Unpack[RunKeywords]
+    ) -> Stepping:
         """A run that is stepped from outside: `set`, `advance`, `get`, `save`, `restore` (docs/coupling.md).
 
         What can be set: the inputs of the netlist's `interface` block, and signal inputs named by `inputs`, which are
-        connected to nothing. `settings` are those of `run`. Raises ModelError and UsageError as `run` does.
+        connected to nothing; and parameters named by `tunable`, such as `pad.normal_force`. `settings` are those of
+        `run`. Raises ModelError and UsageError as `run` does.
         """
         from fairlead.netlist.keywords import with_keywords
         from fairlead.outside import Stepping
+        from fairlead.tuning import Tunable
 
         asked = Arguments("Model.start")
         asked.texts("inputs", inputs, '"valve.command"')
+        asked.texts("tunable", tunable, '"pad.normal_force"')
         asked.refuse()
-        return Stepping(self.netlist, with_keywords(self.netlist.run, settings), self.system, inputs)
+        named = Tunable.of(self, tunable)
+        return Stepping(self.netlist, with_keywords(self.netlist.run, settings), self.system, inputs, tunable=named)
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
         """A model with other values of scene parameters (`mu=0.6`) and settings (`{"pad.normal_force": "20 N"}`).

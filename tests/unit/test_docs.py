@@ -78,7 +78,7 @@ def test_the_page_on_coupling_runs_from_the_top(tmp_path: pathlib.Path, monkeypa
     monkeypatch.chdir(tmp_path)
     files("coupling", tmp_path)
     code = [text for name, language, text in blocks("coupling") if language == "python" and not name]
-    assert len(code) == 2
+    assert len(code) == 3
     exec("\n".join(code), {})
 
 

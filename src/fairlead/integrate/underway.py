@@ -40,7 +40,7 @@ class Underway:
 
     def __init__(self, problem: Problem, run: Run, take: OnBlock) -> None:
         """Begin; nothing is evaluated yet."""
-        self.run, self.take = run, take
+        self.run, self.take, self._problem = run, take, problem
         self.scope = Scope(problem, run, TABLEAUS[run.method])
         self.engine = engine_of(run)
         make = self.engine.loop
@@ -91,6 +91,10 @@ class Underway:
         elif not found:
             self.status = Status.SINGULAR
         self._replanned_at = int(number["factorisations"])
+
+    def beside(self, take: OnBlock) -> Underway:
+        """Another run of the same problem with the same settings, at its start."""
+        return Underway(self._problem, self.run, take)
 
     def flush(self) -> None:
         """Hand over what the buffers hold and empty them: they are no part of what is saved."""

@@ -1,0 +1,160 @@
+"""Parameters that change while a run is stepped from outside: which may, and how the run goes on with another value.
+
+    tunable = Tunable.of(model, ["pad.normal_force", "mu"])
+    changed = tunable.with_value("mu", 0.4)
+    going = gone_on(going, old, new, t, begun=True)
+
+A parameter may change many numbers: those of derived parameters, of bodies, of plans. So the model is made anew with
+the value, as `with_values` makes it, and the run begins once more where it is, with the unknowns, zones, samples and
+inputs that it has. Nothing that was worked out of the old value remains. The integrator finds its step size again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+import numpy as np
+
+from fairlead.component.keys import PARAMETER, key
+from fairlead.errors import Fault, ModelError, UsageError, did_you_mean, listing, shown
+from fairlead.integrate.underway import Underway
+from fairlead.system.arrays.blocks import Block
+from fairlead.system.arrays.working import discrete, offsets
+from fairlead.system.compiled.system import Instance, System
+
+if TYPE_CHECKING:
+    from fairlead.component.instantiate import Assembly
+    from fairlead.netlist.netlist import Netlist
+
+
+class Model(Protocol):
+    """A `simulate.Model`: its stages, and the way to one with other values."""
+
+    @property
+    def netlist(self) -> Netlist:
+        """As it is written."""
+
+    @property
+    def assembly(self) -> Assembly:
+        """Its components."""
+
+    @property
+    def system(self) -> System:
+        """Compiled."""
+
+    @property
+    def rebuilt(self) -> str:
+        """Why it shares no structure with the one it was made from."""
+
+    def with_values(self, values: Mapping[str, float | str] | None = None, /) -> Model:
+        """The same with other values."""
+
+
+KEPT = ("zones", "sample_count", "sample_start", "set_due", "set_values")
+"""What a run goes on with beside its unknowns, of the arrays that callbacks write to; the others follow from these."""
+
+
+class Tunable(NamedTuple):
+    """A model, and names of its parameters that can be set while it runs."""
+
+    model: Model
+    names: tuple[str, ...]
+
+    @classmethod
+    def of(cls, model: Model, names: Iterable[str]) -> Tunable:
+        """Each name is of a scene parameter or of a parameter of a component. Raises ModelError for others."""
+        known = tuple(map(str, names))
+        if faults := [fault for name in known if (fault := _unknown(model, name)) is not None]:
+            raise ModelError(faults)
+        return cls(model, known)
+
+    def with_value(self, name: str, value: float | str) -> Tunable:
+        """The same with another value. Raises ModelError for one that does not fit, UsageError as `refuse`."""
+        changed = self.model.with_values({name: value})
+        refuse(name, self.model, changed)
+        return self._replace(model=changed)
+
+
+def _unknown(model: Model, name: str) -> Fault | None:
+    """What is wrong with the name of a parameter."""
+    owner, _, rest = name.partition(".")
+    components = model.netlist.components
+    if rest and owner in components:
+        allowed = [f"{owner}.{one}" for one in model.assembly.entries[owner].type.declaration.parameters]
+        fits = f"{owner}.{rest.partition('.')[0]}" in allowed
+    else:
+        allowed = [*model.netlist.parameters, *(f"{one}.NAME" for one in components)]
+        fits = not rest and owner in model.netlist.parameters
+    if fits:
+        return None
+    what = f"tunable: there is no parameter {shown(name)}. {did_you_mean(name, allowed)}".rstrip()
+    return Fault(None, what, f"There are {listing(allowed)}.")
+
+
+def refuse(name: str, old: Model, new: Model) -> None:
+    """Raise UsageError for a change that a run cannot go on with, or that changes nothing any more."""
+    one, two = old.system, new.system
+    why = ""
+    if new.rebuilt:
+        why = f"the structure depends on it ({new.rebuilt.partition(': ')[2].removesuffix('.')})"
+    elif not np.array_equal(one.memory["sample_period"], two.memory["sample_period"]):
+        why = "it is the time between two samples"
+    elif one.working.size != two.working.size:
+        why = "its tables are of another length"
+    if why:
+        raise UsageError(f"set: {name} cannot change while a run goes on: {why}. Begin another run with it.")
+    if not _differs(one, two) and _written(name, old) != _written(name, new):
+        raise UsageError(f"set: {name} says how a run begins, and changes nothing now. Begin another run with it.")
+
+
+def _written(name: str, model: Model) -> str:
+    owner, _, rest = name.partition(".")
+    entry = model.assembly.entries.get(owner)
+    return str(entry.given.get(rest)) if entry is not None else str(model.netlist.parameters.get(owner))
+
+
+def _differs(one: System, two: System) -> bool:
+    """Whether any number of the equations is another one."""
+    same = all(
+        np.array_equal(a.parameters[:, ~_discrete(a)], b.parameters[:, ~_discrete(b)])
+        and np.array_equal(a.in_offset, b.in_offset) and np.array_equal(a.in_coef, b.in_coef)
+        and np.array_equal(a.flow_coef, b.flow_coef)
+        for a, b in zip(one.blocks, two.blocks, strict=True)
+    )  # fmt: skip
+    masses = [[group.mass for group in system.flat.groups] for system in (one, two)]
+    return not same or masses[0] != masses[1] or not _same_tables(one, two)
+
+
+def _discrete(block: Block) -> np.ndarray:
+    """[parameters of the kernel]: whether it is a discrete variable, which lies among them."""
+    return np.array([key(f"{PARAMETER}:{name}").is_discrete for name in block.kernel.structure.parameters], dtype=bool)
+
+
+def _same_tables(one: System, two: System) -> bool:
+    return np.array_equal(one.tables.vector(), two.tables.vector())
+
+
+def gone_on(going: Underway, old: System, new: System, t: float, *, begun: bool) -> Underway:
+    """The run of the System `new` from where that of `old` is, which stays as it is."""
+    memory, was = going.scope.memory, going.scope.problem
+    begin = replace(new, initial=memory.array["y"].copy()) if begun else new
+    span = going.run.stop - going.run.start
+    made = Underway(begin, replace(going.run, start=t, stop=t + span) if begun else going.run, going.take)
+    now: Instance = made.scope.problem  # type: ignore[assignment]
+    for name in KEPT if begun else ("set_due", "set_values"):
+        now.memory[name][...] = was.memory[name]  # type: ignore[attr-defined]
+    for k, (before, after) in enumerate(zip(old.blocks, new.blocks, strict=True)):
+        at_work, here = now.blocks[k], was.blocks[k]  # type: ignore[attr-defined]
+        if offsets(k) in new.working.places:
+            kept = before.in_offset == after.in_offset
+            at_work.in_offset[kept] = here.in_offset[kept]
+        if discrete(k) in new.working.places and begun:
+            variables = _discrete(after)
+            at_work.parameters[:, variables] = here.parameters[:, variables]
+    if begun and not _same_tables(old, new):
+        for table in new.timed_tables:
+            now.zones[table.machine] = table.polynomial.piece_at(t)
+    now.remind(was.remembered())
+    return made
