@@ -1,6 +1,7 @@
 """The handling system coupled with its control electronics, which are a program of their own, beside both as one model.
 
     python benchmarks/coupled_route.py            # the table, and coupled_route.png
+    python benchmarks/coupled_route.py --long     # whether it swings up in 20 s, for each H (a minute)
 
 The plant is models/coupled/plant.yaml: array, route, two drives, their oil. `Electronics` is plain Python that shares
 no line with fairlead's controllers. The two exchange speeds, tension and commands every H and hold them in between; the
@@ -135,6 +136,29 @@ def off(
     return {name: (float(np.max(np.abs(d))), float(np.sqrt(np.mean(d**2)))) for name, d in far.items()}
 
 
+LONG = 45.0  # s
+PIECES = ((4.0, 8.0), (8.0, 12.0), (12.0, 16.0), (16.0, 20.0))  # s
+
+
+def swings(found: NDArray[np.float64], one: NDArray[np.float64], held: int) -> list[float]:
+    """How far a coupled signal swings about that of the one model in each of PIECES."""
+    beside = one[::held]
+    count = min(len(found), len(beside))
+    away = found[:count] - beside[:count]
+    places = [[round(t / (held * PERIOD)) for t in piece] for piece in PIECES]
+    return [float(np.ptp(away[first:last])) for first, last in places]
+
+
+def long(accuracy: float = 1e-4) -> None:
+    """Print the swing of the belts about the one model, by H and by piece of time."""
+    one = together(LONG, accuracy)["belt_speed"]
+    pieces = ", ".join(f"{begin:g}-{end:g} s" for begin, end in PIECES)
+    print(f"H/Ts  swing of the belt speed about that of the one model [m/s], in {pieces}")
+    for held in (1, 2, 3, 4, 5, 10):
+        found = coupled(held, LONG - LONG % (held * PERIOD), accuracy)["belt_speed"]
+        print(f"{held:4d}  " + "  ".join(f"{most:.1e}" for most in swings(found, one, held)))
+
+
 def main(file: str = "coupled_route.png") -> None:
     """Print the table and draw the figure."""
     import matplotlib.pyplot as plt
@@ -156,4 +180,7 @@ def main(file: str = "coupled_route.png") -> None:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:2])
+    if sys.argv[1:2] == ["--long"]:
+        long()
+    else:
+        main(*sys.argv[1:2])

@@ -43,3 +43,16 @@ def test_electronics_without_the_sample_of_delay_are_told_apart(one, monkeypatch
 
     monkeypatch.setattr(coupled_route.Pi, "sample", at_once)
     assert most(coupled_route.coupled(1, STOP, ACCURACY), one, 1) > 1e-4
+
+
+@pytest.mark.slow
+def test_at_two_samples_it_swings_up_and_at_five_it_calms_down():
+    """The verdicts of docs/coupling.md: the last four seconds beside the four before them."""
+    one = coupled_route.together(coupled_route.LONG, ACCURACY)["belt_speed"]
+    grown = {}
+    for held in (2, 5):
+        found = coupled_route.coupled(held, coupled_route.LONG, ACCURACY)["belt_speed"]
+        *_, before, last = coupled_route.swings(found, one, held)
+        grown[held] = last / before
+    assert grown[2] > 3
+    assert grown[5] < 1
