@@ -40,8 +40,8 @@ LEFT_TO_TEST_ALL = (
     "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[networks-207]",
     "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[routes-23]",
     "tests/invariance/test_invariance.py::test_the_order_in_which_a_hundred_parts_*[3]",
-    # routes: one drive and one start are played
-    "tests/models/test_guidance_drives.py::*[guidance_route_electric*",
+    # routes: the ideal drives all along, the others for their first seconds; one start
+    "tests/models/test_guidance_drives.py::*[guidance_route*",
     "tests/models/test_route_mesh.py::test_steady_tensions_converge_*",
     "tests/models/test_route_terms.py::*deployer*",
     "tests/models/test_route_terms.py::test_a_pulley_takes_what_its_bearing_takes*",
@@ -76,6 +76,11 @@ LEFT_TO_TEST_ALL = (
     "tests/unit/test_carriage.py::test_what_is_left_does_not_depend_on_how_much_*",
     "tests/models/test_torsion.py::test_with_a_friction_of_its_own_*",
     # advice and cost: the closed forms and one model are played
+    "tests/models/test_effects_advice.py::test_every_effect_of_a_bundled_model_*[power_unit]",
+    "tests/models/test_effects_advice.py::test_every_effect_of_a_bundled_model_*[hundred_blocks]",
+    "tests/models/test_effects_advice.py::test_every_effect_of_a_bundled_model_*[crustacean]",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[crustacean-rodas-ida]",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[torsion-rodas-ida]",
     "tests/models/test_effects_advice.py::*[guidance_route*",
     "tests/models/test_effects_advice.py::test_the_command_prints_a_sentence_for_each*",
     "tests/models/test_effects_advice.py::test_laws_that_are_compiled_on_the_way_*",
@@ -128,6 +133,12 @@ LEFT_TO_TEST_ALL = (
     "tests/unit/test_native.py::*helper of a helper*",
     "tests/unit/test_docs.py::test_every_command_shown_ends_well*routes*",
     "tests/models/test_pickled_model.py::test_processes_that_are_spawned_*",
+    # the contract: one curve, as for all contacts, and an effect of lines off on plain ones
+    "tests/components/test_contract.py::test_registered_component_keeps[PlanarContact[table] *",
+    "tests/components/test_contract.py::test_registered_component_keeps[LoopedCore[line_damping off] *",
+    "tests/components/test_contract.py::test_registered_component_keeps[LoopedHose[line_damping off] *",
+    "tests/components/test_contract.py::test_registered_component_keeps[RelaxingHose[line_damping off] *",
+    "tests/components/test_contract.py::test_registered_component_keeps[WatchedHose[line_damping off] *",
     # the larger of networks and settings
     "tests/models/test_held_networks.py::test_what_settles_is_friction*600-*",
     "tests/models/test_sandwich.py::test_the_reference_converges_*",

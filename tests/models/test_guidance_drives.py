@@ -37,8 +37,10 @@ def test_the_winch_keeps_the_tension_and_the_deployer_the_speed(route, way, begi
     np.testing.assert_allclose(route["belt_speed.signal"][rows], way * 0.5, rtol=0.01)
 
 
-def test_electric_drives_bring_the_line_to_its_speed_and_tension(bundled):
-    begun = bundled("guidance_route_electric", {"run.stop": "7 s"})
+@pytest.mark.parametrize("drives", ["hydraulic", "electric"])
+def test_drives_bring_the_line_to_its_speed_and_tension(bundled, drives):
+    name = {"hydraulic": "guidance_route", "electric": "guidance_route_electric"}[drives]
+    begun = bundled(name, {"run.stop": "7 s"})
     rows = rows_between(begun, 6.0, 7.0)
     assert np.abs(begun["route.tensiometer.tension"][rows] - 200.0).max() < 20.0
     np.testing.assert_allclose(begun["belt_speed.signal"][rows], 0.5, rtol=0.01)
