@@ -14,6 +14,7 @@ from fairlead.component.declare import (
     Rotational,
     State,
     Summing,
+    Thermal,
     Translational,
     Unknown,
     Zones,
@@ -57,7 +58,7 @@ from fairlead.component.holding import hold, hold_position
 __all__ = [
     "Block", "Carries", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect",
     "Electrical", "Entries", "Expansion", "Family", "File", "Hydraulic", "Input", "Law", "Name", "Output",
-    "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Summing", "Table", "Translational", "Unknown",
-    "Waveform", "Zones", "atan", "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest", "guard",
-    "hold", "hold_position", "least", "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh", "zone",
+    "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Summing", "Table", "Thermal", "Translational",
+    "Unknown", "Waveform", "Zones", "atan", "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest",
+    "guard", "hold", "hold_position", "least", "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh", "zone",
 ]  # fmt: skip

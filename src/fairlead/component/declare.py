@@ -40,6 +40,7 @@ TRANSLATIONAL = Domain("translational", (("x", "m"), ("v", "m/s")), ("force", "N
 ROTATIONAL = Domain("rotational", (("angle", "rad"), ("speed", "rad/s")), ("torque", "N*m"), "acceleration")
 HYDRAULIC = Domain("hydraulic", (("pressure", "Pa"),), ("flow", "m^3/s"), rest=1e5)  # that of the air
 ELECTRICAL = Domain("electrical", (("voltage", "V"),), ("current", "A"))
+THERMAL = Domain("thermal", (("temperature", "K"),), ("heat", "W"), rest=293.15)  # that of a room
 SUM = Domain("sum", (("total", "N"),), ("share", "N"))
 PATH = Domain("path", (), ("", ""))
 
@@ -71,6 +72,11 @@ def Hydraulic(doc: str = "", *, optional: bool = False) -> Any:
 def Electrical(doc: str = "", *, optional: bool = False) -> Any:
     """A terminal: voltage [V]; takes in a current [A]."""
     return Port(ELECTRICAL, doc, optional)
+
+
+def Thermal(doc: str = "", *, optional: bool = False) -> Any:
+    """A thermal port: temperature [K]; takes in heat [W], which is a power by itself."""
+    return Port(THERMAL, doc, optional)
 
 
 def Summing(doc: str = "") -> Any:

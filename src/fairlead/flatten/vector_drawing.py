@@ -12,7 +12,8 @@ from fairlead.flatten.picture import End, Picture, Wire
 Places = dict[Vertex, Place]
 MARGIN = 24.0  # px
 ARROW = 'class="signal" marker-end="url(#head)"'
-COLOURS = {"translational": "#22577a", "rotational": "#7a4b22", "hydraulic": "#1b7f79", "electrical": "#8a6d00"}
+COLOURS = {"translational": "#22577a", "rotational": "#7a4b22", "hydraulic": "#1b7f79", "electrical": "#8a6d00",
+           "thermal": "#a33b20"}  # fmt: skip
 STYLE = """
   svg { background: white; font-family: sans-serif; }
   .box { fill: #f5f7fa; stroke: #44546a; stroke-width: 1.2; } .anchored { fill: #e3e6ea; }

@@ -17,6 +17,7 @@ ENDS = {
     "rotational": "a free shaft needs an Inertia, a fixed one a Housing",
     "hydraulic": "a closed end needs a Volume, an open one a Tank",
     "electrical": "what has no voltage of its own needs an Earth",
+    "thermal": "a body that is warmed needs a HeatCapacity, the surroundings a FixedTemperature",
 }
 """By domain, what is joined to a port that leads nowhere."""
 

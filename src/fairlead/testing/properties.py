@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.base import terms_of
+from fairlead.component.declare import THERMAL
 from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import OWN, PORT, key
@@ -365,7 +366,9 @@ def _power_in(world: World, at: Instant, rates: dict[str, float]) -> float:
 
 
 def _power_of(world: World, at: Instant, rates: Mapping[str, float], name: str) -> float:
-    """The same of one port."""
+    """The same of one port; heat is a power by itself, told where it is made."""
+    if world.kind.declaration.ports[name].domain is THERMAL:
+        return 0.0
     flows, port = world.flows(at), world.kind.declaration.ports[name]
     across = "v" if port.domain.mechanical else "x"
     flow = flows[f"port:{name}"].real if f"port:{name}" in flows else 0.0

@@ -23,7 +23,7 @@ from fairlead.testing.samples import USUAL
 
 AT_ZERO = 1e-9  # a guard up to this counts as not risen: rounding of speeds and forces of the sizes drawn here
 # A large potential by domain; what it is drawn up to, of either sign (a guard may wait for one below zero).
-POTENTIAL = {"hydraulic": 2e7, "electrical": 50.0}
+POTENTIAL = {"hydraulic": 2e7, "electrical": 50.0, "thermal": 300.0}
 OWN = {"1": 2.0, "Pa": 2e7, "m^3/s": 1e-3, "m^3": 1e-3}  # the same for unknowns of a component's own, by unit
 PASSES = 60  # more switches than any component has zones
 STEP = 1e-30  # of a complex step; its square vanishes beside 1

@@ -27,7 +27,8 @@ from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.numbering.unknowns import Numbering
 
 MOST_NAMED = 4  # nodes or components in one message
-THROUGH = {"translational": "force", "rotational": "torque", "hydraulic": "pressure", "electrical": "voltage"}
+THROUGH = {"translational": "force", "rotational": "torque", "hydraulic": "pressure", "electrical": "voltage",
+           "thermal": "temperature"}  # fmt: skip
 
 
 def undetermined(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> list[Fault]:
