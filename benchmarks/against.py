@@ -4,8 +4,9 @@
     python benchmarks/against.py ../old                      all scenes, nine interleaved pairs, an hour
     python benchmarks/against.py ../old --scene belt --pairs 3
 
-Each run has a process of its own, with the Python of its checkout; the two take turns. A scene is run once to fill the
-caches, and then timed. Ratios are this checkout over the other, the median of the pairs. Nothing is written.
+Each run has a process of its own, with the Python and the bundled models of its checkout; the two take turns. A scene
+is run once to fill the caches, and then timed. `aside` is what a call of `Model.run(out=None)` takes beside the loop.
+Ratios are this checkout over the other, the median of the pairs. A scene that the other does not bundle is left out.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ SCENES: dict[str, tuple[str, dict[str, str]]] = {
     "single_bend_50": ("single_bend", {"element": "0.3 m"}),
     "single_bend_800": ("single_bend", {"element": "0.01875 m", "run.stop": "4 s"}),
     "guidance_route": ("guidance_route", {}),
-    "long_deployment": ("long_deployment", {}),
+    "long_deployment": ("long_deployment", {"run.stop": "60 s"}),
     "long_route": ("long_route", {}),
 }
 COUNTS = ("steps", "rejected", "rhs", "jacobians", "factorisations", "solves", "guards", "switches", "located")
@@ -53,8 +54,7 @@ def run(scene: str) -> dict[str, Any]:
 
     runner.integrate = watched
     name, settings = SCENES[scene]
-    path = HERE.parent.parent / "models" / f"{name}.yaml"
-    model = fairlead.load(str(path) if path.exists() else name, set=settings)
+    model = fairlead.load(name, set=settings)
     calls: list[float] = []
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -71,6 +71,11 @@ def run(scene: str) -> dict[str, Any]:
         "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
         "end": float(kept[-1].t),
     }
+
+
+def bundled(checkout: pathlib.Path, scene: str) -> bool:
+    """Whether a checkout has the model of a scene."""
+    return (checkout / "models" / f"{SCENES[scene][0]}.yaml").exists()
 
 
 def by(checkout: pathlib.Path, scene: str) -> dict[str, Any]:
@@ -106,8 +111,12 @@ def main() -> None:
         return
     if given.other is None:
         parser.error("name the other checkout")
+    other = given.other.resolve()
     for scene in given.scene or SCENES:
-        compare(given.other.resolve(), scene, given.pairs)
+        if bundled(other, scene):
+            compare(other, scene, given.pairs)
+        else:
+            print(f"\n{scene}: {other} has no such model")
 
 
 if __name__ == "__main__":

@@ -57,3 +57,53 @@ def test_there_is_room_for_a_settlement_or_the_buffer_is_emptied_first(rows, eve
     """Four rows, and a change of every machine and guard: 2 + 3 here."""
     numbers = {"rows": rows, "events": events, "row_capacity": 10, "event_capacity": 20, "n_zones": 2, "n_guards": 3}
     assert roomy()(memory(numbers)) == enough
+
+
+@functools.cache
+def inside():
+    from fairlead.integrate.record.rows import rows_inside
+
+    return entry(rows_inside, ("run", "point", "events.settling", "recorder"), result="i")
+
+
+def piece(D, weight=1e-3, unweighed=0, t_piece=2.0, **numbers):
+    """A step of 2 s in which one unknown goes from 1 to 3, by y = 1 + 2 s + s (1 - s)(D_0 + s (D_1 + s D_2))."""
+    given = {"n": 1, "t": 0.0, "h": 2.0, "t_piece": t_piece, "between": 1, "on_grid": 1, "most_inside": 3, **numbers}
+    arrays = {"y": [1.0], "y_end": [3.0], "y_probe": [0.0], "x": [0.0], "weight": [weight], "unweighed": [unweighed]}
+    share = t_piece / 2.0
+    end = 1.0 + 2.0 * share + share * (1.0 - share) * (D[0] + share * (D[1] + share * D[2]))
+    return memory(given, **arrays, D=D, y_piece=[end])
+
+
+@pytest.mark.parametrize(
+    ("D", "rows"),
+    [
+        ([0.0, 0.0, 0.0], 0),
+        ([0.0039, 0.0, 0.0], 0),  # s (1 - s) D_0 is a quarter in the middle: just below the weight
+        ([0.0041, 0.0, 0.0], 1),
+        ([5.0, 0.0, 0.0], 1),
+        ([5.0, 0.021, 0.0], 1),  # a cubic is off the parabola through its middle by 3/64 D_1 at both quarters
+        ([5.0, 0.022, 0.0], 3),
+        ([5.0, -0.022, 0.0], 3),
+        ([5.0, 0.0, 0.017], 1),  # a quartic by 15/256 D_2 at the last quarter
+        ([5.0, 0.0, 0.018], 3),
+        ([-2.0, 4.0, 0.0], 0),  # no test sees what is straight in the middle alone
+    ],
+)
+def test_a_piece_on_a_grid_has_as_many_rows_inside_as_its_curve_needs_within_a_weight(D, rows):
+    assert inside()(piece(D)) == rows
+
+
+@pytest.mark.parametrize(
+    ("given", "rows"),
+    [
+        ({"on_grid": 0}, 3),  # every step is recorded with its curve
+        ({"between": 0}, 0),
+        ({"most_inside": 1}, 1),  # stepping knows parabolas
+        ({"most_inside": 1, "passes": 1}, 0),  # in which something switched
+        ({"unweighed": 1}, 0),
+        ({"t_piece": 0.02}, 0),  # up to a switch at a hundredth of the step, which is straight within its weight
+    ],
+)
+def test_which_rows_a_curved_step_has_depends_on_what_is_recorded(given, rows):
+    assert inside()(piece([5.0, 0.5, 0.0], **{"weight": 0.01, **given})) == rows

@@ -6,7 +6,7 @@ states. Not replayed, for they take minutes to hours of processor time, or are t
 | page | what | command |
 |---|---|---|
 | accuracy.md | all tables | `benchmarks/accuracy.py`, `benchmarks/defaults.py`, `benchmarks/cost_kept.py` |
-| benchmarks.md | all tables | `make bench` |
+| benchmarks.md | all tables | `make bench`, `benchmarks/stiction_rows.py`, `benchmarks/against.py` |
 | effects.md | two sentences; idle contacts | `fairlead effects winch_drive`, `benchmarks/idle_contacts.py` |
 | friction.md | the published claim | `benchmarks/published_claim.py` |
 | friction_levels.md | the page | `benchmarks/friction_levels.py` |

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
-from fairlead.integrate.codes import GRID, INSIDE, INSIDE_PASSED, ORDINARY, PARABOLA, PASSED
+from fairlead.integrate.codes import GRID, INSIDE, INSIDE_PASSED, ORDINARY, PARABOLA, PASSED, QUARTIC
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.interpolant import interpolate
 from fairlead.integrate.record.between import balance_stiff, take_slip_away, zones_inside, zones_of_end
@@ -118,17 +118,37 @@ def rows_inside(run, point, settling, recorder):
     """How many rows the piece has inside that are no grid points: those that its curve goes through, or none.
 
     Without a grid all steps have them; with one, steps in the middle of which an unknown is off the straight line by
-    more than its weight. A step of `stepping` in which something switched has none: it has the laws of its end.
+    more than its weight: a single one where no unknown is off the parabola through it by as much. A step of `stepping`
+    in which something switched has none: it has the laws of its end.
     """
     if recorder.between == 0 or run.t_piece <= point.t or (recorder.most_inside == PARABOLA and settling.passes > 0):
         return 0
     if recorder.on_grid == 0:
         return recorder.most_inside
-    interpolate(point, 0.5 * (run.t_piece - point.t) / run.h, point.at_y_probe)
-    y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_y_probe, point.n)
+    share = (run.t_piece - point.t) / run.h
+    y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_x, point.n)
     weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
+    interpolate(point, 0.5 * share, point.at_x)
     curved = False
     for k in range(point.n):
         off = abs(middle[k] - 0.5 * (y[k] + end[k]))
         curved = curved or (unweighed[k] == 0 and off > weight[k])
-    return recorder.most_inside if curved else 0
+    if not curved:
+        return 0
+    if recorder.most_inside == QUARTIC and (off_parabola(run, point, 0.25) or off_parabola(run, point, 0.75)):
+        return QUARTIC
+    return PARABOLA
+
+
+@compiled
+def off_parabola(run, point, place):
+    """True if an unknown is off the parabola through start, middle (in `x`) and end of the piece by its weight."""
+    y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_x, point.n)
+    weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
+    curve, off = reals(point.at_y_probe, point.n), False
+    interpolate(point, place * (run.t_piece - point.t) / run.h, point.at_y_probe)
+    for k in range(point.n):
+        bend = 4.0 * (middle[k] - 0.5 * (y[k] + end[k]))
+        parabola = y[k] + place * (end[k] - y[k] + (1.0 - place) * bend)
+        off = off or (unweighed[k] == 0 and abs(curve[k] - parabola) > weight[k])
+    return off
