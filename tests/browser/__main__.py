@@ -19,7 +19,7 @@ from tests.browser.browser import missing, opened, settled, show
 FIGURES = Path(__file__).resolve().parents[2] / "docs" / "figures"
 WIDTH, COLOURS = 1200, 255
 PICTURES = (
-    ("page_light.png", "single_bend", {"mu": 0.6}, 13.0, False, 1130),
+    ("page_light.png", "single_bend", {"mu": 0.6}, 13.0, False, 1290),
     ("page_dark.png", "guidance_route", {}, 20.0, True, 1110),
 )  # file, model, values, time shown [s], dark, height [px]
 

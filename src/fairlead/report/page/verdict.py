@@ -64,9 +64,10 @@ def _ruck(result: Result) -> Iterator[Sentence]:
             yield Sentence("No ruck", "good", f"{_sentence(of_ruck(one))}", why(one))
             continue
         margin = f", a margin of {one['margin']:.2g}" if one.get("margin") else ""
+        bears = _number(one["ruck_force"])
         yield Sentence("The hose rucks", "bad",
-                       f"{one['line']} is compressed by more than the {_number(one['ruck_force'])} N that it bears"
-                       f"{margin}.", [*_points(result, one), *why(one)])  # fmt: skip
+                       f"The hose of {one['line']} is compressed by more than the {bears} N that it bears{margin}.",
+                       [*_points(result, one), *why(one)])  # fmt: skip
 
 
 def _points(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
