@@ -85,7 +85,7 @@ class ZoneMap {
     p.ygrid.visible = false; this.draw();
     const view = await put(p, plot);
     cursor(plot, view); hover(plot, view, (t, y) => { const row = this.row(t, y); return row && this.chart.tells(row, t); });
-    span.heard.push(() => { if (plot.isConnected) this.draw(); });
+    span.heard.push(() => { clearTimeout(this.soon); this.soon = setTimeout(() => { if (plot.isConnected) this.draw(); }, 30); });
   }
   role() {
     if (!this.line) return "";
@@ -120,7 +120,7 @@ class ZoneMap {
     const {run} = this, W = 1100, H = 220, from = Math.max(span.start, run.times[0]), to = Math.min(span.end, run.end), word = run.zones.words;
     if (!(to > from)) return;
     const canvas = document.createElement("canvas"); canvas.width = W; canvas.height = H;
-    const ctx = canvas.getContext("2d"), wide = (to - from) / W, rows = Array.from({length: W}, (_, c) => run.row(from + (c + .5) * wide));
+    const ctx = canvas.getContext("2d"), image = ctx.createImageData(W, H), pixels = new Uint32Array(image.data.buffer), inks = new Map(), wide = (to - from) / W, rows = Array.from({length: W}, (_, c) => run.row(from + (c + .5) * wide));
     const high = y => H - (y - this.bottom) / (this.top - this.bottom) * H;
     for (const row of this.family.rows) {
       const zones = new Int32Array(W).fill(-1), rank = z => RANK[word[z].means] ?? 3;
@@ -131,13 +131,24 @@ class ZoneMap {
         if (end > from && begin < to && end > begin) mark(Math.max(begin, from), Math.min(end, to), zone);
         if (i < row.t.length) { begin = end; zone = row.to[i]; }
       }
-      for (let c = 0; c < W; c++) if (zones[c] >= 0) {
+      for (let c = 0, next; c < W; c = next) {
+        for (next = c + 1; next < W && zones[next] === zones[c] && (!this.x || rows[next] === rows[c]);) next++;
+        if (zones[c] < 0) continue;
         this.chart.used.add(zones[c]);
-        const [a, b] = this.ends(row, rows[c]), y = Math.floor(high(b));
-        if (word[zones[c]].means === "off" || !(b > a) || b < this.bottom || a > this.top) continue;
-        ctx.fillStyle = zoneColour(run, zones[c]); ctx.fillRect(c, y, 1, Math.max(Math.ceil(high(a)) - y, 1));
+        if (word[zones[c]].means === "off") continue;
+        const [a, b] = this.ends(row, rows[c]), y = Math.max(Math.floor(high(b)), 0), below = Math.min(Math.max(Math.ceil(high(a)), y + 1), H);
+        if (!(b > a)) continue;
+        if (!inks.has(zones[c])) inks.set(zones[c], ink(zoneColour(run, zones[c])));
+        for (let h = y; h < below; h++) pixels.fill(inks.get(zones[c]), h * W + c, h * W + next);
       }
     }
+    ctx.putImageData(image, 0, 0);
     this.source.data = {url: [canvas.toDataURL()], x: [from], w: [to - from]};
   }
+}
+
+/* A colour #rrggbb or #rgb as a pixel of an image. */
+function ink(colour) {
+  const hex = colour.slice(1), [r, g, b] = hex.length === 3 ? [...hex].map(c => parseInt(c + c, 16)) : [0, 2, 4].map(i => parseInt(hex.slice(i, i + 2), 16));
+  return new Uint32Array(new Uint8Array([r, g, b, 255]).buffer)[0];
 }
