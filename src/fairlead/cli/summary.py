@@ -1,35 +1,17 @@
 """The table a run ends with: what it cost, and how far its numbers can be trusted."""
 
-import shutil
-import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import typer
+from fairlead.cli.terminal import two_columns
 
-from fairlead.errors import printable
-
-NARROWEST = 20
-"""Columns of text that a value has, however narrow the terminal is."""
 UNKNOWN = "not known"
 MOST_NAMED = 3
 
 
 def print_summary(run: Mapping[str, Any], directory: object) -> None:
-    """Print the closing table of a run, from the contents of its `run.json`.
-
-    Two columns need no library of tables: loading one takes a tenth of a short run.
-    """
-    rows = [(printable(name), printable(value)) for name, value in summary_rows(run, directory)]
-    wide = max(len(name) for name, _ in rows)
-    room = max(shutil.get_terminal_size().columns - wide - 4, NARROWEST)
-    typer.echo("")
-    for name, value in rows:
-        first, *more = textwrap.wrap(value, room, break_on_hyphens=False) or [""]
-        typer.echo(f" {typer.style(name.ljust(wide), bold=True)}  {first}")
-        for line in more:
-            typer.echo(f" {' ' * wide}  {line}")
-    typer.echo("")
+    """Print the closing table of a run, from the contents of its `run.json`."""
+    two_columns(summary_rows(run, directory))
 
 
 def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, str]]:
