@@ -1,7 +1,7 @@
 """A switch inside a step that the step must not pass: where it is (`t_cut`), and whether its error counts.
 
 A step has the zones of its end for all of it. A step that ends at the switch misses nothing, so where the error of one
-inside counts the step is taken again up to there. There are three such:
+inside counts the step is taken again up to there. There are two such:
 
     a law jumps     stiction above Coulomb friction, an applied force, a rebound: of order one. It is told from a
                     continuous one where the guard comes to zero, on the chord of the step: the algebraic rows of the
@@ -11,10 +11,8 @@ inside counts the step is taken again up to there. There are three such:
                     when the limit is reached, to order two.
     an impulse      is missed, and the speed is wrong from then on. The place s h of the switch is that of its guard's
                     zero between the start and the end the step would have without it. What is missed is below.
-    a guard rises   inside a step and has fallen by its end, as of a rope that is snatched while all else rests. A step
-                    that its error does not limit may be any length: nothing may move in it but what is given. It is
-                    searched in equal parts, on the chord. Contacts that may hold are left out: their forces are means,
-                    and step_error.unseen_slip sees to them.
+
+What has risen and fallen again by the end of a step is in passed_over.py.
 
 Impulses that are missed:
 
@@ -31,9 +29,7 @@ from __future__ import annotations
 
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import ROUNDING
-from fairlead.integrate.events.pace import smallest_step
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
-from fairlead.integrate.point.controller import IDLE_ERROR
 from fairlead.integrate.point.meters import inertia_of
 from fairlead.integrate.stepping.step_error import JUMPS_SOMEWHERE, SMOOTH, error_of_speed, response_of
 
@@ -50,8 +46,6 @@ NOTHING = 1e-6
 """Share of a step so near its start that what follows a table there by a stiff law has no difference to follow. At a
 thousandth the speeds of line on the two pieces of a drum's radius differ by 1e-5 m/s, which a bond of 1e9 N s/m shows
 as 10 kN; at a millionth as 10 N."""
-PARTS = 8
-"""No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
 
 
 @compiled
@@ -365,25 +359,3 @@ def first_bent(problem, point, matrices, stepping, h):
                 point.worst = v
                 return (1.0 - SHORT_OF) * first
     return 1.0
-
-
-@compiled
-def guards_are_passed(m, h):
-    """True if such a guard is above its tolerance inside the step; the place of the first goes to `t_cut`."""
-    run, point, guards, settling, contacts = m.run, m.point, m.events.guards, m.events.settling, m.stepping.contacts
-    if contacts.n_free_guards == 0 or settling.passes > 0 or run.error >= IDLE_ERROR:
-        return False
-    y, y_end, probe = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_y_probe, point.n)
-    g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    machine, rows = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_hold_row, settling.n_zones)
-    for part in range(1, PARTS):
-        s = part / PARTS
-        for k in range(point.n):
-            probe[k] = y[k] + s * (y_end[k] - y[k])
-        evaluate_guards(m.problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
-        for i in range(guards.n_guards):
-            if g[i] > tolerance[i] and machine[i] >= 0 and rows[machine[i]] < 0:
-                m.stepping.rule.t_cut = point.t + s * h
-                point.worst = -1
-                return s * h > smallest_step(run, point)
-    return False

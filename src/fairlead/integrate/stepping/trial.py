@@ -48,8 +48,9 @@ from fairlead.integrate.stepping.located_step import (
     remember_middle,
     stops_little,
 )
+from fairlead.integrate.stepping.passed_over import guards_are_passed
 from fairlead.integrate.stepping.step_error import error_of_step
-from fairlead.integrate.stepping.switch_inside import guards_are_passed, impulse_is_missed, jump_is_due
+from fairlead.integrate.stepping.switch_inside import impulse_is_missed, jump_is_due
 from fairlead.integrate.stepping.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
 

@@ -1,0 +1,110 @@
+"""A guard that rises inside a step and has fallen by its end: a stop touched and left, a rope snatched for a moment.
+
+A step has the zones of its end for all of it, and would not see it. Contacts that may hold are left out: their forces
+are means, and step_error.unseen_slip sees to them; and kinks of tables, where nothing jumps but a slope.
+
+    a step that its error limits     is short for what moves. Of a guard below zero at both its ends the parabola
+                                     through these values and the one a step before says where it is highest, or through
+                                     the value in the middle after a settlement. Where that may be above zero, by BEYOND
+                                     of its bulge, the guard is asked there, on the dense output.
+    a step that it does not limit    may be any length: nothing may move in it but what is given. It is searched in
+                                     equal parts, on the chord.
+
+The step then ends where the guard was found above its tolerance.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.pace import smallest_step
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
+from fairlead.integrate.point.controller import IDLE_ERROR
+from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.stepping.step_error import BEYOND
+
+PARTS = 8
+"""No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
+
+
+@compiled
+def guards_are_passed(m, h):
+    """True if such a guard is above its tolerance inside the step; the place of the first goes to `t_cut`."""
+    if m.stepping.contacts.n_free_guards == 0 or m.events.settling.passes > 0:
+        return False
+    return touched_on_the_way(m, h) if m.run.error >= IDLE_ERROR else touched_while_idle(m, h)
+
+
+@compiled
+def touched_on_the_way(m, h):
+    """The same of a step that its error limits."""
+    guards, rule = m.events.guards, m.stepping.rule
+    ng = guards.n_guards
+    g, end, early = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(guards.at_g_early, ng)
+    before = -2.0 * rule.gap
+    if rule.gap == 0.0:
+        guards_inside(m, 0.5, h)
+        early = reals(guards.at_g_late, ng)
+        copy(reals(guards.at_g_probe, ng), early)
+        before = 0.5 * h
+    kink, soonest = indices(m.problem.at_kink_guard, ng), 1.0
+    for i in range(ng):
+        if not (g[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(m, i)):
+            continue
+        slope = (end[i] - g[i]) / h
+        bend = (slope - (early[i] - g[i]) / before) / (h - before)  # half of the second derivative
+        if not bend < 0.0:
+            continue
+        s = 0.5 - 0.5 * slope / (bend * h)
+        if 0.0 < s < soonest and g[i] + s * h * slope - bend * h * h * s * (1.0 - s) * (1.0 + BEYOND) > 0.0:
+            soonest = s
+    return soonest < 1.0 and is_above(m, soonest, h)
+
+
+@compiled
+def guards_inside(m, s, h):
+    """Guards at the share s of the step, on its dense output, into `g_probe`."""
+    point, guards = m.point, m.events.guards
+    interpolate(point, s, point.at_y_probe)
+    evaluate_guards(m.problem, m.run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
+
+
+@compiled
+def is_above(m, s, h):
+    """True if such a guard is above its tolerance at the share s of the step, which then is to end there."""
+    guards_inside(m, s, h)
+    guards = m.events.guards
+    g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
+    kink = indices(m.problem.at_kink_guard, guards.n_guards)
+    for i in range(guards.n_guards):
+        if g[i] > tolerance[i] and kink[i] == 0 and is_free(m, i):
+            m.stepping.rule.t_cut = m.point.t + s * h
+            m.point.worst = -1
+            return s * h > smallest_step(m.run, m.point)
+    return False
+
+
+@compiled
+def is_free(m, i):
+    """True if guard i is of a machine that holds nothing."""
+    machine = indices(m.events.guards.at_guard_machine, m.events.guards.n_guards)
+    return machine[i] >= 0 and indices(m.stepping.contacts.at_hold_row, m.events.settling.n_zones)[machine[i]] < 0
+
+
+@compiled
+def touched_while_idle(m, h):
+    """The same of a step that its error does not limit."""
+    run, point, guards, settling, contacts = m.run, m.point, m.events.guards, m.events.settling, m.stepping.contacts
+    y, y_end, probe = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_y_probe, point.n)
+    g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
+    machine, rows = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_hold_row, settling.n_zones)
+    for part in range(1, PARTS):
+        s = part / PARTS
+        for k in range(point.n):
+            probe[k] = y[k] + s * (y_end[k] - y[k])
+        evaluate_guards(m.problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
+        for i in range(guards.n_guards):
+            if g[i] > tolerance[i] and machine[i] >= 0 and rows[machine[i]] < 0:
+                m.stepping.rule.t_cut = point.t + s * h
+                point.worst = -1
+                return s * h > smallest_step(run, point)
+    return False
