@@ -10,17 +10,21 @@ are means, and step_error.unseen_slip sees to them; and kinks of tables, where n
     a step that it does not limit    may be any length: nothing may move in it but what is given. It is searched in
                                      equal parts, on the chord.
 
-The step then ends where the guard was found above its tolerance.
+The step then ends where the guard was found above its tolerance; of the first kind if the impulse of what is touched
+counts.
 """
 
 from __future__ import annotations
 
+from math import sqrt
+
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import smallest_step
-from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
 from fairlead.integrate.point.controller import IDLE_ERROR
 from fairlead.integrate.point.interpolant import interpolate
-from fairlead.integrate.stepping.step_error import BEYOND
+from fairlead.integrate.point.meters import inertia_of
+from fairlead.integrate.stepping.step_error import BEYOND, response_of
 
 PARTS = 8
 """No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
@@ -74,12 +78,44 @@ def is_above(m, s, h):
     guards_inside(m, s, h)
     guards = m.events.guards
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    kink = indices(m.problem.at_kink_guard, guards.n_guards)
+    start, end = reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards)
+    kink, fired = indices(m.problem.at_kink_guard, guards.n_guards), indices(guards.at_fired, guards.n_guards)
+    found, longest = 0, 0.0
     for i in range(guards.n_guards):
-        if g[i] > tolerance[i] and kink[i] == 0 and is_free(m, i):
-            m.stepping.rule.t_cut = m.point.t + s * h
-            m.point.worst = -1
-            return s * h > smallest_step(m.run, m.point)
+        if g[i] > tolerance[i] and start[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(m, i):
+            fired[found] = i
+            found += 1
+            longest = max(longest, sqrt(g[i] / (g[i] - max(start[i], end[i]))))
+    if found == 0 or s * h <= smallest_step(m.run, m.point):
+        return False
+    if not impulse_counts(m, s, h, found, min(longest, 1.0) * h):
+        return False
+    m.stepping.rule.t_cut = m.point.t + s * h
+    m.point.worst = -1
+    return True
+
+
+@compiled
+def impulse_counts(m, s, h, found, lasting):
+    """True if what the first of `fired` would do meanwhile, at its most two thirds of the time, is above a weight."""
+    problem, point, contacts, matrices = m.problem, m.point, m.stepping.contacts, m.linear.matrices
+    t = point.t + s * h
+    zones, kept = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones)
+    copy(zones, kept)
+    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_residual))
+    switch_at(problem.call_switch, (problem.context, t, point.at_y_probe, m.events.guards.at_fired, found))
+    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_x))
+    copy(kept, zones)
+    problem.rhs += 2
+    new, old = reals(point.at_x, problem.n), reals(point.at_residual, problem.n)
+    weight, position = reals(point.at_weight, problem.n), indices(problem.at_position_of, problem.n)
+    for v in range(problem.n):
+        x = position[v]
+        inertia = inertia_of(matrices, v) if x >= 0 and old[v] != new[v] else 0.0
+        if inertia > 0.0:
+            error = lasting * abs(new[v] - old[v]) / (1.5 * inertia)
+            if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
+                return True
     return False
 
 
