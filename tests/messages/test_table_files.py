@@ -22,6 +22,17 @@ def test_two_columns_with_or_without_a_header_are_read(tmp_path, text):
     assert [table(t) for t in (0.0, 1.0, 2.0)] == [1.0, 3.0, 5.0]
 
 
+def test_a_file_is_parsed_once_and_anew_when_its_content_changes(tmp_path):
+    first = read(tmp_path, "0,1\n2,5\n")
+    assert read(tmp_path, "0,1\n2,5\n") is first  # cases of a sweep ask for it again and again
+    changed = read(tmp_path, "0,1\n2,7\n")  # of the same size, at the same instant
+    assert (first(1.0), changed(1.0)) == (3.0, 4.0)
+    other = read_table({"file": "force.csv", "beyond": "line"}, FORCE, tmp_path)
+    assert (changed(3.0), other(3.0)) == (7.0, 10.0)  # the same content asked for in another way
+    with pytest.raises(ValueError, match="read-only"):
+        changed.rows[0, 3] = 0.0
+
+
 # (what the file holds, what is said)
 WRONG = [
     ("abc,1\n1,2\n2,3\n", "row 1, column 1: abc is not a number"),

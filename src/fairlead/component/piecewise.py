@@ -53,10 +53,9 @@ class PiecewisePolynomial:
     def is_continuous(self) -> bool:
         """True if the pieces meet, each at the end of the one before, with the same value."""
         size = np.abs(self.rows[:, 3]).max(initial=1e-300)
-        return all(
-            before[1] == row[0] and abs(_value(before, row[0]) - _value(row, row[0])) <= 1e-9 * size
-            for before, row in itertools.pairwise(self.rows)
-        )
+        left, right = self.rows[:-1], self.rows[1:]
+        jumps = np.abs(_values(left, right[:, 0]) - _values(right, right[:, 0]))
+        return bool((left[:, 1] == right[:, 0]).all() and (jumps <= 1e-9 * size).all())
 
     def integral(self, start: float) -> PiecewisePolynomial:
         """Antiderivative that is zero at `start`; pieces of degree at most three."""
@@ -77,6 +76,14 @@ class PiecewisePolynomial:
         rows[:, 3:7] = self.rows[:, 4:] * np.arange(1, DEGREE + 1)
         rows[:, 7] = 0.0
         return PiecewisePolynomial(rows)
+
+
+def _values(rows: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The value of each piece at a place of its own."""
+    found = np.zeros(len(rows))
+    for power in range(DEGREE, -1, -1):
+        found = found * (x - rows[:, 2]) + rows[:, 3 + power]
+    return found
 
 
 def _value(row: np.ndarray, x: float) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import functools
+import hashlib
 import io
 import itertools
 import math
@@ -28,6 +29,8 @@ from fairlead.quantities import NUMBER, QuantityError, written
 WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 MOST_POINTS = 100_000
 MOST_BYTES = 10_000_000
+MOST_KEPT = 16
+"""Tables of files that are kept as they were read; cases of a sweep or a fit ask for the same ones again and again."""
 CSV_FORM = "Write two numbers in a row, a comma between them and a point in them: 0.5,12.3"
 # Where a number of a table stands: the path to it in the netlist, and what a message says before it.
 Place = tuple[tuple[str | int, ...], str]
@@ -79,11 +82,34 @@ def points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Pa
             if words[word] not in allowed:
                 raise TableError(f" = {shown(words[word])} is not known", f"Allowed: {listing(allowed)}.", (word,))
         if "file" in value:
-            rows, at = _from_file(value["file"], folder, value.get("columns"))
-        else:
-            rows, at = _columns(value, x_name), functools.partial(_column, (x_name, "y"))
+            data = _bytes(value["file"], folder)
+            digest = hashlib.blake2b(data).digest()
+            key = (digest, str(value["file"]), repr(value.get("columns")), x_unit, y_unit, x_name, *words.values())
+            if key not in _KEPT:
+                rows, at = _from_file(data, value["file"], value.get("columns"))
+                _keep(key, _shaped(rows, at, x_unit, y_unit, x_name, words))
+            return _KEPT[key]
+        rows, at = _columns(value, x_name), functools.partial(_column, (x_name, "y"))
     else:
         rows = value
+    return _shaped(rows, at, x_unit, y_unit, x_name, words)
+
+
+_KEPT: dict[tuple[Any, ...], PiecewisePolynomial] = {}
+
+
+def _keep(key: tuple[Any, ...], table: PiecewisePolynomial) -> None:
+    """Keep a table by the content of its file and all that shapes it; the one that was kept first goes."""
+    if len(_KEPT) >= MOST_KEPT:
+        _KEPT.pop(next(iter(_KEPT)), None)
+    table.rows.setflags(write=False)  # models share it
+    _KEPT[key] = table
+
+
+def _shaped(
+    rows: Any, at: Callable[[int, int], Place], x_unit: str, y_unit: str, x_name: str, words: Mapping[str, str]
+) -> PiecewisePolynomial:
+    """Rows of two as pieces. Raises TableError."""
     if not isinstance(rows, list) or any(not isinstance(row, list | tuple) or len(row) != 2 for row in rows):
         commas = isinstance(rows, list) and any(isinstance(row, list) and len(row) in (3, 4) for row in rows)
         hint = " Numbers have a decimal point, not a decimal comma." if commas else ""
@@ -120,23 +146,27 @@ def _columns(value: Mapping[str, Any], x_name: str) -> list[list[Any]]:
     return [list(pair) for pair in zip(x, y, strict=True)]
 
 
+def _bytes(name: Any, folder: pathlib.Path) -> bytes:
+    """What a CSV file inside the netlist's folder holds. Raises TableError."""
+    try:
+        return _inside(folder, str(name)).read_bytes()
+    except (OSError, ValueError, RuntimeError) as error:  # no name of a file, or a link that leads to itself
+        if isinstance(error, TableError):
+            raise
+        reason = getattr(error, "strerror", None) or "this is no path to a file"
+        raise TableError(f" = {shown(name)} cannot be read: {reason}", "", ("file",)) from error
+
+
 def _from_file(
-    name: Any, folder: pathlib.Path, columns: Any = None
+    data: bytes, name: Any, columns: Any = None
 ) -> tuple[list[list[Any]], Callable[[int, int], Place]]:
-    """Two columns of a CSV file inside the netlist's folder, and where each number stands.
+    """Two columns of a CSV file, and where each number stands.
 
     `columns` names the two in the first row; without it the file has two.
 
     A first row in which nothing begins with a number is a header. Nothing is passed over but that, comments (#) and
     empty rows: what is not two numbers in a row is refused by the number of its row.
     """
-    try:
-        data = _inside(folder, str(name)).read_bytes()
-    except (OSError, ValueError, RuntimeError) as error:  # no name of a file, or a link that leads to itself
-        if isinstance(error, TableError):
-            raise
-        reason = getattr(error, "strerror", None) or "this is no path to a file"
-        raise TableError(f" = {shown(name)} cannot be read: {reason}", "", ("file",)) from error
     said = f" = {shown(name)}, row"
     found, lines, first = [], [], True
     picked: list[int] | None = None

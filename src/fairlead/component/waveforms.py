@@ -48,7 +48,8 @@ def _wave(value: Any, unit: str, folder: pathlib.Path) -> Wave:
         return Wave(constant(written(value, unit)))
     if not value:
         raise TableError("nothing is given", f"Give {listing(TERMS)}. Or: {wanted(unit)}")
-    polynomial, sine = constant(0.0), Sine()
+    polynomial: PiecewisePolynomial | None = None
+    sine = Sine()
     for path, name, settings in _terms(value):
         try:
             term = TERMS[name](settings, unit, folder)
@@ -58,8 +59,8 @@ def _wave(value: Any, unit: str, folder: pathlib.Path) -> Wave:
             if sine.amplitude != 0 and term[1].amplitude != 0:
                 raise TableError("there is a sine already", "Add others to the signal of one more source.", path)
             term, sine = term
-        polynomial = add(polynomial, term)
-    return Wave(polynomial, sine)
+        polynomial = term if polynomial is None else add(polynomial, term)
+    return Wave(constant(0.0) if polynomial is None else polynomial, sine)
 
 
 def _terms(value: Mapping[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:

@@ -84,11 +84,29 @@ def chaotic(records: list[Record], problem: Callable[[list[Target]], Problem]) -
 
 
 def foretelling(asked: Asked, targets: list[Target], law: Law, like: Fitted) -> dict[str, float]:
-    """Values of the parameters fitted to some of the targets, from the start of the fit file, by the steps of a fit."""
+    """Values of the parameters fitted to some of the targets, from all starts, by the steps of a fit.
+
+    No search begins where the fit to all targets ended, which has seen what is to be foretold.
+    """
     problem = Problem((*asked.sought, *law.sought), tuple(targets))
-    sizes = [like.steps[one.name] for one in problem.sought]
-    found = _search(asked, Counted(problem), _inside(problem.start, problem.bounds), sizes)
-    return problem.values(found.x)
+    best, _ = _searches(asked, Counted(problem), [like.steps[one.name] for one in problem.sought], None)
+    return problem.values(best.x)
+
+
+def _searches(asked: Asked, counted: Counted, sizes: list[Step], told: Told | None) -> tuple[Any, list[Start]]:
+    """The best of all searches, and what each came to."""
+    problem, found, starts = counted.problem, [], []
+    for number, begin in enumerate(_starts(problem, asked.given.starts, asked.given.seed)):
+        begin = _inside(begin, problem.bounds)
+        if number and (counted(begin) == FAR).any():
+            starts.append(Start(problem.values(begin), problem.values(begin), float("inf"), "no run finishes there"))
+            continue
+        one = _search(asked, counted, begin, sizes)
+        found.append(one)
+        starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
+        if told is not None:
+            told(f"start {number + 1}: loss {one.cost:.6g}")
+    return min(found, key=lambda one: one.cost), starts
 
 
 def _search(asked: Asked, counted: Counted, begin: Floats, sizes: list[Step]) -> Any:
@@ -114,18 +132,7 @@ def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | No
                             f"{record.sentence(problem.values(inside))})\n    Begin at other values.")  # fmt: skip
     noise = noise_floor(counted, inside, bounds)
     sizes = steps(counted, inside, bounds, noise)
-    found, starts = [], []
-    for number, begin in enumerate(_starts(problem, asked.given.starts, asked.given.seed)):
-        begin = _inside(begin, bounds)
-        if number and (counted(begin) == FAR).any():
-            starts.append(Start(problem.values(begin), problem.values(begin), float("inf"), "no run finishes there"))
-            continue
-        one = _search(asked, counted, begin, sizes)
-        found.append(one)
-        starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
-        if told is not None:
-            told(f"start {number + 1}: loss {one.cost:.6g}")
-    best = min(found, key=lambda one: one.cost)
+    best, starts = _searches(asked, counted, sizes, told)
     sizes = steps(counted, best.x, bounds, noise_floor(counted, best.x, bounds))
     r, j = counted(best.x), jacobian(counted, best.x, sizes, bounds)
     ways = directions(problem, j, r, sizes)
