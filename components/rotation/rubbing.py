@@ -29,8 +29,8 @@ from fairlead.component import (
 from fairlead.errors import Fault, ModelError
 
 METHODS = (
-    "binding", "hold", "karnopp", "reset_integrator", "dahl", "lugre", "elastoplastic", "tanh", "arctan", "root",
-    "saturation",
+    "binding", "hold", "karnopp", "reset_integrator", "dahl", "lugre", "elastoplastic", "maxwell_slip", "tanh",
+    "arctan", "root", "saturation",
 )  # fmt: skip
 
 

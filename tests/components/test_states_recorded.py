@@ -25,6 +25,7 @@ TOLD_BY = {
     "IdealPid": {"summed": "integral", "slow": "filtered"},
     "Pid": {"summed": "integral", "slow": "filtered", "applied": "command", "used": "error"},
     "LaggingPm": {"flowing": "current"}, "LuGre": {"z": "deflection"},
+    "MaxwellSlip": dict.fromkeys(("z1", "z2", "z3", "z4"), "deflection"),
     "Meter": {"slipped": "scuffed", "worked": "work"}, "OilColumn": {"moving": "flow"},
     "PiController": {"summed": "integral", "applied": "command", "used": "error"},
     "PmMotor": {"flowing": "current", "summed": "integral"}, "PressurePump": {"delivered": "flow"},

@@ -182,11 +182,11 @@ def _force(p: Values, zone: str, slip: float, normal: float) -> Any:
     unknown = next(iter(p.type.declaration.unknowns), None)
     if unknown is not None:
         return terms[unknown] if isinstance(terms[unknown], Hold) else -float(terms[unknown])
-    for state in states:
-        steady = _steady(p, zone, slip, normal, state)
+    if states:
+        steady = _steady(p, zone, slip, normal, states)
         if steady is None:
             return None
-        terms = _terms(p, zone, slip, normal, {state: steady})
+        terms = _terms(p, zone, slip, normal, steady)
     return float(terms[_body(p)])
 
 
@@ -195,12 +195,20 @@ def _body(p: Values) -> str:
     return list(p.type.declaration.ports)[1]
 
 
-def _steady(p: Values, zone: str, slip: float, normal: float, state: str) -> float | None:
-    """Where a state's rate, linear in it, is zero."""
-    rate = [float(_terms(p, zone, slip, normal, {state: z})[state]) for z in (0.0, 1.0)]
-    if rate[0] == rate[1]:
-        return 0.0 if rate[0] == 0 else None
-    return rate[0] / (rate[0] - rate[1])
+def _steady(p: Values, zone: str, slip: float, normal: float, states: dict[str, float]) -> dict[str, float] | None:
+    """Where the rates of all states, linear in them, are zero; None where one goes on whatever they are."""
+
+    def rates(at: dict[str, float]) -> Floats:
+        terms = _terms(p, zone, slip, normal, at)
+        return np.array([float(terms[name]) for name in states])
+
+    at_zero = rates(states)
+    slopes = np.stack([rates({**states, name: 1.0}) - at_zero for name in states], axis=1)
+    free = ~slopes.any(axis=1)
+    if at_zero[free].any():
+        return None
+    found, *_ = np.linalg.lstsq(slopes[~free], -at_zero[~free])
+    return dict(zip(states, found.tolist(), strict=True))
 
 
 def _terms(p: Values, zone: str, slip: float, normal: float, states: dict[str, float]) -> dict[str, Any]:
