@@ -1,6 +1,6 @@
 """A sine whose frequency grows."""
 
-from fairlead.component import Choice, Component, Law, Output, Parameter, exp, log, pi, sin
+from fairlead.component import Choice, Component, Law, Output, Parameter, Zones, exp, guard, log, pi, sin, zone
 
 
 class SignalChirp(Component):
@@ -9,7 +9,8 @@ class SignalChirp(Component):
     linear        frequency = first + (last - first) t/over
     exponential   frequency = first (last/first)^(t/over): as many octaves a second
 
-    It goes on so after `over`. What else a signal is in time, a SignalSource tells: ramps, pulses, a table from a file.
+    After `over` the frequency stays at `last`. What else a signal is in time, a SignalSource tells: ramps, pulses, a
+    table from a file.
     """
 
     amplitude = Parameter("1", "Of the sine, in SI of what it feeds.", default=1.0)
@@ -20,19 +21,28 @@ class SignalChirp(Component):
     sweep = Choice(("linear", "exponential"), "How the frequency changes.", default="linear")
     signal = Output("1", "The signal.")
     frequency = Output("1/s", "Frequency now.")
+    zones = Zones("sweeping", "swept")
 
     def check(p):
         """A sweep goes somewhere."""
         if p.first == p.last:
             yield "last", f"last is the same frequency as first, {p.first:g} Hz", "Take a SignalSource with a sine."
 
-    def law(p, t):
+    @zone("sweeping", "swept")
+    def sweeping(p, t, zone):
         """The phase is the integral of the frequency."""
+        swept = t if zone == "sweeping" else p.over
         if p.sweep == "linear":
             slope = (p.last - p.first) / p.over
-            turns, frequency = p.first * t + slope * t**2 / 2, p.first + slope * t
+            turns, frequency = p.first * swept + slope * swept**2 / 2, p.first + slope * swept
         else:
             rate = log(p.last / p.first) / p.over
-            frequency = p.first * exp(rate * t)
+            frequency = p.first * exp(rate * swept)
             turns = (frequency - p.first) / rate
+        turns = turns + p.last * (t - swept)
         return Law(signal=p.offset + p.amplitude * sin(2 * pi * turns), frequency=frequency)
+
+    @guard("sweeping", to="swept", unit="s")
+    def ends(p, t):
+        """The frequency is the last."""
+        return t - p.over
