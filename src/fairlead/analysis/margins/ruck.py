@@ -79,7 +79,8 @@ def sentence(found: dict[str, Any]) -> str:
     if not found["compressed"]:
         return f"{found['line']} does not ruck: it was never compressed"
     when = f"at t = {found['t']:.4g} s, {_where(found)}"
-    return f"{found['line']} does not ruck: margin {found['margin']:.2g}, {found['compressed']:.4g} N of {bears} {when}"
+    most = f"{found['compressed']:.4g} N at most, and it bears {bears}"
+    return f"{found['line']} does not ruck: margin {found['margin']:.2g} ({most}), {when}"
 
 
 def _where(found: dict[str, Any]) -> str:

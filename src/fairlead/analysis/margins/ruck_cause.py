@@ -112,16 +112,17 @@ def why(found: Mapping[str, Any]) -> list[tuple[str, str]]:
     if max(hose) - min(hose) < LEAST * found["ruck_force"]:
         return [("Why", f"Not told: on both sides of {one['station']} the hose has nearly the same tension "
                         f"({_n(hose[0])} and {_n(hose[1])} N), so friction there is not the cause.")]  # fmt: skip
-    return [("Why", f"{_friction(one)} {_shared(one)}"), *_capstan(one), *_way_out(one)]
+    first = f"Element {found['element']} is the first to pass {_n(-found['ruck_force'])} N."
+    return [("Why", f"{_friction(one, found['t'])} {_shared(one)} {first}"), *_capstan(one), *_way_out(one)]
 
 
-def _friction(one: Mapping[str, Any]) -> str:
-    """What the device takes."""
+def _friction(one: Mapping[str, Any], t: float) -> str:
+    """What the device takes at t."""
     low, high = sorted((sum(one["inboard"]), sum(one["outboard"])))
     grows = f"from {_n(low)} to {_n(high)} N" if low > 0 else f"by {_n(high - low)} N"
     return (
-        f"Friction on {one['station']}. The line slides over it with mu = {_n(one['friction'][1])}, and its tension "
-        f"grows {grows} there. These {_n(high - low)} N act on the hose, which touches {one['station']}."
+        f"Friction on {one['station']}. At t = {t:.4g} s the line slides over it with mu = "
+        f"{_n(one['friction'][1])}, and its tension grows {grows} there. These {_n(high - low)} N act on the hose, which touches {one['station']}."
     )
 
 
@@ -132,10 +133,10 @@ def _shared(one: Mapping[str, Any]) -> str:
     inner, critical = one["inner_friction"], one["critical"]
     limit = ""
     if critical is not None and one["friction"][1] > critical:
-        limit = (f" They cannot hand on all, for only the core's tension presses them (mu = {_n(inner[0])} while they "
+        limit = (f" They cannot pass on all, for only the core's tension presses them (mu = {_n(inner[0])} while they "
                  f"hold, {_n(inner[1])} while they slide).")  # fmt: skip
     return (
-        f"The bulkheads hand {_n(max(core, 0.0))} N of them on to the core.{limit} The hose is left with {_n(hose)} N: "
+        f"The bulkheads pass {_n(max(core, 0.0))} N of them on to the core.{limit} The hose is left with {_n(hose)} N: "
         f"its tension is {_n(one['inboard'][0])} N inboard of {one['station']} and {_n(one['outboard'][0])} N outboard "
         "of it. Below zero it is pushed together."
     )

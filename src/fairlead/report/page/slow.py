@@ -56,7 +56,8 @@ def slowest(result: Result) -> str:
         f"{total} zone changes. " if sticks else ""
     )
     steps = f" {result.run['steps']} steps were needed in all." if result.run.get("steps") else ""
-    return f"{contact}By kind of part it is {told}. A step ends at each change, and short ones follow.{steps}"
+    ends = "A step ends at each change (to stick, to slide, slack, taut), and short ones follow."
+    return f"{contact}By kind of part it is {told}. {ends}{steps}"
 
 
 def _counted(result: Result) -> tuple[Counter[str], Counter[str], dict[str, set[str]]]:

@@ -63,10 +63,10 @@ def _ruck(result: Result) -> Iterator[Sentence]:
         if not one["rucks"]:
             yield Sentence("No ruck", "good", f"{_sentence(of_ruck(one))}", why(one))
             continue
-        margin = f", a margin of {one['margin']:.2g}" if one.get("margin") else ""
-        bears = _number(one["ruck_force"])
+        bears, has = _number(one["ruck_force"]), one.get("compressed")
+        much = f"up to {_number(has)} N, a margin of {bears}/{_number(has)} = {one['margin']:.2g}" if has else "more"
         yield Sentence("The hose rucks", "bad",
-                       f"The hose of {one['line']} is compressed by more than the {bears} N that it bears{margin}.",
+                       f"{one['line']}: the hose bears {bears} N of compression. It has {much}.",
                        [*_points(result, one), *why(one)])  # fmt: skip
 
 
@@ -76,10 +76,9 @@ def _points(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
     station = f" on {found['station']}" if found.get("station") else ""
     where = f"First in element {found['element']}{station}"
     where += f" ({_number(found['along'])} m along the line{route})." if found.get("along") is not None else "."
-    compressed = f" The greatest compression is {_number(found['compressed'])} N." if found.get("compressed") else ""
     return [
         ("When", f"First at t = {_number(found['t'])} s.{_last(result, found)}"), ("Where", where),
-        ("How much", f"{_extent(result, found)}{compressed}".strip()),
+        ("How much", _extent(result, found)),
     ]  # fmt: skip
 
 
@@ -90,7 +89,7 @@ def _mine(result: Result, found: dict[str, Any]) -> list[Event]:
 
 def _last(result: Result, found: dict[str, Any]) -> str:
     mine = _mine(result, found)
-    return f" The last element begins at t = {_number(mine[-1].t)} s." if len(mine) > 1 else ""
+    return f" The last ruck begins at t = {_number(mine[-1].t)} s." if len(mine) > 1 else ""
 
 
 def _extent(result: Result, found: dict[str, Any]) -> str:
