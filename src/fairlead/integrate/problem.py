@@ -4,10 +4,10 @@ The equations are
 
     M(zones) y' = f(t, y, zones, discrete)
 
-with M constant, possibly singular, while the zones are frozen (index 1). Zones change only at
-accepted points, when a guard rises through zero. A problem fits `Problem` by shape: it need not
-import this module. All callbacks are addresses of C functions, so that the loop is compiled once
-for all problems; `context` is passed through untouched.
+with M constant, possibly singular, while the zones are frozen (index 1). Zones change when a guard rises through zero:
+at the end of an accepted piece, or for a trial of `stepping` that looks for the zones of its end. A problem fits
+`Problem` by shape: it need not import this module. All callbacks are addresses of C functions, so that the loop is
+compiled once for all problems; `context` is passed through untouched.
 
 A `Problem` is frozen: any number of runs, in any number of threads, use it. For each run it makes an `Instance`: what
 the callbacks change, the zones first of all, is the instance's own, and so are the error weights, which follow the
@@ -207,7 +207,7 @@ class Run:
     between: bool = False
     """Hand over rows inside steps as well, and with a grid the ends of steps (`Block.side`)."""
     engine: Literal["rodas", "stepping", "ida"] | Engine = "rodas"
-    """rodas: Rosenbrock, every switch located; stepping: zones found inside each step (theta_step.py); ida: BDF
+    """rodas: Rosenbrock, every switch located; stepping: zones found with each step (theta_step.py); ida: BDF
     by SUNDIALS, every switch located (ida/loop.py), which needs scikit-sundae; or one of one's own (engine.py)."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
     """Of `rodas`."""
@@ -219,7 +219,8 @@ class Run:
     first_step: float | None = None
     max_step: float = np.inf
     fixed_step: float | None = None
-    """Take this step without error control; events are still located and time events landed on."""
+    """Take this step without error control. Time events are landed on; switches are located, but for `stepping`, which
+    has them inside its steps then."""
     step_floor: float | None = None
     """Smallest step, and what several switches in a row must advance; None: what time can resolve (1e-18
     of the span at least) for steps, 1e-12 of the span for switches."""

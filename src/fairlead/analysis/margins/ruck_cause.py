@@ -122,7 +122,8 @@ def _friction(one: Mapping[str, Any], t: float) -> str:
     grows = f"from {_n(low)} to {_n(high)} N" if low > 0 else f"by {_n(high - low)} N"
     return (
         f"Friction on {one['station']}. At t = {t:.4g} s the line slides over it with mu = "
-        f"{_n(one['friction'][1])}, and its tension grows {grows} there. These {_n(high - low)} N act on the hose, which touches {one['station']}."
+        f"{_n(one['friction'][1])}, and its tension grows {grows} there. These {_n(high - low)} N act on the hose, "
+        f"which touches {one['station']}."
     )
 
 

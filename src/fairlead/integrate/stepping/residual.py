@@ -85,6 +85,10 @@ def differs(problem):
 def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     """Set b = f - M (y1 - y0)/h, and -slip/h at the end of the step in the rows of held contacts.
 
+    friction   the force of a contact is an unknown in u, so all it does to bodies is in f (`call_forces`: all of f but
+               quadratures). The row of its own is its law while it slides, its slip while it holds, with its share
+               of other forces where it closes a circle. `call_drift` gives minus the slip
+
     What M (y1 - y0)/h says there is just that for a contact that held at the start, on a surface of constant
     speed. For one caught in the step, or on a surface that is accelerated, the law tells the slip; on a node without
     mass it tells that at the theta point, where the speed of such a node is.

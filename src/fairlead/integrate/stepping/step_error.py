@@ -6,7 +6,8 @@ the mean slopes of this step and the two before,
     error = h^3/6 [k_n, k_n-1, k_n-2]
 
 It is taken away before (third_order.py): what is controlled is the error of the step without that.
-Controlled are all differential unknowns but speeds that have a position (x' = v). A contact that starts
+Controlled are all differential unknowns but speeds that have a position (x' = v); these too where every switch is
+landed on, by located_step.py. A contact that starts
 or stops inside a step bends the motion there: the speed at the end of the step is then still right to
 order 2, while a difference of accelerations sees a jump; the position it leads to is wrong by order
 h^2 times the jump, which is what the difference of speeds says.

@@ -12,11 +12,13 @@ that slides are the two branches of |force| <= limit, slip at the end = 0 or aga
 problem. It is solved by an active set (active_set.py): solve with the zones frozen, switch those whose guards are
 violated, solve again. Smooth nonlinearity is taken up by the same iteration, which ends when no guard is violated and
 the residual passes. Where f is linear as long as the zones are frozen one solve is exact, and the residual
-is looked at once per factorisation.
+is looked at once per factorisation. Where every switch is landed on (`rule.locates`), the zones are those of the start
+of the step, and only the smooth iteration is left.
 
 The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of
-pivots serves both engines; the row of a held contact is M/(h theta) alone. The speed of a node without mass is
-algebraic, a mean over the step like a force: a contact on such a node holds that, its slip is zero at the point u.
+pivots serves both engines; the row of a held contact is M/(h theta), and its share of other forces where it closes a
+circle. The speed of a node without mass is algebraic, a mean over the step like a force: a contact on such a node holds
+that, its slip is zero at the point u.
 """
 
 from __future__ import annotations
@@ -263,7 +265,7 @@ def evaluate_slopes(problem, point, linear, stepping, h):
 
 @compiled
 def find_holds(point, matrices, exchange):
-    """Mark the rows of contacts that hold, and take J out of them: there the slip at the end is zero.
+    """Mark the rows of contacts that hold, and take J out of them but for shares: there the slip at the end is zero.
 
     They are the rows of algebraic unknowns in which M has an entry now. `driven` tells of a surface with
     a speed that varies, `caught` of rows that did not hold before.

@@ -3,10 +3,11 @@
 What repeats one, in this order: a matrix without good pivots; a law that jumps at a limit the step reaches; zones that
 do not settle; a rim of a part that changed; an error above one; a switch inside that its formula says is missed. Where
 every switch is landed on (`finish_located`): an error above one; a guard that fires at the start, or at an end that was
-cut too roughly. All of them end in `repeat`, which alone gives back the zones and sets the length.
+cut too roughly. All of them end in `take_again` (events/given_up.py), which alone sets the length of a step that is
+repeated; `repeat` gives the zones of the start back before, where the step has changed them.
 
     attempt  zones and end of the step together        # the active set, theta_step.py
-             if they do not settle: halve h; TRY again
+             if they do not settle: the same without guesses, then half of h; TRY again
              if the error is too large: shrink h; TRY again
     arrive   zone changes go to the log, at the end of the step
     settled  the slopes before are those of the settled point
@@ -208,7 +209,7 @@ def accept_step(m, h):
 
 @compiled
 def repeat(m, length, why):
-    """Have the step taken again from its start, in the zones it had there, `length` long: nothing else repeats one."""
+    """Have the step taken again from its start, in the zones it had there, `length` long."""
     give_back_zones(m.events.guards, m.stepping)
     return take_again(m.run, length, why)
 
@@ -279,7 +280,7 @@ def find_pivots(m, h):
 
 @compiled
 def end_at_switch(m, length, why):
-    """Repeat a step so that it ends at a switch, at `t_cut`: the one place where a step is cut."""
+    """Repeat a step so that it ends at a switch, at `t_cut`: all cuts of steps with switches inside come here."""
     m.run.rejected_switch += 1
     return repeat(m, length, why)
 
