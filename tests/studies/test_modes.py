@@ -255,3 +255,42 @@ run: {stop: 1 s}
     found = fairlead.modes(made(tmp_path, text))
     assert frequencies(found) == pytest.approx([math.sqrt(300 * (1 + 1 / 3)) / (2 * math.pi)])
     assert (found.at_rest, found.unstable) == (2, ())
+
+
+EYED = OSCILLATOR.replace("connections: [", "  eye: {type: MotionSensor}\nconnections: [").replace(
+    "block.flange]", "block.flange, eye.flange]"
+)
+
+
+def test_the_response_of_an_acceleration_has_what_the_force_does_at_once(tmp_path) -> None:
+    """-w^2 times that of the place, so that it tends to 1/M."""
+    found = fairlead.modes(made(tmp_path, EYED), acting="block", out="eye.a", frequencies=(0.1, 200)).response
+    w = 2 * math.pi * found.frequencies
+    assert found.values == pytest.approx(-(w**2) / (K - M * w**2 + 1j * C * w), rel=1e-7)
+    assert found.values[-1].real == pytest.approx(1 / M, rel=1e-3)
+
+
+@pytest.mark.parametrize("zone", ["held", "sliding"])
+def test_an_acceleration_of_the_other_body_feels_the_force_through_what_holds(tmp_path, zone: str) -> None:
+    text = TWO.replace("connections:", "  eye: {type: MotionSensor}\nconnections:").replace(
+        "two.flange, clutch.b]", "two.flange, clutch.b, eye.flange]"
+    )
+    found = fairlead.modes(made(tmp_path, text), zones={"clutch": zone}, acting="one", out="eye.a", frequencies=(1, 9))
+    w = 2 * math.pi * found.response.frequencies
+    expected = -(w**2) / (800 - 4 * w**2) if zone == "held" else 0 * w
+    assert found.response.values == pytest.approx(expected, rel=1e-7, abs=1e-9)
+
+
+def test_zeros_are_told_by_what_they_belong_to(tmp_path) -> None:
+    """A clutch that holds has one; a body on a drag of 1e12 N s/m creeps back at 1e-9/s, which rounding hides."""
+    text = TWO.replace("connections:", """  tar: {type: Damper, damping: 1e12 N*s/m}
+  soft: {type: Spring, stiffness: 1000 N/m}
+  slow: {type: Mass, mass: 1 kg}
+connections:
+  - [tar.b, soft.b, slow.flange]""").replace("left.a, right.a", "left.a, right.a, tar.a, soft.a")  # fmt: skip
+    found = fairlead.modes(made(tmp_path, text), zones={"clutch": "held"})
+    assert (found.zeros.count, found.zeros.offsets, found.at_rest) == (2, 1, 2)
+    assert "slow" in found.zeros.others
+    told = str(found)
+    assert "1 for a contact that holds, which stays where it took hold." in told
+    assert "1 for what moves freely, stays put, or creeps too slowly to tell: " in told

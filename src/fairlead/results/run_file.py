@@ -179,6 +179,11 @@ def _boot() -> str | None:
 
 def _plain(value: Any) -> Any:
     """Return `value` as JSON knows it; NaN and infinity become null, which every reader accepts."""
+    kind = type(value)
+    if kind is float:  # most of a record are plain numbers
+        return value if math.isfinite(value) else None
+    if kind is int or kind is str or kind is bool or value is None:
+        return value
     if isinstance(value, Mapping):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fairlead.errors import FairleadError, UsageError
@@ -39,11 +39,17 @@ def compare(asked: Asked, laws: Sequence[Law], told: Told | None = None) -> list
                 judged.trained[record.name] = errors(record, whole.values) or {}
                 judged.left_out[record.name] = errors(record, rest) or {}
                 if told is not None:
-                    told(f"{law.name}: {record.name} left out")
+                    told(f"{law.name}: {record.name} {_sizes(judged.trained[record.name], record.units)}, "
+                         f"left out {_sizes(judged.left_out[record.name], record.units)}")
         except FairleadError as error:
             judged = Judged(law, sentence=" ".join(str(error).split()))
         made.append(judged)
     return made
+
+
+def _sizes(found: Mapping[str, Error], units: Mapping[str, str]) -> str:
+    """Mean errors of a record's signals, as a line tells them."""
+    return ", ".join(f"{error.mean:.4g} {units[name]}" for name, error in found.items()) or "did not finish"
 
 
 def preferred(judged: Sequence[Judged]) -> str:

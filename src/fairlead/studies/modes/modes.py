@@ -70,8 +70,8 @@ def modes(
         answer = response(made, column, row, quotient(row.unit, column.unit), spaced(*(span or range_of(found))))
     several = {instance.machine_names[k]: instance.zone_names(k)[int(frozen[k])] for k in known.several}
     return Modes(
-        model.netlist.name, t, several, known.in_words(frozen), tuple(found), zeros, made.held, answer,
-        tuple(ranked(known, frozen, change)) if change else (), (SAMPLED,) if instance.samples else (), made,
+        model.netlist.name, t, several, known.in_words(frozen), tuple(found), zeros.count, made.held, answer,
+        tuple(ranked(known, frozen, change)) if change else (), (SAMPLED,) if instance.samples else (), made, zeros,
     )  # fmt: skip
 
 

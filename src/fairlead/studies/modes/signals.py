@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
-from fairlead.system.compiled.asking import call
+from fairlead.kernels.layout import OUTPUT
+from fairlead.system.compiled.asking import ask, call
 from fairlead.system.compiled.opened import FreeInput, free_inputs
 from fairlead.system.compiled.system import Instance
 
@@ -104,13 +105,32 @@ def of_input(point: Point, name: str, out: Seen | None, faults: list[Fault]) -> 
         faults.append(Fault(Location("in"), what, f"There are {listing(known)}."))
         return None
     row, unit, ratio = nodes[name]
-    if out is not None and point.instance.recording([out.name]).late:
-        what = f"{out.name} follows from accelerations, on which a force at {name} acts at once"
-        faults.append(Fault(Location("out"), what, "Take a position, a speed or a force, or a signal input."))
-        return None
     column = np.zeros(point.instance.n)
     column[row] = ratio
-    return Acting(name, unit, column, 0.0)
+    late = out is not None and point.instance.recording([out.name]).late
+    return Acting(name, unit, column, ratio * _by_acceleration(point, out, row) if late and out is not None else 0.0)
+
+
+def _by_acceleration(point: Point, out: Seen, row: int) -> float:
+    """What a unit force in a row of f adds at once to a signal that reads accelerations."""
+    instance, memory = point.instance, point.instance.memory
+    column = [one.name for one in instance.recorded].index(out.name)
+    source, at = instance.recorded[column].at, instance.numbering.acceleration + row
+    begun = point.outputs(point.y)[column]  # and all accelerations are in z
+    if source < 0:
+        return 0.0
+    z, everything, ends = memory["z"], memory["outputs_all"], []
+    before, zones, step = float(z[at]), instance.zones.copy(), SMALL * max(abs(float(z[at])), abs(float(begun)), 1.0)
+    instance.zones[:] = point.zones
+    try:
+        for side in (-1.0, 1.0):
+            z[at] = before + side * step
+            for number, block in enumerate(instance.blocks):
+                ask(instance, number, OUTPUT, np.ones(block.count, dtype=bool), everything)
+            ends.append(float(everything[source]))
+    finally:
+        z[at], instance.zones[:] = before, zones
+    return (ends[1] - ends[0]) / (2 * step) * float(memory["inverse_mass"][row])
 
 
 def _nodes(instance: Instance) -> Iterator[tuple[str, tuple[int, str, float]]]:

@@ -51,8 +51,22 @@ class Mode:
         return self.value.real
 
 
-def modes_of(found: Linear) -> tuple[list[Mode], int]:
-    """The modes by falling period, and how many eigenvalues are zero within rounding.
+@dataclass(frozen=True)
+class Zeros:
+    """Eigenvalues that are zero within rounding: how many, and how slow each has to be at least [1/s].
+
+    `offsets` of them belong to contacts that hold: the slip C x of each stays where it took hold, so that C is a left
+    eigenvector of zero. `others` are the shares of components in all, the largest first, members of an array together.
+    """
+
+    count: int = 0
+    offsets: int = 0
+    below: float = 0.0
+    others: dict[str, float] = field(default_factory=dict)
+
+
+def modes_of(found: Linear) -> tuple[list[Mode], Zeros]:
+    """The modes by falling period, and what is zero within rounding.
 
     Rounding of a matrix B changes an eigenvalue by |B| eps/|w'v|, with vectors of length 1; a double zero too, for its
     two vectors are nearly orthogonal.
@@ -60,7 +74,7 @@ def modes_of(found: Linear) -> tuple[list[Mode], int]:
     from scipy.linalg import eig, matrix_balance
 
     if not len(found.matrix):
-        return [], 0
+        return [], Zeros()
     balanced, scale = matrix_balance(found.matrix, permute=False)
     values, left, right = eig(balanced, left=True, right=True)
     scale, size = np.diag(scale)[:, None], max(float(np.linalg.norm(balanced)), found.pace)
@@ -72,7 +86,20 @@ def modes_of(found: Linear) -> tuple[list[Mode], int]:
     wanted = wanted[np.argsort(np.abs(values[wanted]), kind="stable")]
     made = [Mode(complex(values[k]), _participation(found, left[:, k], right[:, k]), float(errors[k]),
                  _shape(found, right[:, k])) for k in wanted]  # fmt: skip
-    return made, int(zero.sum())
+    return made, _zeros(found, left[:, zero], right[:, zero], errors[zero])
+
+
+def _zeros(found: Linear, left: Complex, right: Complex, errors: Floats) -> Zeros:
+    count = left.shape[1]
+    if not count:
+        return Zeros()
+    shares: dict[str, float] = {}
+    for k in range(count):
+        for name, share in _participation(found, left[:, k], right[:, k]).items():
+            of_array = name.partition("[")[0]
+            shares[of_array] = shares.get(of_array, 0.0) + share / count
+    offsets = min(int(found.equations.differential.sum()) - len(found.matrix), count)
+    return Zeros(count, offsets, float(errors.max()), dict(sorted(shares.items(), key=lambda one: -one[1])))
 
 
 def _participation(found: Linear, left: Complex, right: Complex) -> dict[str, float]:

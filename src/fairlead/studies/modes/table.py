@@ -9,7 +9,7 @@ import numpy as np
 
 from fairlead.studies.modes.linear import Linear
 from fairlead.studies.modes.response import Response
-from fairlead.studies.modes.spectrum import Mode
+from fairlead.studies.modes.spectrum import Mode, Zeros
 from fairlead.studies.modes.squeal import Pattern
 
 COLUMNS = ("mode", "frequency Hz", "damping", "growth 1/s", "time constant s", "who takes part")
@@ -34,13 +34,15 @@ class Modes:
     """The same in words."""
     modes: tuple[Mode, ...]
     at_rest: int
-    """Eigenvalues that are zero: places that may be any, as of a contact that holds, and free motion."""
+    """Eigenvalues that are zero; `zeros` tells what they belong to."""
     held: int
     """Slips that are kept at zero."""
     response: Response | None
     patterns: tuple[Pattern, ...]
     remarks: tuple[str, ...]
     linear: Linear = field(repr=False)
+    zeros: Zeros = field(default_factory=Zeros)
+    """What the eigenvalues that are zero belong to."""
 
     def __iter__(self) -> Iterator[Mode]:
         return iter(self.modes)
@@ -90,9 +92,7 @@ def notes(found: Modes) -> Iterator[str]:
     """What is to be said beside the table."""
     if found.pattern:
         yield found.pattern
-    if found.at_rest:
-        are = "eigenvalue is" if found.at_rest == 1 else "eigenvalues are"
-        yield f"{found.at_rest} {are} zero within rounding: places that stay where they are put, or free motion."
+    yield from of_zeros(found.zeros)
     for mode in found.unstable[:MOST_UNSTABLE]:
         how = f"swings up at {mode.frequency:.4g} Hz" if mode.frequency else "runs away"
         yield f"Unstable: {takes_part(mode)} {how}, by a factor of e in {1 / mode.growth:.3g} s."
@@ -101,6 +101,22 @@ def notes(found: Modes) -> Iterator[str]:
     yield from found.remarks
     if found.response is not None:
         yield of_response(found.response)
+
+
+def of_zeros(zeros: Zeros) -> Iterator[str]:
+    """What the eigenvalues that are zero belong to."""
+    if not zeros.count:
+        return
+    are = "eigenvalue is" if zeros.count == 1 else "eigenvalues are"
+    yield f"{zeros.count} {are} zero within rounding (below {zeros.below:.1g} 1/s)."
+    if zeros.offsets:
+        one = "a contact that holds, which stays where it took hold"
+        whose = one if zeros.offsets == 1 else "contacts that hold, which stay where they took hold"
+        yield f"    {zeros.offsets} for {whose}."
+    rest = zeros.count - zeros.offsets
+    if rest:
+        names = ", ".join(list(zeros.others)[:FEW])
+        yield f"    {rest} for what moves freely, stays put, or creeps too slowly to tell: {names}."
 
 
 def of_response(one: Response) -> str:

@@ -20,6 +20,7 @@ def record_of(found: Modes) -> dict[str, Any]:
     one = found.response
     return {
         "model": found.model, "t": found.t, "zones": found.zones, "held": found.held, "at_rest": found.at_rest,
+        "zeros": vars(found.zeros),
         "modes": [_mode(each) for each in found.modes], "remarks": list(found.remarks),
         "response": None if one is None else {
             "in": one.acting, "out": one.out, "unit": one.unit, "frequency": one.frequencies.tolist(),
