@@ -26,7 +26,7 @@ from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.meters import inertia_of
 
-PASSED = 1e-3
+SOLVED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved. Errors of iterations add up over
 the steps, so they stay far below one weight: the code RADAU5 takes min(0.03, sqrt(accuracy)), 1e-3 at an accuracy
 of 1e-6 (Hairer and Wanner, Solving ODEs II, section IV.8)."""
@@ -193,7 +193,7 @@ def search_line(problem, point, linear, stepping, h, before):
     matrices, rule = linear.matrices, stepping.rule
     residual_of_step(problem, point, matrices, stepping, h, True)
     size, share = scaled_residual(point, linear), 1.0
-    if size <= max(before, PASSED):
+    if size <= max(before, SOLVED):
         return
     fresh = rule.searched == SEARCHED
     if falls(matrices, stepping, h):

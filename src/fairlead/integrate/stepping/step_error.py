@@ -42,7 +42,7 @@ from fairlead.integrate.stepping.located_step import HOLD_SHARE, error_of_locate
 STILL = 1e-2
 """Where no position changes by more than this share of its weight, HOLD_SHARE of the bend of a holding force counts
 as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
-ROUGH = 4.0
+UNEVEN = 4.0
 """Rows inside a step lie on a parabola where the motion is smooth, on the chord where its bend c grows by more than
 this or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were. The
 bulge of the parabola is h^2 c/8, the error of the step h^2 (c - c_before)/12. Where c is four times c_before that is
@@ -89,7 +89,7 @@ def error_of_step(m, h):
         if differential[k] == 1:
             slope[k] = (y_end[k] - y[k]) * per_step
             curve, curve_before = (slope[k] - before[k]) * per_near, (before[k] - earlier[k]) * per_far
-            if curve * curve_before > 0.0 and abs(curve) <= ROUGH * abs(curve_before):
+            if curve * curve_before > 0.0 and abs(curve) <= UNEVEN * abs(curve_before):
                 bend[k] = -0.5 * h * h * curve
             if controlled[k] == 1 or (rule.locates == 1 and quadrature[k] == 0):
                 error[k] = third * (curve - curve_before)

@@ -39,8 +39,8 @@ from fairlead.integrate.stepping.active_set import (
 from fairlead.integrate.stepping.residual import (
     GIVEN_UP,
     MOST_SEARCHED,
-    PASSED,
     SEARCHED,
+    SOLVED,
     move_end,
     remember_move,
     residual_of_step,
@@ -67,7 +67,7 @@ from fairlead.integrate.stepping.switch_inside import (
     note_switches,
 )
 
-CYCLES, DIVERGES, JUMPS, GO_ON, AFRESH = 6, 7, 8, 9, 10
+CYCLES, DIVERGES, JUMPS, ONCE_MORE, AFRESH = 6, 7, 8, 9, 10
 SLOW = 0.01
 """A residual that shrinks by less than this in an iteration asks for a new Jacobian."""
 LOOK_AT_LIMITS = 8
@@ -104,7 +104,7 @@ def take_theta_step(m, h):
             if verdict == AFRESH:
                 solves = 0
                 continue
-            if verdict != GO_ON:
+            if verdict != ONCE_MORE:
                 return verdict
         solved = True
         solves += 1
@@ -123,13 +123,13 @@ def take_theta_step(m, h):
         status = switch_zones(m, h)
         if status == CYCLES and exchange.guessed > 0:
             give_up_guesses(stepping)
-        if status != GO_ON:
+        if status != ONCE_MORE:
             return status
 
 
 @compiled
 def approach_laws(problem, point, linear, stepping, h, solves, previous):
-    """Judge the residual after `solves` without a switch, solve for it: DONE, GO_ON, AFRESH or why not; its size.
+    """Judge the residual after `solves` without a switch, solve for it: DONE, ONCE_MORE, AFRESH or why not; its size.
 
     Where f is not linear `search_line` has left the residual after a solve.
     """
@@ -150,7 +150,7 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
         elif exchange.guessed > 0:
             give_up_guesses(stepping)
             return AFRESH, size
-        if verdict != GO_ON:
+        if verdict != ONCE_MORE:
             return verdict, size
     if exchange.n_exchanged > 0 and problem.linear == 1:
         learn_constants(point, matrices, stepping)
@@ -158,12 +158,12 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
     if problem.linear == 0:
         remember_move(point, rule)
     move_end(point, rule)
-    return GO_ON, size
+    return ONCE_MORE, size
 
 
 @compiled
 def switch_zones(m, h):
-    """Switch the zones whose guards are violated: GO_ON, CYCLES, or JUMPS where a law jumps."""
+    """Switch the zones whose guards are violated: ONCE_MORE, CYCLES, or JUMPS where a law jumps."""
     run, point, guards, settling, rule = m.run, m.point, m.events.guards, m.events.settling, m.stepping.rule
     contacts = m.stepping.contacts
     note_switches(guards, m.stepping)
@@ -176,17 +176,17 @@ def switch_zones(m, h):
     if follow_guards(m, h, known):
         find_jump(point, guards, rule, h)
         return JUMPS
-    return CYCLES if settling.passes > run.max_passes else GO_ON
+    return CYCLES if settling.passes > run.max_passes else ONCE_MORE
 
 
 @compiled
 def judge_residual(problem, point, linear, stepping, solves, previous):
-    """DONE, GO_ON with another solve, or why not; and the size of the residual."""
+    """DONE, ONCE_MORE with another solve, or why not; and the size of the residual."""
     rule = stepping.rule
     size = scaled_residual(point, linear)
     if not isfinite(size):
         return DIVERGES, size
-    if size <= PASSED:
+    if size <= SOLVED:
         stepping.exchange.unchecked = 0
         if solves > 2:
             rule.linearised = 0
@@ -198,7 +198,7 @@ def judge_residual(problem, point, linear, stepping, solves, previous):
         return DIVERGES, size
     if solves > 1 and size > SLOW * previous:
         rule.linearised = 0
-    return GO_ON, size
+    return ONCE_MORE, size
 
 
 @compiled

@@ -65,7 +65,7 @@ middles misses it, and each try leaves of the miss a quarter of the share by whi
 way there. Four tries come within AT_PLACE where that share is below 0.7."""
 AT_PLACE = 1e-3
 """Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
-than of its equations (residual.PASSED)."""
+than of its equations (residual.SOLVED)."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
 """theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one."""
 
