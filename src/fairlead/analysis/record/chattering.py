@@ -23,10 +23,11 @@ def remark(names: Sequence[str], dwell: float, reaction: str) -> str:
     rest = len(names) - sum(count for _, count in counts.most_common(MOST_NAMED))
     more = f" and {rest} more" if rest else ""
     done = (
-        "Each was held for that long." if reaction == "hold" else
-        "Usually a load stays at its limit, and the motion is right; run.chatter: hold keeps such a contact a dwell."
+        "Each was held for that time." if reaction == "hold" else
+        "Usually a load stays at its limit there, and the motion is right; run.chatter: hold keeps such a contact for "
+        "that time."
     )  # fmt: skip
     return (
-        f"switched to and fro, each time within run.dwell ({dwell:.2g} s): {', '.join(told)}{more}. {done} Two laws "
-        "that contradict each other do the same: compare with a finer run.accuracy."
+        f"{', '.join(told)}{more} switched to and fro, each time within {dwell:.2g} s (run.dwell). {done} It happens "
+        "as well where two laws contradict each other; then a finer run.accuracy gives another motion."
     )
