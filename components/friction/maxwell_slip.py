@@ -34,6 +34,7 @@ class MaxwellSlip(Contact):
         "dissipates": "Springs that slip follow the curve in time, not with the slip, and give back energy while it "
         "rises (Al-Bender, Lampaert, Swevers 2005, equation of the slipping element)."
     }
+    asked_with = {"stick_speed": 0.01}  # springs bent at random give way at 100 m/s, of which creep is told to rounding
     sticks_below, preslides, gives_by = "stick_speed", "presliding", "stiffness"
     presliding = Parameter("m", "Deflection at which the last spring begins to slip.", default=2e-5, above=0)
     shape = Parameter("1", "How the springs are spread: y_i = presliding (i/4)^shape.", default=1.0, above=0, most=10)
