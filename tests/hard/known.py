@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from tests.hard.attempt import Attempt
 from tests.hard.registry import Row
 
-LIGHT = "stepping: 1.1e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
+LIGHT = "stepping: up to 1.5e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
 BRISTLES = "stepping: what carries a bristle to and fro is metered too high between turns; less so at a finer accuracy"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
 SLOW = "ida: takes 27 of its 30 s"
@@ -26,9 +26,10 @@ ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and th
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),
     ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
+    ("block on a shaken table, carried", "rodas3p", "binding", QUADRATURES),
     ("block on a shaken table, carried", "stepping", "lugre", BRISTLES),
-    ("random networks, 20", "stepping", "binding", LIGHT),
-    ("random networks, 200", "stepping", "binding", LIGHT),
+    ("random networks, 20", "stepping", "*", LIGHT),
+    ("random networks, 200", "stepping", "*", LIGHT),
     ("random networks, 200", "rodas", "hold", AT_LIMIT),
     ("random networks, 200", "rodas", "binding", CREEPS),
     ("random routes, 10", "stepping", "hold", ROUTE),
@@ -42,14 +43,11 @@ LEFT: tuple[tuple[str, str, str, str], ...] = (
 """Rows that the tests leave to `make hard`, as in KNOWN; `left_out` adds those that take long."""
 
 
-MENDED: tuple[tuple[str, str, str], ...] = (("core that goes slack", "stepping", "hold"),)
+MENDED: tuple[tuple[str, str, str], ...] = ()
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made
 anew."""
 
-WORSE: tuple[tuple[str, str, str, str], ...] = (
-    ("block on a shaken table, carried", "rodas3p", "binding", QUADRATURES),
-    ("random networks, 200", "stepping", "[hl]*", LIGHT),
-)
+WORSE: tuple[tuple[str, str, str, str], ...] = ()
 """Rows that docs/stability.md shows as coming through at its commit, and that fail; as in KNOWN, where they belong once
 it is made anew."""
 
