@@ -6,7 +6,7 @@
 
 So a sample knows forces, and on what piece of a route a line lies, where nothing but start values is given. The second
 settlement begins with the zones given: a contact that let go for want of a command would else go on sliding. Where
-nothing settles without a command, the sample is taken at the values given.
+nothing settles without a command, the sample is taken where the settlement gave up.
 """
 
 from __future__ import annotations
