@@ -1,11 +1,13 @@
 """Sweeps: designs against what they are defined by, and the table through crashes and kills."""
 
 import contextlib
+import itertools
 import math
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -162,6 +164,35 @@ def _kill_and_resume(tmp_path, kills, count) -> None:
     table, standing = sweep(job(square), whole, folder, processes=2)
     assert standing.reused >= rows
     assert plain(table.frame()).equals(plain(expected))
+
+
+def test_a_table_that_is_replaced_while_it_is_read_is_one_of_the_two(tmp_path) -> None:
+    place = tmp_path / "read"
+    place.mkdir()
+    tables_of = {}
+    for count in (3, 60):
+        sweep(job(square), Design(grid={"x": [str(k) for k in range(count)]}), tmp_path / str(count), processes=0)
+        tables_of[count] = (tmp_path / str(count) / tables.FILE).read_bytes()
+    (place / tables.FILE).write_bytes(tables_of[3])
+    done = threading.Event()
+
+    def replace() -> None:
+        """As a sweep does it: a file of its own, and then its name."""
+        for count in itertools.cycle((60, 3)):
+            (place / tables.PART).write_bytes(tables_of[count])
+            with contextlib.suppress(PermissionError):  # Windows keeps a file that is being read
+                (place / tables.PART).replace(place / tables.FILE)
+            if done.is_set():
+                return
+
+    running = threading.Thread(target=replace)
+    running.start()
+    try:
+        found = [tables.read(place)[0].num_rows for _ in range(300)]
+    finally:
+        done.set()
+        running.join()
+    assert set(found) <= {3, 60}
 
 
 @pytest.mark.parametrize(

@@ -173,7 +173,11 @@ class SweepTable:
 
 
 def read(place: Path) -> tuple[Any, dict[str, Any]]:
-    """The table in a folder or file, and its heading. Raises UsageError, FairleadError."""
+    """The table in a folder or file, and its heading. Raises UsageError, FairleadError.
+
+    The file is opened once: a reader that opens it by name for its schema and again for its rows may find the rows of
+    another table, since a running sweep replaces it.
+    """
     pa = arrow()
     file = place / FILE if place.is_dir() else place
     if not file.exists():
@@ -181,7 +185,7 @@ def read(place: Path) -> tuple[Any, dict[str, Any]]:
             f"{shown(str(place))} has no table of a sweep ({FILE}).\n    Make one: fairlead sweep MODEL --grid ..."
         )
     try:
-        table = pa.parquet.read_table(file)
+        table = pa.parquet.read_table(pa.BufferReader(file.read_bytes()))
         heading = json.loads((table.schema.metadata or {})[b"fairlead"])
     except KeyError:
         raise UsageError(f"{file} is no table of a sweep of fairlead.") from None
