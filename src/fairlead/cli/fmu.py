@@ -15,6 +15,7 @@ class Action(enum.StrEnum):
     """What is to be done."""
 
     EXPORT = "export"
+    LIBRARY = "library"
 
 
 class Version(enum.StrEnum):
@@ -37,27 +38,36 @@ Outputs = Annotated[
 
 
 def fmu(
-    action: Annotated[Action, typer.Argument(help="export: write the FMU.")],
+    action: Annotated[
+        Action, typer.Argument(help="export: write the FMU. library: a shared library with a C header instead.")
+    ],
     netlist: Netlist,
     settings: Settings,
     libraries: Libraries,
     inputs: Inputs,
     outputs: Outputs,
-    version: Annotated[Version, typer.Option("--fmi", help="Version of the standard.")] = Version.THREE,
+    version: Annotated[Version, typer.Option("--fmi", help="Version of the standard, of an FMU.")] = Version.THREE,
     out: Annotated[
-        pathlib.Path | None, typer.Option("-o", metavar="FILE", help="Write this file. Default: NAME.fmu here.")
+        pathlib.Path | None,
+        typer.Option("-o", metavar="PATH", help="Write this file, or folder of a library. Default: NAME.fmu, NAME."),
     ] = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Write a model as a co-simulation FMU for Linux on x86-64, which needs no Python (docs/fmu.md).
+    """Write a model as a co-simulation FMU (docs/fmu.md) or as a C library (docs/coupling.md), for Linux on x86-64.
 
-    Inputs and outputs are those of the netlist's interface block and of --in and --out. A C compiler links it.
+    Neither needs Python where it runs. Inputs and outputs are those of the netlist's interface block and of --in and
+    --out. A C compiler links it.
     """
     import fairlead
-    from fairlead.fmu import export
+    from fairlead.fmu import export, export_library
 
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
+    if action is Action.LIBRARY:
+        folder = export_library(model, out, inputs=inputs, outputs=outputs)
+        if not quiet:
+            echo(f"Library, header and an example in {folder}/")
+        return
     written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs)
     if not quiet:
         echo(f"FMI {version.value}.0 for co-simulation in {written}")

@@ -27,15 +27,15 @@ REPLACED = (
 
 
 def header(
-    memory: Memory, own: Instance, image: Image, code: Code, *, columns: Sequence[int], inputs: Sequence[str],
-    token: str, identifier: str,
+    memory: Memory, own: Instance, image: Image, code: Code, *, columns: Sequence[int],
+    names: Mapping[str, Sequence[str]], token: str, identifier: str,
 ) -> str:  # fmt: skip
-    """The text. `columns` says which recorded values the outputs are; `inputs` are names."""
+    """The text. `columns` says which recorded values the outputs are; `names` are those of each `input`, `output`."""
     piece = {name: own.working.places[name].at for name in ("set_due", "set_values")}
     numbers = {
         "MEMORY_BYTES": image.size, "STATE_BYTES": image.state, "N_LINKS": len(image.links),
         "N_RUNS": len(image.runs), "N_UNKNOWNS": own.n, "N_MACHINES": len(own.machine_names),
-        "N_RECORDED": own.n_outputs, "N_OUTPUTS": len(columns), "N_INPUTS": len(inputs),
+        "N_RECORDED": own.n_outputs, "N_OUTPUTS": len(columns), "N_INPUTS": len(names["input"]),
         **{f"AT_{name.upper()}": PLACES[name][0] for name in FIELDS},
         **{f"AT_{name.upper()}": image.piece + at for name, at in piece.items()},
         **{f"STATUS_{name}": value for name, value in _statuses().items()}, "PHASE_TRY": codes.TRY,
@@ -43,13 +43,14 @@ def header(
     lines = ["/* Made by fairlead fmu export. */", '#include "image.h"']
     lines += [f"#define {name} {value}" for name, value in numbers.items()]
     lines += [f"#define MODEL_TOKEN {_text(token)}", f"#define MODEL_IDENTIFIER {_text(identifier)}"]
+    lines.append(f"#define MODEL_PREFIX {identifier}")
     lines += [f"extern HIDDEN void {name}(void);" for name in code.functions]
     lines.append(_array("void (*const model_functions[])(void)", code.functions))
     replaced = [f"{{{k}, {at}}}" for k, name in enumerate(REPLACED) for at in PLACES[f"at_{name}"]]
     lines.append(f"static __attribute__((unused)) const int64_t model_replaced[][2] = {{{', '.join(replaced)}}};")
     lines.append(_array("const int model_columns[]", map(str, columns)))
-    names = {"unknowns": own.unknown_names, "machines": own.machine_names, "inputs": inputs}
-    lines += [_array(f"const char *const model_{what}[]", map(_text, those)) for what, those in names.items()]
+    texts = {"unknowns": own.unknown_names, "machines": own.machine_names, **{f"{k}s": v for k, v in names.items()}}
+    lines += [_array(f"const char *const model_{what}[]", map(_text, those)) for what, those in texts.items()]
     return "\n".join(lines) + "\n"
 
 

@@ -92,6 +92,11 @@ double run_input(const Run *run, int input) { return real(run, AT_SET_VALUES)[in
 
 const char *run_message(const Run *run) { return run->message; }
 
+int run_refuse(Run *run, const char *why) {
+    snprintf(run->message, MESSAGE, "%s", why);
+    return -1;
+}
+
 /* Why a run ends, with what to look at first (fairlead/integrate/sentences.py). */
 static void tell(Run *run, int status) {
     const char *unknown = N_UNKNOWNS > 0 ? model_unknowns[*whole(run, AT_WORST)] : "";

@@ -33,6 +33,8 @@ int run_advance(Run *run, double goal, int until_change, int *changed);
 /* All outputs where the run is. */
 int run_outputs(Run *run, double *values);
 const char *run_message(const Run *run);
+/* Say why something asked of the run is not done; -1. */
+int run_refuse(Run *run, const char *why);
 
 /* The state of a run that has begun, in run_state_size(run) bytes that any run of this library can go on from. */
 size_t run_state_size(const Run *run);

@@ -1,0 +1,128 @@
+"""`export_library`: a model as a shared library with a C header, for a program that links it.
+
+The calls are those of `Model.start` in C: `c/library.h` is the header's form, `c/library.c` what is behind it.
+"""
+
+from __future__ import annotations
+
+import importlib.resources
+import os
+import pathlib
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Unpack
+
+from fairlead.arguments import Arguments
+from fairlead.fmu.archive import write
+from fairlead.fmu.compiler import linked
+from fairlead.fmu.description import identifier
+from fairlead.fmu.made import asked_of, made_of, own_version, sources
+from fairlead.outer import Variable
+
+if TYPE_CHECKING:
+    from fairlead.netlist.keywords import RunKeywords
+    from fairlead.netlist.settings import RunSettings
+    from fairlead.simulate import Model
+
+EXAMPLE_STEPS = 20
+_WORDS = (
+    "alignas alignof and asm auto bitand bitor bool break case catch char class compl concept const constexpr continue "
+    "default delete do double else enum explicit export extern false float for friend goto if inline int long main "
+    "mutable namespace new noexcept not nullptr operator or private protected public register requires restrict return "
+    "short signed sizeof static struct switch template this thread_local throw true try typedef typeid typename union "
+    "unsigned using virtual void volatile wchar_t while xor"
+)
+RESERVED = frozenset(_WORDS.split())
+"""Words of C and C++, which no type can be called."""
+
+
+def export_library(
+    model: Model, folder: str | os.PathLike[str] | None = None, *, inputs: Iterable[str] = (),
+    outputs: Iterable[str] = (), **settings: Unpack[RunKeywords],
+) -> pathlib.Path:  # fmt: skip
+    """Write NAME.h, libNAME.so and example.c into a folder, and return the folder.
+
+    NAME is that of the model, as far as it is a name in C. Inputs, outputs and settings are those of
+    `fairlead.fmu.export`; without `folder` it is NAME in this folder. A library of the same model has the same bytes.
+
+    Raises ModelError as `Model.start` does, and UsageError for what cannot go along, without a C compiler, and where
+    a file cannot be written.
+    """
+    given = Arguments("export_library")
+    given.model(model)
+    given.path("folder", folder, none="None for the name of the model")
+    given.texts("inputs", inputs, '"valve.command"')
+    given.texts("outputs", outputs, '"spring.force"')
+    given.refuse()
+    asked = asked_of(model, inputs, outputs, settings)
+    name = prefix(model.netlist.name)
+    made = made_of(asked)
+    target = pathlib.Path(name if folder is None else folder)
+    library = linked(sources(made, name, ("library.c",)))
+    texts = {
+        f"{name}.h": header_text(name, model.netlist.name, made.variables),
+        "example.c": _example(name, model.netlist.name, asked.settings),
+    }
+    for file, content in {f"lib{name}.so": library, **{file: text.encode() for file, text in texts.items()}}.items():
+        write(target / file, content)
+    return target
+
+
+def prefix(name: str) -> str:
+    """What functions of a library begin with: the name of the model, where that is a name in C."""
+    found = identifier(name)
+    return f"model_{found}" if found in RESERVED else found
+
+
+def header_text(name: str, title: str, variables: Sequence[Variable]) -> str:
+    """The header of a library."""
+    return _filled("library.h", {"NAME": name, "MODEL": _comment(title), "VERSION": own_version(),
+                                 "VARIABLES": "\n\n".join(_numbers(name, variables))})  # fmt: skip
+
+
+def _numbers(name: str, variables: Sequence[Variable]) -> Iterator[str]:
+    """Enumerations with the numbers of inputs and outputs."""
+    for causality, what in (("input", "INPUTS"), ("output", "OUTPUTS")):
+        those = [one for one in variables if one.causality == causality]
+        entries = [f"{name}_{causality.upper()}_{safe}" for safe in _distinct([one.name for one in those])]
+        lines = [f"    {entry}, /* {_told(one)} */" for entry, one in zip(entries, those, strict=True)]
+        yield "\n".join([f"/* {what.capitalize()}. */", "enum {", *lines, f"    {name}_{what} /* how many */", "};"])
+
+
+def _told(one: Variable) -> str:
+    """A variable in a comment: its name, unit, start and description."""
+    unit = "" if one.unit == "1" else f" [{one.unit}]"
+    start = "" if one.start is None else f"; {one.start:.9g} until it is set"
+    said = f": {one.description}" if one.description else ""
+    return _comment(f"{one.name}{unit}{start}{said}")
+
+
+def _distinct(names: Sequence[str]) -> list[str]:
+    """Names as parts of names in C, each another one."""
+    found: list[str] = []
+    for name in names:
+        safe = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)
+        while safe in found:
+            safe += "_"
+        found.append(safe)
+    return found
+
+
+def _example(name: str, title: str, settings: RunSettings) -> str:
+    span = settings.stop - settings.start
+    return _filled("example.c", {
+        "NAME": name, "MODEL": _comment(title), "STOP": f"{span:.9g}", "STEPS": str(EXAMPLE_STEPS),
+        "PERIOD * k": f"{settings.start!r} + {span / EXAMPLE_STEPS!r} * k", "PERIOD": f"{span / EXAMPLE_STEPS:.9g}",
+    })  # fmt: skip
+
+
+def _filled(file: str, words: dict[str, str]) -> str:
+    """A form of the folder `c`, its words in capitals replaced all at once."""
+    form = (importlib.resources.files("fairlead.fmu") / "c" / file).read_text(encoding="utf-8")
+    either = "|".join(map(re.escape, words))
+    return re.sub(rf"(?<![A-Z])(?:{either})(?![A-Z])", lambda found: words[found[0]], form)
+
+
+def _comment(text: str) -> str:
+    """A text in one line that ends no comment of C."""
+    return " ".join(text.split()).replace("*/", "* /").replace("/*", "/ *").replace("??/", "? ?/").rstrip("\\")
