@@ -303,14 +303,19 @@ def test_of_many_elements_a_few_are_drawn_and_others_are_picked(browser, two_ben
     assert 3 <= few <= 2 * 5
     panel = browser.find_elements("css selector", "#panels .panel")[hose]
     assert "below -160 N the hose rucks" in panel.text
-    assert "all 60 of line.hose[*].tension lie in here" in panel.text
+    legend = panel.find_elements("css selector", ".legend > li")
+    assert [one.text.split("\n")[0] for one in legend[:2]] == [
+        "line.hose[*].tension, mu = 0.35", "line.hose[*].tension, mu = 0.6",
+    ]  # fmt: skip
+    assert all("[0] first" in one.text and "all 60 lie in here" in one.text for one in legend[:2])
+    assert len(legend) <= 5  # a line a run, then the marks
     choose = (
         "const [panel, value, done] = arguments, list = panel.querySelector('select'); list.value = value;"
         "list.dispatchEvent(new Event('change')); setTimeout(done, 600)"
     )
     browser.execute_async_script(choose, panel, "17")
     assert browser.execute_script(drawn)[hose] == few + 2  # of either run
-    assert "line.hose[17].tension (picked)" in panel.text
+    assert panel.text.count("[17] picked") == 2
     browser.execute_async_script(choose, panel, "all")
     assert browser.execute_script(drawn)[hose] == 2 * 60
     assert complaints(browser) == []

@@ -18,6 +18,7 @@ from fairlead.cli import app
 from fairlead.report import page
 from fairlead.report.page import packing
 from fairlead.report.page.signals import signal_data
+from fairlead.report.page.slow import slowest
 from fairlead.report.page.write import library
 from fairlead.report.page.zones import zone_data
 from fairlead.results import Result, RunDirectory, Signal
@@ -197,3 +198,35 @@ def test_a_killed_run_has_a_page_that_says_so(tmp_path: Path) -> None:
     assert "The process was gone before the run ended" in text_of(Result.open(tmp_path / "run"))
 
 
+
+
+def changed(folder: Path, *changes: tuple[str, str, str, int]) -> Result:
+    """A run in which parts went from one zone to another and back, so many times in all."""
+    run = RunDirectory.create(folder / "run", SIGNALS[:1], {})
+    run.append(np.linspace(0, 1, 3), np.zeros((3, 1)), np.zeros(3))
+    for part, one, other, times in changes:
+        for k in range(times):
+            run.event(k / 100, part, *((one, other) if k % 2 == 0 else (other, one)), "changes")
+    run.finish("finished", {"steps": 40})
+    return Result.open(folder / "run")
+
+
+def test_the_kind_that_made_a_run_slow_comes_before_the_contact_and_both_have_their_share(tmp_path: Path) -> None:
+    hoses = [(f"line.hose[{k}]", "sound", "beyond", 6) for k in range(10)]
+    pads = [(f"pad[{k}]", "held", "forward", 2) for k in range(19)]
+    said = slowest(changed(tmp_path, *hoses, *pads, ("pad[19]", "held", "forward", 4)))
+    assert said.startswith("By kind of part, line.hose[*] changed zone most: 59 % of 102 changes, then pad[*] with 41")
+    assert "Of single contacts it is pad[19]: 4 times, 3.9 %; no contact stands out." in said
+    assert "A zone change is a part that begins or ceases to stick, slide or ruck." in said
+
+
+def test_one_contact_that_made_a_run_slow_is_named_once(tmp_path: Path) -> None:
+    said = slowest(changed(tmp_path, ("pad", "held", "forward", 7), ("stop", "free", "touching", 2)))
+    assert said.startswith("By kind of part, pad changed zone most: 78 % of 9 changes, then stop with 22 %. A zone")
+    assert said.count("pad") == 1
+
+
+def test_zones_of_ones_own_are_no_words_of_friction(tmp_path: Path) -> None:
+    said = slowest(changed(tmp_path, ("catch", "aloof", "engaged", 3)))
+    assert "A zone change is a part that goes over to another branch of its law." in said
+    assert "contact" not in said

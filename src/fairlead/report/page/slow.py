@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from fairlead.report.page.zones import meaning
@@ -13,6 +14,12 @@ if TYPE_CHECKING:
     from fairlead.results import Result
 
 MOST_ROWS = 12
+STANDS_OUT = 0.1
+"""Share of all zone changes below which one contact is not what made a run slow."""
+CHANGES = {
+    "stick": ("stuck",), "slide": ("forward", "backward"), "touch": ("off",), "ruck": ("ruck",), "go slack": ("slack",),
+}  # fmt: skip
+"""What a part begins or ceases to do, by what its zones mean."""
 TIMES = {"compile_time": "reading and compiling", "solve_time": "stepping", "wall_time": "all together"}
 
 
@@ -22,7 +29,8 @@ def slow_data(result: Result) -> dict[str, Any]:
     counts, kinds, zones = _counted(result)
     total = counts.total()
     return {
-        "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(counts, total), "kinds": _rows(kinds, total),
+        "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(counts, total),
+        "kinds": _rows(kinds, total, _roles(result)),
         "profile": str(run.get("profile") or ""), "total": total,
         "times": [*((word, run[key]) for key, word in TIMES.items() if run.get(key) is not None), *_rest(run)],
     }  # fmt: skip
@@ -36,28 +44,59 @@ def _rest(run: Mapping[str, Any]) -> list[tuple[str, float]]:
     return [("the rest, for loading the engine and recording", rest)]
 
 
-def _rows(counts: Counter[str], total: int) -> list[dict[str, Any]]:
+def _rows(counts: Counter[str], total: int, roles: Mapping[str, str] = MappingProxyType({})) -> list[dict[str, Any]]:
     most = counts.most_common(MOST_ROWS)
-    return [{"name": name, "count": n, "share": n / total, "bar": n / most[0][1]} for name, n in most]
+    return [
+        {"name": f"{name}{roles.get(name, '')}", "count": n, "share": n / total, "bar": n / most[0][1]}
+        for name, n in most
+    ]
 
 
 def slowest(result: Result) -> str:
-    """Which contact, and which kinds of part, ended most steps; empty where nothing changed zone."""
+    """Which kind of part, and which contact, ended most steps, with its share; empty where nothing changed zone."""
     counts, kinds, zones = _counted(result)
     total = counts.total()
     if not total:
         return ""
     roles = _roles(result)
-    first = kinds.most_common(2)
-    told = " and ".join(f"{name}{roles.get(name, '')} {100 * n / total:.0f} %" for name, n in first)
-    sticks = next((name for name, _ in counts.most_common() if "stuck" in map(meaning, zones[name])), None)
-    contact = (
-        f"The contact that changed zone most often is {sticks}{roles.get(family(sticks)[0], '')}: {counts[sticks]} of "
-        f"{total} zone changes. " if sticks else ""
+    (first, n), *others = kinds.most_common(2)
+    kind = f"By kind of part, {first}{roles.get(first, '')} changed zone most: {_percent(n, total)} of {total} changes"
+    kind += "".join(f", then {name}{roles.get(name, '')} with {_percent(m, total)}" for name, m in others)
+    steps = f" All together: {result.run['steps']} steps." if result.run.get("steps") else ""
+    return (
+        f"{kind}.{_single(counts, zones, roles, first)} A zone change is a part that {_changes(zones)}. A step ends at "
+        f"each, and short ones follow.{steps}"
     )
-    steps = f" {result.run['steps']} steps were needed in all." if result.run.get("steps") else ""
-    ends = "A step ends at each change (to stick, to slide, slack, taut), and short ones follow."
-    return f"{contact}By kind of part it is {told}. {ends}{steps}"
+
+
+def _single(counts: Counter[str], zones: Mapping[str, set[str]], roles: Mapping[str, str], said: str) -> str:
+    """The contact that changed zone most, unless it is the kind that was named already."""
+    who = _busiest_contact(counts, zones)
+    if who is None or who == said:
+        return ""
+    total, own = counts.total(), family(who)[0]
+    few = "; no contact stands out" if counts[who] < STANDS_OUT * total else ""
+    role = "" if own == said else roles.get(own, "")
+    return f" Of single contacts it is {who}{role}: {counts[who]} times, {_percent(counts[who], total)}{few}."
+
+
+def _busiest_contact(counts: Counter[str], zones: Mapping[str, set[str]]) -> str | None:
+    """The busiest of the parts that stick at times."""
+    return next((name for name, _ in counts.most_common() if "stuck" in map(meaning, zones[name])), None)
+
+
+def _changes(zones: Mapping[str, set[str]]) -> str:
+    """What the parts of this run do when they change zone, in words."""
+    seen = {meaning(zone) for each in zones.values() for zone in each}
+    does = [word for word, means in CHANGES.items() if seen & set(means)]
+    if not does:
+        return "goes over to another branch of its law"
+    return f"begins or ceases to {', '.join(does[:-1])}{' or ' if len(does) > 1 else ''}{does[-1]}"
+
+
+def _percent(n: int, total: int) -> str:
+    share = 100 * n / total
+    return f"{share:.0f} %" if share >= 10 else f"{share:.2g} %"
 
 
 def _counted(result: Result) -> tuple[Counter[str], Counter[str], dict[str, set[str]]]:
@@ -77,28 +116,20 @@ def _roles(result: Result) -> dict[str, str]:
         if len(layers) > 1:
             found[f"{line}.inner[*]"] = f" ({layers[1]} on {layers[0]})"
         found[f"{line}.outer[*]"] = " (line on its devices)"
+        found |= {f"{line}.{which}_load[*]": " (a node passes on along a bend)" for which in ("inner", "outer")}
         found |= {f"{line}.{layer}[*]": f" (elements of the {layer})" for layer in layers}
     return found
 
 
-def _sentence(
-    run: dict[str, Any], counts: Counter[str], kinds: Counter[str], zones: Mapping[str, set[str]]
-) -> str:
+def _sentence(run: dict[str, Any], counts: Counter[str], kinds: Counter[str], zones: Mapping[str, set[str]]) -> str:
     steps, rejected = run.get("steps") or 0, run.get("rejected") or 0
     cost = f"{steps} steps and {rejected} rejected ones" if steps else "its steps"
     if not counts:
         return f"The run spent its time on {cost}; nothing changed zone."
     (who, n), (kind, m), total = counts.most_common(1)[0], kinds.most_common(1)[0], counts.total()
+    contact, share = _busiest_contact(counts, zones), f"{_percent(m, total)} of all"
+    more = f" Of contacts, {contact} changes most ({counts[contact]} times)." if contact not in (None, who) else ""
     return (
         f"The run took {cost}. A step ends where a part changes zone, which happened {total} times: most often in "
-        f"{kind} ({100 * m / total:.0f} % of all changes), and of single parts in {who} ({n} times)."
-        f"{_contact(zones, counts)}"
+        f"{kind} ({share}), and of single parts in {who} ({n} times, {_percent(n, total)}).{more}"
     )
-
-
-def _contact(zones: Mapping[str, set[str]], counts: Counter[str]) -> str:
-    """The busiest of the parts that stick at times, if that is not the busiest of all."""
-    sticks = [name for name, _ in counts.most_common() if "stuck" in map(meaning, zones[name])]
-    if not sticks or counts[sticks[0]] == counts.most_common(1)[0][1]:
-        return ""
-    return f" Of contacts, {sticks[0]} changes most ({counts[sticks[0]]} times)."

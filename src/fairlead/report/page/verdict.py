@@ -30,6 +30,8 @@ class Sentence(NamedTuple):
     mood: str
     text: str
     points: Sequence[tuple[str, str]] = ()
+    brief: str = ""
+    """What stands for it where it is folded away, if that is not `about`."""
 
     @property
     def worth(self) -> bool:
@@ -157,9 +159,11 @@ def _accuracy(run: dict[str, Any]) -> Iterator[Sentence]:
     asked = (run.get("settings") or {}).get("accuracy")
     if asked is not None:
         yield Sentence("Accuracy", "plain",
-                       f"Asked for {_number(asked)} by step; engine {run.get('engine', 'unknown')} took "
+                       f"{_number(asked)} by step was asked for. It is a setting, so it has no tick; a run with a "
+                       f"tenth of it shows how far the numbers move. Engine {run.get('engine', 'unknown')} took "
                        f"{run.get('steps', 0)} steps, {run.get('rejected', 0)} were rejected, "
-                       f"{run.get('switches', 0)} zone changes.")  # fmt: skip
+                       f"{run.get('switches', 0)} zone changes.",
+                       brief=f"accuracy {_number(asked)} by step")  # fmt: skip
 
 
 def _remarks(run: dict[str, Any]) -> Iterator[Sentence]:

@@ -64,7 +64,7 @@ const span = {
 };
 
 /* One panel: families of one unit, of all runs that have them. Of many elements it shows ends, middle and extremes. */
-const FEW = 8, ROLES = ["first", "lowest", "middle", "highest", "last"];
+const FEW = 8, MOST_NAMED = 8, ROLES = ["first", "lowest", "middle", "highest", "last"];
 class Panel {
   constructor(runs, title, families) { Object.assign(this, {runs, title, families}); this.picked = "few"; this.more = new Set(); }
   async show(list) {
@@ -113,7 +113,7 @@ class Panel {
         const own = many ? PALETTE[Math.round(235 * k / (n - 1))] : LINES[drawn % LINES.length], at = role && role !== "picked" ? ROLES.indexOf(role.split(", ")[0]) : 0;
         const label = `${name.replace("[*]", family.elements[k] === null ? "" : `[${family.elements[k]}]`)}${role ? ` (${role})` : ""}${several ? ", " + run.short : ""}`;
         const together = several && n > FEW;
-        this.curves.push({run, values, k, colour: together ? LINES[r % LINES.length] : own, dash: many ? "solid" : together ? ["solid", "dotdash", "dotted", "dashdot", "dashed"][at] : DASHES[r], label, many, family, name});
+        this.curves.push({run, values, k, colour: together ? LINES[r % LINES.length] : own, dash: many ? "solid" : together ? ["solid", "dotdash", "dotted", "dashdot", "dashed"][at] : DASHES[r], label, role, many, family, name});
         if (!together && !many) drawn++;
       }
     }
@@ -136,16 +136,26 @@ class Panel {
     return best && [best[0].label, `${shown(best[1], best[0].family.unit)} at ${shown(best[0].run.times[best[0].run.row(t)], "s")}`];
   }
   unit() { for (const run of this.runs) for (const name of this.families) if (run.family.get(name)) return run.family.get(name).unit; return ""; }
+  /* The legend: of a family with many elements one entry for each run, of others one for each curve; few at first. */
   note() {
-    const list = this.note_at = document.createElement("ul"); list.className = "legend";
-    const entries = this.curves.filter(c => !c.many).slice(0, 24).map(c => [dashed(c.colour, c.dash), c.label]);
+    const list = this.note_at = document.createElement("ul"), several = this.runs.length > 1; list.className = "legend";
+    const groups = [], alone = [], title = (name, run) => `${name}${several ? ", " + run.short : ""}`;
     for (const name of this.families) for (const run of this.runs) {
-      const own = this.curves.filter(c => c.many && c.name === name && c.run === run);
-      if (own.length) entries.push([`linear-gradient(90deg, ${own[0].colour}, ${own[own.length >> 1].colour}, ${own[own.length - 1].colour})`,
-        `${name}, elements ${own[0].family.elements[0]} to ${own[own.length - 1].family.elements[own.length - 1]}${this.runs.length > 1 ? ", " + run.short : ""}`]);
+      const own = this.curves.filter(c => c.name === name && c.run === run), band = this.bands.find(b => b.name === name && b.run === run);
+      if (!own.length) continue;
+      const n = own[0].family.elements.length, of = c => `[${c.family.elements[c.k]}]`;
+      if (own[0].many) alone.push([[`linear-gradient(90deg, ${own[0].colour}, ${own[own.length >> 1].colour}, ${own[own.length - 1].colour})`, `${title(name, run)}: elements ${own[0].family.elements[0]} to ${own[own.length - 1].family.elements[own.length - 1]}`]]);
+      else if (own.length > 1) groups.push([title(name, run), [...own.map(c => [dashed(c.colour, c.dash), `${of(c)}${c.role ? " " + c.role : ""}`]),
+        ...(band ? [[`color-mix(in srgb, ${band.colour} 25%, transparent)`, `all ${n} lie in here`]] : [])]]);
+      else alone.push([[dashed(own[0].colour, own[0].dash), own[0].label]]);
     }
-    for (const b of this.bands) entries.push([`color-mix(in srgb, ${b.colour} 25%, transparent)`, `all ${b.count} of ${b.name} lie in here${this.runs.length > 1 ? ", " + b.run.short : ""}`]);
-    legend(list, [...entries, ...this.marks]); this.box.append(list);
+    const chips = entries => entries.map(([colour, text]) => { const one = document.createElement("span"), chip = document.createElement("i"); chip.style.background = colour; one.append(chip, text); return one; });
+    const items = [...groups.map(([text, entries]) => { const li = document.createElement("li"), b = document.createElement("b"); b.textContent = text; li.className = "group"; li.append(b, ...chips(entries.slice(0, MOST_NAMED)));
+      if (entries.length > MOST_NAMED) li.append(rest(`${entries.length - MOST_NAMED} more`, chips(entries.slice(MOST_NAMED)))); return li; }),
+    ...alone.map(entries => { const li = document.createElement("li"); li.append(...chips(entries)); return li; })];
+    list.append(...items.slice(0, MOST_NAMED), ...this.marks.map(one => { const li = document.createElement("li"); li.append(...chips([one])); return li; }));
+    if (items.length > MOST_NAMED) { const li = document.createElement("li"); li.append(rest(`${items.length - MOST_NAMED} more curves`, items.slice(MOST_NAMED))); list.append(li); }
+    this.box.append(list);
   }
   fill() {
     if (this.gone || !this.curves) return;
@@ -158,6 +168,11 @@ class Panel {
     this.source.data = d;
     for (const b of this.bands) b.source.data = hulled(b.run, b.values, start, end, 1200);
   }
+}
+/* What a legend does not show at first. */
+function rest(text, items) {
+  const more = document.createElement("details"), head = document.createElement("summary"); head.textContent = text; more.append(head, ...items);
+  return more;
 }
 /* Lowest and highest value of all elements, by row. */
 function hull(values) {

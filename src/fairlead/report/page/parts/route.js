@@ -194,10 +194,16 @@ class RouteView {
     if (!(b > a)) return;
     ctx.strokeStyle = colour; ctx.beginPath(); this.curve(ctx, a, b); ctx.stroke();
   }
+  /* Both ends of the line by name, also where the picture cuts the line off. */
   ends(ctx, nodes, inside) {
-    for (const [s, word] of [[nodes[0], "inboard end"], [nodes[nodes.length - 1], "outboard end"]]) if (inside(s)) {
-      const p = this.path.at(s), [x, y] = this.screen(p); ctx.fillStyle = css("ink"); ctx.beginPath(); ctx.arc(x, y, 5.5, 0, 7); ctx.fill();
-      ctx.font = "11px system-ui, sans-serif"; const h = p[2] + this.tilt; this.label(ctx, word, x - 24 * Math.sin(h), y + 24 * Math.cos(h) + 4);
+    ctx.font = "600 12px system-ui, sans-serif";
+    for (const [s, cut, word, on] of [[nodes[0], this.first, "inboard", -1], [nodes[nodes.length - 1], this.to, "outboard", 1]]) {
+      const here = inside(s), beyond = on * (s - cut) > 0;
+      if (!here && !beyond) continue;
+      const p = this.path.at(here ? s : cut), [x, y] = this.screen(p), h = p[2] + this.tilt, off = -26 * this.side(here ? s : cut);
+      if (here) { ctx.fillStyle = css("ink"); ctx.beginPath(); ctx.arc(x, y, 5.5, 0, 7); ctx.fill(); }
+      const text = here ? `${word} end` : on < 0 ? `\u2190 ${word}` : `${word} \u2192`, far = off * (1 + ctx.measureText(text).width / 52 * Math.abs(Math.sin(h)));
+      this.label(ctx, text, x - far * Math.sin(h), y + far * Math.cos(h) + 4);
     }
   }
   marks(ctx, nodes, t, inside) {
