@@ -34,7 +34,7 @@ from fairlead.integrate.underway import Saved, Underway
 from fairlead.outer import find_inputs, find_outputs
 from fairlead.quantities import QuantityError, si
 from fairlead.renamed import now_called
-from fairlead.run import engine_settings, failure_of, named_change, not_allowed, refused
+from fairlead.run import engine_settings, failed, failure_of, named_change, not_allowed, refused
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
@@ -286,7 +286,7 @@ class Stepping:
 
     def _enter(self, attempts: int) -> None:
         self._going.go_on(attempts)
-        if not self._going.served:
+        if not self._going.served or failed(self._instance):
             raise SteppingError(*self._ended())
 
     def _ended(self) -> tuple[str, float]:

@@ -243,9 +243,13 @@ def _explained(outcome: Outcome) -> Outcome:
     if not said:
         return outcome
     culprits = tuple(beyond_their_tables(outcome.problem)) if outcome.status == Status.NOT_FINITE else ()
-    failed = any(controller.failure is not None for controller in outcome.problem.controllers)
-    culprits = outcome.culprits if failed else culprits
+    culprits = outcome.culprits if failed(outcome.problem) else culprits
     return dataclasses.replace(outcome, status=Status.NOT_FINITE, sentence=said, culprits=culprits)
+
+
+def failed(problem: Any) -> bool:
+    """Whether a controller in plain Python or an FMU failed, which need not reach any unknown."""
+    return any(controller.failure is not None for controller in problem.controllers)
 
 
 def failure_of(problem: Any, status: Status, t: float) -> str:

@@ -212,6 +212,40 @@ def test_a_run_that_fails_says_what_model_run_would(pushed):
     assert run.advance(0.01) == 0.01
 
 
+IDLE = """
+from fairlead.component import Controller, Output
+
+
+class Idle(Controller):
+    \"\"\"Fails at its third sample, and nothing follows what it says.\"\"\"
+
+    said = Output("1", "Nobody listens.")
+
+    def begin(self):
+        self.count = 0
+
+    def sample(self):
+        self.count += 1
+        return {"said": 1.0 if self.count < 3 else 1.0 / 0.0}
+"""
+
+
+def test_a_controller_that_fails_ends_a_run_though_nothing_follows_it(tmp_path):
+    """Its output would be no number from then on, without a word."""
+    (tmp_path / "idle.py").write_text(IDLE, encoding="utf-8")
+    end = "connections:\n"
+    text = PUSHED.replace(end, f"  idle: {{type: Idle, period: 10 ms}}\n{end}")
+    (tmp_path / "idle.yaml").write_text(text, encoding="utf-8")
+    run = fairlead.load(tmp_path / "idle.yaml", libraries=[tmp_path / "idle.py"]).start(engine="rodas")
+    assert run.advance(0.015) == 0.015
+    state = run.save()
+    with pytest.raises(fairlead.SteppingError, match=r"t = 0.02 s: idle: ZeroDivisionError.*idle.py:15") as told:
+        run.advance(0.5)
+    assert told.value.t == pytest.approx(0.02)
+    run.restore(state)
+    assert run.get("idle.said") == 1.0
+
+
 MISTAKES = {
     "set: there is no input pul. Did you mean pull?": lambda run: run.set("pul", 1.0),
     "set: pull = 1 m is a length, not a force": lambda run: run.set("pull", "1 m"),
