@@ -43,7 +43,7 @@ class Accumulator(Component):
                          physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     log_pressure = State("1", "ln(p/p_0) of the gas.", start="logarithm", nominal=0.1)
-    level = Output("Pa", "Pressure of the gas.")
+    level = Output("Pa", "Pressure of the gas.", name="pressure")
     gas = Output("m^3", "Volume of the gas.")
     flow = Output("m^3/s", "Flow in.")
     zones = Zones("charged", "empty")
@@ -72,7 +72,7 @@ class Accumulator(Component):
         flow = throttled(p.conductance, drop, CRITICAL) if zone == "charged" else 0
         rate = n * flow * exp(log_pressure / n) / p.volume
         work = log_pressure if p.heat == "isothermal" else (exp(log_pressure * (n - 1) / n) - 1) / (n - 1)
-        return Law(port=flow, log_pressure=rate, level=level, gas=p.volume * exp(-log_pressure / n), flow=flow,
+        return Law(port=flow, log_pressure=rate, pressure=level, gas=p.volume * exp(-log_pressure / n), flow=flow,
                    stored=p.precharge * p.volume * work, dissipated=flow * drop)  # fmt: skip
 
     @guard("charged", to="empty", unit="1")

@@ -44,7 +44,7 @@ class PistonChamber(Component, abstract=True):
     bore = Parameter("m", "Diameter of the bore that fills the chamber.", default=0.02, above=0)
     pressure = Parameter("Pa", "Pressure at the start; 1 bar when not given.", default=None, least=0, physics=False)
     fluid = Part(Fluid, "What fills it.", default="oil")
-    level = Output("Pa", "Pressure on the piston.")
+    level = Output("Pa", "Pressure on the piston.", name="pressure")
     force = Output("N", "Force that pushes the rod out.")
     void = Output("m^3", "Volume without oil.")
 
@@ -76,7 +76,7 @@ def chamber_law(p, port, body, rod, level, **own):
     if rate is None:
         rate = p.fluid.bulk_modulus / volume * (flow - p.area * speed)
         supplied = level**2 / (2 * p.fluid.bulk_modulus) * p.area * speed
-    return Law(port=flow, rod=-push, body=push, level=level, force=push, oil=rate, supplied=supplied,
+    return Law(port=flow, rod=-push, body=push, pressure=level, force=push, oil=rate, supplied=supplied,
                stored=volume * level**2 / (2 * p.fluid.bulk_modulus), dissipated=lost, **own)  # fmt: skip
 
 
@@ -108,8 +108,8 @@ class Chamber(PistonChamber):
         """The piston leaves the oil behind, at no pressure."""
         speed = (1 if p.side == "cap" else -1) * (rod.v - body.v)
         flow = throttled(p.conductance, port.pressure, CRITICAL)
-        return Law(port=flow, rod=0, body=0, level=0, force=0, oil=-oil / LAG, empty=p.area * speed - flow, void=empty,
-                   dissipated=flow * port.pressure)  # fmt: skip
+        return Law(port=flow, rod=0, body=0, pressure=0, force=0, oil=-oil / LAG, empty=p.area * speed - flow,
+                   void=empty, dissipated=flow * port.pressure)  # fmt: skip
 
     @guard("full", to="cavitating", unit="Pa")
     def tears(p, oil):
@@ -133,7 +133,7 @@ class RigidChamber(Component):
     rod = Translational("the piston with its rod")
     side = Choice(("cap", "rod"), "Which way the piston pushes: out, or in.", default="cap", physics=False)
     area = Parameter("m^2", "Area of the piston.", above=0)
-    level = Output("Pa", "Pressure on the piston.")
+    pressure = Output("Pa", "Pressure on the piston.")
     force = Output("N", "Force that pushes the rod out.")
     void = Output("m^3", "Volume without oil.")
 
@@ -141,4 +141,4 @@ class RigidChamber(Component):
         """Flow is area times speed, force area times pressure; nothing is lost."""
         area = p.area if p.side == "cap" else -p.area
         push = area * port.pressure
-        return Law(port=area * (rod.v - body.v), rod=-push, body=push, level=port.pressure, force=push, void=0)
+        return Law(port=area * (rod.v - body.v), rod=-push, body=push, pressure=port.pressure, force=push, void=0)

@@ -59,8 +59,8 @@ class Cylinder(Composite):
     cavitation = Effect("Pressure does not fall below zero; a void opens and closes.")
     leakage = Effect("Oil leaks across the piston.")
     seal_friction = Effect("The seals stick and slide.")
-    level_a = Output("Pa", "Pressure at the cap side.")
-    level_b = Output("Pa", "Pressure at the rod side.")
+    level_a = Output("Pa", "Pressure at the cap side.", name="pressure_a")
+    level_b = Output("Pa", "Pressure at the rod side.", name="pressure_b")
     travel = Output("m", "rod.x - body.x, 0 when retracted.")
 
     @derived
@@ -95,7 +95,7 @@ class Cylinder(Composite):
             children["leak"] = scene.make(Leak, conductance=p.internal_leakage)
             joins += [("cap.port", "leak.a"), ("rod_side.port", "leak.b")]
         ports = {"a": "cap.port", "b": "rod_side.port", "body": "cap.body", "rod": "cap.rod"}
-        shown = {"level_a": "cap.level", "level_b": "rod_side.level", "travel": "stops.travel"}
+        shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel"}
         return Expansion(children, joins, ports, shown)
 
 

@@ -23,7 +23,8 @@ class HydraulicMotor(Component):
     external_leakage = Parameter("m^3/s/Pa", "C_e, leakage of each side to the housing.", default=0.0, least=0)
     torque = Output("N*m", "Torque of the oil on the shaft.")
     load_pressure = Output("Pa", "Pressure of a over b.")
-    level_a, level_b = Output("Pa", "Pressure at a."), Output("Pa", "Pressure at b.")
+    pressure_a = Output("Pa", "Pressure at a.")
+    pressure_b = Output("Pa", "Pressure at b.")
     loaded = Output("N*m", "The torque without its sign, to within 1 bar.")
 
     def law(p, a, b, shaft):
@@ -37,5 +38,5 @@ class HydraulicMotor(Component):
             out += across - p.external_leakage * b.pressure
             lost = across * difference + p.external_leakage * (a.pressure**2 + b.pressure**2)
         size = p.displacement * (sqrt(difference**2 + ROUNDED**2) - ROUNDED)
-        return Law(a=into, b=-out, shaft=-torque, torque=torque, load_pressure=difference, level_a=a.pressure,
-                   level_b=b.pressure, loaded=size, dissipated=lost)  # fmt: skip
+        return Law(a=into, b=-out, shaft=-torque, torque=torque, load_pressure=difference, pressure_a=a.pressure,
+                   pressure_b=b.pressure, loaded=size, dissipated=lost)  # fmt: skip

@@ -44,7 +44,7 @@ class PowerUnit(Composite):
     relief = Block(RELIEF, "None when not given.", default=None)
     fluid = Part(Fluid, "What is pumped.", default="oil")
     supply_dynamics = Effect("Pump, accumulator and relief valve make the pressure vary.", "off")
-    level = Output("Pa", "Pressure of the supply.")
+    level = Output("Pa", "Pressure of the supply.", name="pressure")
     power = Output("W", "Hydraulic power given.")
 
     def check(p):
@@ -64,7 +64,7 @@ class PowerUnit(Composite):
         ports = {"tank": "reservoir.port"}
         if p.supply_dynamics == "off":
             children["source"] = scene.make(PressureSource, pressure=p.pressure)
-            shown = {"level": "source.level", "power": "source.power"}
+            shown = {"pressure": "source.pressure", "power": "source.power"}
             return Expansion(children, [], {**ports, "supply": "source.port"}, shown)
         pump = {name: getattr(p.pump, name) for name in PUMP}
         children["pump"] = scene.make(PressurePump, cut_off=p.pressure, **pump)
@@ -79,4 +79,4 @@ class PowerUnit(Composite):
             line.append("relief.a")
             back.append("relief.b")
         return Expansion(children, [tuple(line), tuple(back)], {**ports, "supply": "line.port"},
-                         {"level": "line.level", "power": "pump.power"})  # fmt: skip
+                         {"pressure": "line.pressure", "power": "pump.power"})  # fmt: skip

@@ -9,13 +9,13 @@ class PressureSource(Component):
     port = Hydraulic("the outlet")
     pressure = Parameter("Pa", "Pressure, absolute.", least=0)
     flow = Output("m^3/s", "Flow given.")
-    level = Output("Pa", "Pressure.")
+    level = Output("Pa", "Pressure.", name="pressure")
     power = Output("W", "Hydraulic power given.")
 
     def law(p, port):
         """The flow is known when all others are; what it gives is supplied."""
         power = port.flow * port.pressure
-        return Law(port=0, flow=port.flow, level=port.pressure, power=power, supplied=power)
+        return Law(port=0, flow=port.flow, pressure=port.pressure, power=power, supplied=power)
 
     def prescribes():
         """The pressure does not change."""

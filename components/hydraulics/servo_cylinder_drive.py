@@ -51,8 +51,8 @@ class ServoCylinderDrive(Composite):
     cavitation = Effect("Pressure does not fall below zero; a void opens and closes.")
     seal_friction = Effect("The seals stick and slide.")
     opening = Output("1", "Opening of the valve.")
-    level_a = Output("Pa", "Pressure at the cap side.")
-    level_b = Output("Pa", "Pressure at the rod side.")
+    level_a = Output("Pa", "Pressure at the cap side.", name="pressure_a")
+    level_b = Output("Pa", "Pressure at the rod side.", name="pressure_b")
     travel = Output("m", "rod.x - body.x, 0 when retracted.")
 
     @derived
@@ -88,7 +88,7 @@ class ServoCylinderDrive(Composite):
         switches = {"cavitation": p.cavitation, "leakage": p.leakage, "seal_friction": p.seal_friction}
         children["cylinder"] = scene.make(Cylinder, fluid=p.fluid, **size, **starts, **switches)
         joins += [("lands.a", "cylinder.a"), ("lands.b", "cylinder.b")]
-        shown |= {name: f"cylinder.{name}" for name in ("level_a", "level_b", "travel")}
+        shown |= {name: f"cylinder.{name}" for name in ("pressure_a", "pressure_b", "travel")}
         return Expansion(children, joins, {**ports, "body": "cylinder.body", "rod": "cylinder.rod"}, shown)
 
 
@@ -101,7 +101,7 @@ def throttled_expansion(p, scene, children, shown):
     joins = [("spool.opening", "oil.opening")]
     mechanics(p.cylinder, p.seal_friction, scene, children, joins, ["oil.body"], ["oil.rod"], "oil.loose")
     ports = {name: f"oil.{name}" for name in ("supply", "tank", "body", "rod")}
-    return Expansion(children, joins, ports, {**shown, "level_a": "oil.level_a", "level_b": "oil.level_b",
+    return Expansion(children, joins, ports, {**shown, "pressure_a": "oil.pressure_a", "pressure_b": "oil.pressure_b",
                                               "travel": "stops.travel"})  # fmt: skip
 
 
@@ -114,4 +114,5 @@ def rigid_expansion(p, scene, children, shown, ports, joins):
     bodies, rods = ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"]
     mechanics(p.cylinder, p.seal_friction, scene, children, joins, bodies, rods)
     return Expansion(children, joins, {**ports, "body": "cap.body", "rod": "cap.rod"}, {
-        **shown, "level_a": "cap.level", "level_b": "rod_side.level", "travel": "stops.travel"})  # fmt: skip
+        **shown, "pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure",
+        "travel": "stops.travel"})  # fmt: skip

@@ -90,7 +90,8 @@ class ServoMotorDrive(Composite):
     speed = Output("rad/s", "Speed of the shaft.")
     torque = Output("N*m", "Torque of the oil on the shaft.")
     load_pressure = Output("Pa", "Pressure of a over b.")
-    level_a, level_b = Output("Pa", "Pressure at a."), Output("Pa", "Pressure at b.")
+    pressure_a = Output("Pa", "Pressure at a.")
+    pressure_b = Output("Pa", "Pressure at b.")
 
     def check(p):
         """Algebraic pressures need leakage that determines them while the valve is closed."""
@@ -112,7 +113,7 @@ class ServoMotorDrive(Composite):
             joins += [("housing.shaft", "drag.a"), (f"{oil}.loaded", "load.loaded")]
             joins.append(("load.friction", "rubbing.normal"))
             joins += [(f"{oil}.loose", "load.loose")] if children[oil].type is ThrottledMotor else []
-        told = ("torque", "load_pressure", "level_a", "level_b")
+        told = ("torque", "load_pressure", "pressure_a", "pressure_b")
         shown = {"command": "spool.command", "opening": "spool.opening", "speed": "rotor.speed"}
         shown |= {name: f"{oil}.{name}" for name in told}
         return Expansion(children, [*joins, tuple(turning)], {**ports, "shaft": "rotor.shaft"}, shown)

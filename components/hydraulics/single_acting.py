@@ -57,7 +57,7 @@ class SingleActingCylinder(Composite):
     fluid = Part(Fluid, "What fills it.", default="oil")
     cavitation = Effect("Pressure does not fall below zero; a void opens and closes.")
     seal_friction = Effect("The seals stick and slide.")
-    level = Output("Pa", "Pressure of the oil.")
+    level = Output("Pa", "Pressure of the oil.", name="pressure")
     travel = Output("m", "rod.x - body.x, 0 when it is in.")
 
     def expand(p, scene):
@@ -71,5 +71,5 @@ class SingleActingCylinder(Composite):
         joins = []
         bodies, rods = ["chamber.body", "back.body"], ["chamber.rod", "back.rod"]
         mechanics(p, p.seal_friction, scene, children, joins, bodies, rods)
-        shown = {"level": "chamber.level", "travel": "stops.travel"}
+        shown = {"pressure": "chamber.pressure", "travel": "stops.travel"}
         return Expansion(children, joins, {"a": "chamber.port", "body": "chamber.body", "rod": "chamber.rod"}, shown)

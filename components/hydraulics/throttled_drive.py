@@ -44,7 +44,8 @@ class ThrottledDrive(Component, abstract=True):
     critical_pressure = Parameter("Pa", "Drop below which the flow is laminar.", default=1e5, above=0)
     overlap = Parameter("1", "Share of the stroke about the middle without flow.", default=None, above=0, most=0.3)
     load_pressure = Output("Pa", "Pressure of a over b.")
-    level_a, level_b = Output("Pa", "Pressure at a."), Output("Pa", "Pressure at b.")
+    pressure_a = Output("Pa", "Pressure at a.")
+    pressure_b = Output("Pa", "Pressure at b.")
     loose = Output("1", "1 while oil can flow, 0 while the valve holds; friction beside it would have nothing to do.")
     zones = Zones("forward", "backward", "closed", forward=["forward"], backward=["backward"])
 
@@ -112,7 +113,7 @@ class ThrottledMotor(ThrottledDrive):
 def told(p, at_a, at_b, torque):
     """Outputs of a motor."""
     rounded = 1e5 * p.displacement
-    return {"level_a": at_a, "level_b": at_b, "load_pressure": at_a - at_b, "torque": torque,
+    return {"pressure_a": at_a, "pressure_b": at_b, "load_pressure": at_a - at_b, "torque": torque,
             "loaded": sqrt(torque**2 + rounded**2) - rounded}  # fmt: skip
 
 
@@ -140,8 +141,8 @@ class ThrottledCylinder(ThrottledDrive):
         at_a, at_b, heat = pressures(p, supply, tank, opening, zone, into, out, p.series)
         drawn, returned = (into, out) if zone == "forward" else (-out, -into)
         return Law(supply=drawn, tank=-returned, rod=-holding, body=holding,
-                   holding=holding - p.cap_area * at_a + p.rod_area * at_b, dissipated=heat, level_a=at_a, level_b=at_b,
-                   load_pressure=at_a - at_b, force=holding, loose=1)  # fmt: skip
+                   holding=holding - p.cap_area * at_a + p.rod_area * at_b, dissipated=heat, pressure_a=at_a,
+                   pressure_b=at_b, load_pressure=at_a - at_b, force=holding, loose=1)  # fmt: skip
 
     @zone("closed")
     def locked(p, supply, tank, body, rod, holding):
@@ -149,5 +150,5 @@ class ThrottledCylinder(ThrottledDrive):
         at_b = (supply.pressure + tank.pressure) / 2
         at_a = (holding + p.rod_area * at_b) / p.cap_area
         return Law(supply=0, tank=0, rod=-holding, body=holding, holding=hold(rod.v - body.v),
-                   dissipated=-holding * (rod.v - body.v), level_a=at_a, level_b=at_b, load_pressure=at_a - at_b,
+                   dissipated=-holding * (rod.v - body.v), pressure_a=at_a, pressure_b=at_b, load_pressure=at_a - at_b,
                    force=holding, loose=0)  # fmt: skip

@@ -32,7 +32,7 @@ class Enclosed(Component, abstract=True):
     pressure = Parameter("Pa", "Pressure at the start; 1 bar when nothing on its node says.", default=None, above=0,
                          physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
-    level = Output("Pa", "Pressure.")
+    level = Output("Pa", "Pressure.", name="pressure")
     void = Output("m^3", "Volume without oil.")
 
     def start(p):
@@ -49,7 +49,7 @@ class FullVolume(Enclosed):
     def law(p, port):
         """The capacity is an entry of the mass matrix, see `inertia`."""
         stored = p.volume / p.fluid.bulk_modulus * port.pressure**2 / 2
-        return Law(port=0, level=port.pressure, void=0, stored=stored)
+        return Law(port=0, pressure=port.pressure, void=0, stored=stored)
 
     def inertia(p):
         """Capacity at the port [m^3/Pa]."""
@@ -76,7 +76,7 @@ class CavitatingVolume(Enclosed):
         """The void gives (takes back) its volume at a pressure that differs from zero by nearly nothing."""
         capacity = p.volume / p.fluid.bulk_modulus
         given = -capacity / LAG * port.pressure if zone == "cavitating" else 0
-        return Law(port=-given, empty=given, void=empty, level=port.pressure, stored=capacity * port.pressure**2 / 2,
+        return Law(port=-given, empty=given, void=empty, pressure=port.pressure, stored=capacity * port.pressure**2 / 2,
                    dissipated=-given * port.pressure)  # fmt: skip
 
     @guard("full", to="cavitating", unit="Pa")
@@ -119,4 +119,4 @@ class Volume(Enclosed):
         air = p.air_share * REFERENCE / (n - 1) * exp(log_pressure * (n - 1) / n)
         lifted = inflow * LAG * p.fluid.bulk_modulus / p.volume
         return Law(port=inflow, inflow=port.pressure - pressure - lifted, log_pressure=inflow / compliance,
-                   level=pressure, void=0, stored=p.volume * (oil + air), dissipated=inflow * lifted)  # fmt: skip
+                   pressure=pressure, void=0, stored=p.volume * (oil + air), dissipated=inflow * lifted)  # fmt: skip

@@ -7,8 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-OUTPUTS = {"turned": "angle", "rate": "speed"}
-"""The old name of an output by the one it has: that of the port."""
+OUTPUTS = {
+    "turned": "angle", "rate": "speed",
+    **{f"level{side}": f"pressure{side}" for side in ("", "_a", "_b", "_?", "_*", "*")},
+}  # fmt: skip
+"""The old name of an output by the one it has: that of the port. Sides of a drive are often asked for by a pattern."""
 
 
 def word_of_today(last: str) -> str:

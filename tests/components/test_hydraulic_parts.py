@@ -33,7 +33,7 @@ def test_two_check_valves_make_a_pump():
     stroke = 2 * 2e-4 / (2 * np.pi * 5)  # m^3, of a sine of 2e-4 m^3/s
     delivered = np.trapezoid(result["delivery.flow"][last], result.t[last])
     sucked = np.trapezoid(result["suction.flow"][last], result.t[last])
-    rises = result["chamber.level"][last].max() - result["chamber.level"][last].min()
+    rises = result["chamber.pressure"][last].max() - result["chamber.pressure"][last].min()
     assert delivered == pytest.approx(sucked, rel=2e-3)
     compressed = 20e-6 * rises / BULK
     assert delivered == pytest.approx(stroke - compressed, rel=2e-3)
@@ -46,9 +46,9 @@ def test_pilots_open_at_the_pressure_of_the_balance_of_areas(load):
     result = run("piloted_valves", **{"load.pressure": f"{load} MPa"})
     tank = 1e5
     opens = first(result, "lock", "partly")
-    assert result.at("pilot.level", opens) - tank == pytest.approx((load * 1e6 - tank + 0.5e5) / 3, rel=1e-4)
+    assert result.at("pilot.pressure", opens) - tank == pytest.approx((load * 1e6 - tank + 0.5e5) / 3, rel=1e-4)
     opens = first(result, "balance.relief", "partly")
-    assert result.at("pilot.level", opens) - tank == pytest.approx((14e6 - load * 1e6 + tank) / 2, rel=1e-4)
+    assert result.at("pilot.pressure", opens) - tank == pytest.approx((14e6 - load * 1e6 + tank) / 2, rel=1e-4)
     assert np.all(result["lock.flow"] <= 0)  # the load comes down
 
 
@@ -57,13 +57,13 @@ def test_a_flow_is_kept_until_the_drop_is_too_small():
     keeps = first(result, "keeper", "starved")
     flow = 3e-3 / 60
     assert result.at("keeper.flow", keeps / 2) == pytest.approx(flow, rel=1e-6)
-    assert result.at("second.level", keeps) == pytest.approx(10e6 - 5e5, rel=1e-4)
-    rate = (result.at("second.level", keeps) - 1e5) / keeps
+    assert result.at("second.pressure", keeps) == pytest.approx(10e6 - 5e5, rel=1e-4)
+    rate = (result.at("second.pressure", keeps) - 1e5) / keeps
     assert rate == pytest.approx((flow + 1e-6) * BULK / 3e-3, rel=1e-4)  # 1 mL/s comes from the pump
     opened = result.t > 0.25
-    share = result["orifice.flow"] / np.sqrt(np.maximum(10e6 - result["first.level"], 1))
+    share = result["orifice.flow"] / np.sqrt(np.maximum(10e6 - result["first.pressure"], 1))
     assert first(result, "orifice", "open") == pytest.approx(0.2, abs=1e-6)
-    inside = opened & (10e6 - result["first.level"] > 3e6)
+    inside = opened & (10e6 - result["first.pressure"] > 3e6)
     assert np.ptp(share[inside]) < 1e-3 * share[inside].max()
     half = share[np.argmin(np.abs(result.t - 0.1))]
     assert half == pytest.approx(share[inside][0] / 2, rel=1e-3)
@@ -72,11 +72,11 @@ def test_a_flow_is_kept_until_the_drop_is_too_small():
 def test_a_pump_keeps_a_drop_whatever_the_load_and_another_turns_with_its_signal():
     """The flow is that of the orifice at the drop kept, which the band lessens by its share of the full flow."""
     result = run("pumps_that_follow")
-    flow, drop = result["pump.flow"][-1], result["line.level"][-1] - result["side.level"][-1]
+    flow, drop = result["pump.flow"][-1], result["line.pressure"][-1] - result["side.pressure"][-1]
     assert drop == pytest.approx(20e5 - 4e5 * flow / 1e-3, rel=1e-4)
-    assert result["side.level"][-1] == pytest.approx(1e5 + flow / 3e-11, rel=1e-4)
+    assert result["side.pressure"][-1] == pytest.approx(1e5 + flow / 3e-11, rel=1e-4)
     assert result["swash.flow"][-1] == pytest.approx(4e-6 * 100, rel=1e-9)  # beyond 1 it stays at 1
-    level = result["circuit.level"][-1]
+    level = result["circuit.pressure"][-1]
     assert result["swash.torque"][-1] == pytest.approx(4e-6 * (level - 1e5), rel=1e-9)
     assert level == pytest.approx(1e5 + 4e-4 / 5e-11, rel=1e-3)
 
@@ -88,7 +88,7 @@ def test_a_load_that_is_too_high_has_the_pressure_of_the_limit(engine):
         pytest.importorskip("sksundae")
     result = run("pumps_that_follow", **{"resistance.conductance": "1e-12 m^3/s/Pa", "run.engine": engine})
     flow = result["pump.flow"][-1]
-    assert result["line.level"][-1] == pytest.approx(200e5 - 4e5 * flow / 1e-3, rel=1e-4)
+    assert result["line.pressure"][-1] == pytest.approx(200e5 - 4e5 * flow / 1e-3, rel=1e-4)
 
 
 @pytest.mark.slow
@@ -98,7 +98,7 @@ def test_a_lift_stands_where_spring_air_and_load_say():
                                               "damper.damping": "2 kN*s/m"})  # fmt: skip
     area = np.pi * 0.04**2 / 4
     assert result["load.x"][-1] == pytest.approx((area * 39e5 - 500 - 2943) / 1e4, rel=1e-4)
-    assert result["lift.level"][-1] == pytest.approx(40e5, rel=1e-4)
+    assert result["lift.pressure"][-1] == pytest.approx(40e5, rel=1e-4)
 
 
 def test_gas_that_keeps_its_temperature_follows_boyle(simulate):
@@ -110,5 +110,5 @@ def test_gas_that_keeps_its_temperature_follows_boyle(simulate):
         connections: [[sump.port, pump.inlet], [pump.outlet, store.port]]
         run: {stop: 4 s, accuracy: 1e-7}
     """)
-    assert result["store.level"][-1] == pytest.approx(20e5 * 1e-3 / (1e-3 * 20 / 25 - 4e-4), rel=1e-6)
+    assert result["store.pressure"][-1] == pytest.approx(20e5 * 1e-3 / (1e-3 * 20 / 25 - 4e-4), rel=1e-6)
     assert result.run["energy"]["closure"] < 1e-6

@@ -104,7 +104,7 @@ def test_it_swings_as_the_closed_form_says_and_keeps_its_energy(simulate):
     result = simulate(CLOSED)
     w, swing = DRIVE.natural_frequency, 0.5 * 1.025 * DRIVE.natural_frequency / DRIVE.displacement / 2
     np.testing.assert_allclose(result["load.speed"], 0.5 * np.cos(w * result.t), atol=1e-5)
-    np.testing.assert_allclose(result["a.level"], 90e5 - swing * np.sin(w * result.t), atol=1e-4 * swing)
+    np.testing.assert_allclose(result["a.pressure"], 90e5 - swing * np.sin(w * result.t), atol=1e-4 * swing)
     assert result.run["energy"]["closure"] < 1e-6
     assert result.run["energy"]["supplied"] == 0
 
@@ -206,18 +206,18 @@ def test_oil_that_is_drawn_away_leaves_a_void_that_is_filled_again_to_the_last_d
     """A rotor that swings draws oil out and pushes it back; what is missing beside the compression is the void."""
     result = simulate(CAVITATING)
     displaced = 20e-6 / (2 * math.pi) * result["rotor.angle"]
-    squeezed = 0.5e-3 / BETA * (10e5 - result["oil.level"])
-    assert result["oil.level"].min() > -5e3  # of some 20 bar that the swing would ask for
+    squeezed = 0.5e-3 / BETA * (10e5 - result["oil.pressure"])
+    assert result["oil.pressure"].min() > -5e3  # of some 20 bar that the swing would ask for
     void = displaced - squeezed
-    torn = np.flatnonzero(result["oil.level"] < 1e3)
+    torn = np.flatnonzero(result["oil.pressure"] < 1e3)
     assert void[torn].max() > 1e-7
     filled = [event.t for event in result.events if event.zone_to == "full" and event.t > 0]
     assert len(filled) == 2  # in two swings
-    np.testing.assert_allclose(result.at("oil.level", filled[0] + 0.02), 10e5 - BETA / 0.5e-3 * 20e-6 / (2 * math.pi)
+    np.testing.assert_allclose(result.at("oil.pressure", filled[0] + 0.02), 10e5 - BETA / 0.5e-3 * 20e-6 / (2 * math.pi)
                                * result.at("rotor.angle", filled[0] + 0.02), atol=5e3)  # fmt: skip
     assert result.run["energy"]["closure"] < 1e-6
     bare = simulate(CAVITATING, **{"oil.effects.cavitation": "off"})
-    assert bare["oil.level"].min() < -10e5
+    assert bare["oil.pressure"].min() < -10e5
 
 
 def test_entrained_air_makes_oil_soft_at_low_pressure_as_its_formula_says(simulate):
@@ -231,11 +231,11 @@ def test_entrained_air_makes_oil_soft_at_low_pressure_as_its_formula_says(simula
         run: {stop: 1 s, accuracy: 1e-6}
     """
     result = simulate(text)
-    p, taken = result["oil.level"], 10e-6 * result.t
+    p, taken = result["oil.pressure"], 10e-6 * result.t
     np.testing.assert_allclose(1e-3 * ((p - 1e5) / BETA + 0.005 * (1 - (1e5 / p) ** (1 / 1.2))), taken, atol=2e-10)
     assert result.run["energy"]["closure"] < 1e-6
     hard = simulate(text, **{"oil.effects.air": "off"})
-    assert hard["oil.level"][-1] == pytest.approx(1e5 + 10e-6 / 1e-3 * BETA, rel=1e-9)
+    assert hard["oil.pressure"][-1] == pytest.approx(1e5 + 10e-6 / 1e-3 * BETA, rel=1e-9)
 
 
 def test_air_in_the_limit_of_none_is_oil(simulate):
@@ -275,8 +275,8 @@ def test_an_accumulator_below_its_precharge_takes_nothing_and_one_that_runs_out_
     result = simulate(text)
     assert [event.zone_to for event in result.events if event.component == "accumulator"] == ["empty"]
     assert result["accumulator.gas"][-1] == pytest.approx(1e-3, rel=1e-6)
-    assert result["accumulator.level"][-1] == pytest.approx(50e5, rel=1e-6)
-    assert result["line.level"][-1] == pytest.approx(1e5, rel=1e-3)
+    assert result["accumulator.pressure"][-1] == pytest.approx(50e5, rel=1e-6)
+    assert result["line.pressure"][-1] == pytest.approx(1e5, rel=1e-3)
 
 
 def test_a_relief_valve_settles_above_its_setting_by_the_flow_over_its_slope(simulate):
@@ -291,7 +291,7 @@ def test_a_relief_valve_settles_above_its_setting_by_the_flow_over_its_slope(sim
     """
     result = simulate(text)
     expected = 210e5 + 0.5e-3 / 2e-9
-    assert result["line.level"][-1] == pytest.approx(expected, rel=1e-4)
+    assert result["line.pressure"][-1] == pytest.approx(expected, rel=1e-4)
     assert result.run["energy"]["closure"] < 1e-5
 
 
@@ -307,7 +307,7 @@ def test_a_pressure_pump_settles_on_its_characteristic(simulate):
         run: {stop: 3 s}
     """
     result = simulate(text)
-    p = result["line.level"][-1]
+    p = result["line.pressure"][-1]
     drawn = 0.62 * 3e-6 * math.sqrt(2 / DENSITY) * p / (p**2 + 1e10) ** 0.25
     assert drawn == pytest.approx(1e-3 * (180e5 - p) / 20e5, rel=1e-4)
     assert 160e5 < p < 180e5
@@ -398,10 +398,10 @@ def test_a_cylinder_pulled_out_faster_than_oil_follows_leaves_a_void(simulate):
         run: {stop: 4 s}
     """
     result = simulate(text)
-    assert result["cylinder.level_a"].min() > -1.0
+    assert result["cylinder.pressure_a"].min() > -1.0
     zones = [event.zone_to for event in result.events if event.component == "cylinder.cap"]
     assert zones == ["cavitating", "full"]
-    assert result["cylinder.level_a"][-1] == pytest.approx(1e5, rel=1e-3)
+    assert result["cylinder.pressure_a"][-1] == pytest.approx(1e5, rel=1e-3)
     assert result.run["energy"]["closure"] < 1e-4
 
 
@@ -445,9 +445,9 @@ def test_oil_without_inertia_is_the_limit_of_light_oil(scene, simulate):
           end: {type: Volume, volume: 1 l, pressure: 1 bar}
         connections: [[high.port, line.a], [line.b, end.port]]
         run: {stop: 0.2 s, accuracy: 1e-6}
-        record: {signals: [end.level], every: 2 ms}
+        record: {signals: [end.pressure], every: 2 ms}
     """
     off = simulate(text, **{"effects.fluid_inertia": "off"})
     light = {"line.fluid.density": "1e-3 kg/m^3", "line.fluid.viscosity": f"{40e-6 * 870 / 1e-3} m^2/s"}
-    np.testing.assert_allclose(simulate(text, **light)["end.level"], off["end.level"], rtol=1e-4)
+    np.testing.assert_allclose(simulate(text, **light)["end.pressure"], off["end.pressure"], rtol=1e-4)
     assert not [n for n in scene(text, **{"effects.fluid_inertia": "off"}).system.unknown_names if "column" in n]

@@ -54,7 +54,7 @@ def test_a_cylinder_holds_an_arm_with_the_torque_of_its_weight_over_its_leverage
         "length.length": f"{length(at) - 0.2} m"})  # fmt: skip
     assert np.allclose(result["boom.angle"], at, atol=2e-3)
     assert result["strut.leverage"][0] == pytest.approx(leverage, rel=1e-5)
-    assert np.mean(result["lift.level"]) == pytest.approx(level, rel=1e-3)
+    assert np.mean(result["lift.pressure"]) == pytest.approx(level, rel=1e-3)
 
 
 def test_an_arm_without_a_length_is_refused():

@@ -18,10 +18,10 @@ TOLD_BY = {
     "SignalEdge": {"was": "last", "found": "signal", "edges": "count"}, "TransferStage": {"gathered": "signal"},
     "SignalTimer": {"lasted": "elapsed", "done": "signal"},
     "SecondOrder": {"told": "signal", "rate": "slope"},
-    "Accumulator": {"log_pressure": "level"}, "Bristle": {"moved": "slid"}, "CavitatingVolume": {"empty": "void"},
-    "Chamber": {"oil": "level", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},
+    "Accumulator": {"log_pressure": "pressure"}, "Bristle": {"moved": "slid"}, "CavitatingVolume": {"empty": "void"},
+    "Chamber": {"oil": "pressure", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},
     "Dahl": {"z": "deflection"}, "DcDrive": {"flowing": "current"}, "DcMotor": {"flowing": "current"},
-    "Elastoplastic": {"z": "deflection"}, "FrictionHeat": {"theta": "temperature"}, "FullChamber": {"oil": "level"},
+    "Elastoplastic": {"z": "deflection"}, "FrictionHeat": {"theta": "temperature"}, "FullChamber": {"oil": "pressure"},
     "IdealPid": {"summed": "integral", "slow": "filtered"},
     "Pid": {"summed": "integral", "slow": "filtered", "applied": "command", "used": "error"},
     "LaggingPm": {"flowing": "current"}, "LuGre": {"z": "deflection"},
@@ -35,7 +35,7 @@ TOLD_BY = {
     "RuckTrip": {"broken_for": "waiting", "trips": "tripped"}, "RuckingHose": {"folded": "compressed"},
     "SampledSensor": {"signal": "signal"}, "SignalLag": {"told": "signal"}, "Spool": {"position": "opening"},
     "TensionTorque": {"held": "torque"}, "TensionTrim": {"summed": "integral", "held": "reference"},
-    "Volume": {"log_pressure": "level"}, "ZeroTensionHold": {"holds": "holding", "passed": "reference"},
+    "Volume": {"log_pressure": "pressure"}, "ZeroTensionHold": {"holds": "holding", "passed": "reference"},
 }  # fmt: skip
 NOT_TOLD = {
     "Spool": {"speed"},  # a spool without dynamics, which stands in for it, has none

@@ -84,7 +84,7 @@ def test_a_winch_lowers_at_the_speed_of_its_pump_whatever_the_load(mass):
     result = run("lowering_winch", **{"load.mass": f"{mass} kg", "weight.force": f"{weight} N",
                                       "hold.pressure": f"{weight * 0.1 / 2e-5 + 1e5} Pa"})  # fmt: skip
     t = np.linspace(3.9, 4.9, 501)
-    hold, line, speed = (np.mean(result.at(name, t)) for name in ("hold.level", "line.level", "drum.speed"))
+    hold, line, speed = (np.mean(result.at(name, t)) for name in ("hold.pressure", "line.pressure", "drum.speed"))
     assert speed == pytest.approx((5e-4 + 5e-13 * (hold - line)) / 2e-5, rel=5e-3)
     rate = result.at("drum.speed", 4.9) - result.at("drum.speed", 3.9)
     needs = weight * 0.1 - 2 * speed - (5 + mass * 0.1**2) * rate

@@ -84,8 +84,8 @@ def test_opened_fully_without_load_it_runs_at_the_speed_of_the_closed_form(bundl
 def test_a_drive_can_stand_on_a_supply_that_others_share(bundled):
     """The pressure sinks while the drum speeds up, and settles below the cut-off by the pump's characteristic."""
     result = bundled("winch_drive", {"effects.supply_dynamics": "on"})
-    p = result["power.level"][-1]
-    leaking = Drive().internal * result["drive.load_pressure"][-1] + Drive().external * result["drive.level_a"][-1]
+    p = result["power.pressure"][-1]
+    leaking = Drive().internal * result["drive.load_pressure"][-1] + Drive().external * result["drive.pressure_a"][-1]
     flow = result["drive.speed"][-1] * Drive().displacement + leaking
     assert p == pytest.approx(180e5 - 10e5 * flow / 1e-3, rel=1e-4)
-    assert result["power.level"].max() <= 180e5 * (1 + 1e-9)
+    assert result["power.pressure"].max() <= 180e5 * (1 + 1e-9)

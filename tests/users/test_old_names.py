@@ -1,14 +1,20 @@
 """Outputs by the names they had: they still work, and today's is told, in a netlist, a class and from Python."""
 
+import pathlib
+
 import pytest
 
 import fairlead
+from fairlead.component.registry import known_types
 from fairlead.errors import RunWarning
 from tests.mistakes.bases import DRILL
+from tests.mistakes.entry import damaged
 
 OLD = DRILL.replace("run: {stop: 10 s}", 'run: {stop: 0.1 s}\nlimits: {"bit.turned": {below: 1 rad}}').replace(
     "[bit.speed, table.speed, string.torque]", "[bit.rate, table.rate, bit.turned]"
 )
+
+CYLINDER = pathlib.Path(__file__).parents[2] / "docs" / "examples" / "cylinder_with_valve.yaml"
 
 OWN = '''\
 from fairlead.component import Composite, Expansion, Output, Rotational
@@ -67,3 +73,36 @@ def test_a_class_of_ones_own_may_call_an_output_as_it_likes(tmp_path):
     assert model.check() == []
     result = model.run(out=None)
     assert (result["bit.rate"] == result["bit.body.speed"]).all()
+
+
+OF_TODAY = {"cylinder.level_?": "cylinder.pressure_?", "source.level": "source.pressure",
+            "cylinder.level_a": "cylinder.pressure_a"}  # fmt: skip
+
+
+def test_pressures_by_old_names_are_recorded_joined_and_told(tmp_path):
+    text = damaged(
+        CYLINDER.read_text(encoding="utf-8"),
+        ("cylinder.travel, cylinder.pressure_a, cylinder.pressure_b", 'gauge.signal, "cylinder.level_?", source.level'),
+        ("  wall: {", "  gauge: {type: SignalGain, gain: 1.0e-5}\n  wall: {"),
+        ("  - [wall.flange", "  - [cylinder.level_a, gauge.value]\n  - [wall.flange"),
+        ("stop: 1 s", "stop: 0.05 s"),
+    )
+    (tmp_path / "drive.yaml").write_text(text, encoding="utf-8")
+    model = fairlead.load(tmp_path / "drive.yaml")
+    told = {f"{old} is called {new} now; the old name still works." for old, new in OF_TODAY.items()}
+    assert {fault.what for fault in model.check()} == told
+    result = model.run(out=None)
+    assert set(OF_TODAY.values()) - {"cylinder.pressure_?"} <= {signal.name for signal in result.signals}
+    with pytest.warns(RunWarning, match=r"cylinder\.level_a is called cylinder\.pressure_a now"):
+        assert (result["cylinder.level_a"] * 1e-5 == result["gauge.signal"]).all()
+
+
+def test_no_part_calls_a_pressure_a_level():
+    """A level is what friction has: `LoadedFriction.level`, in newtons."""
+    told = [
+        f"{name}.{output}"
+        for name, part in known_types().items()
+        for output, its in part.declaration.outputs.items()
+        if its.unit == "Pa" and output.startswith("level")
+    ]
+    assert not told
