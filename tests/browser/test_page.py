@@ -280,6 +280,42 @@ def test_printed_the_page_has_its_verdict_and_no_buttons_and_every_control_has_a
     assert len(headings) >= 6
 
 
+@pytest.mark.parametrize("dark", [False, True])
+def test_on_paper_every_plot_is_a_picture_in_light_colours_and_afterwards_all_is_as_it_was(browser, bend, dark):
+    """Nobody scrolled: what stands below is drawn all the same, and no plot is wider than paper."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    show(browser, bend, dark=dark)
+    WebDriverWait(browser, 60).until(lambda it: it.execute_script("return document.body.dataset.drawn === 'yes'"))
+    look = (
+        "const plots = [...views.keys()].filter(e => e.isConnected);"
+        "return {plots: plots.length, pictures: document.querySelectorAll('.picture').length,"
+        "width: Math.max(0, ...[...document.querySelectorAll('.picture')].map(p => p.naturalWidth)),"
+        "hidden: plots.filter(e => e.classList.contains('screen')).length,"
+        "ink: [...views.values()][0].model.below[0].axis_label_text_color, wide: plots[0].offsetWidth,"
+        "open: document.querySelectorAll('details[open]').length}"
+    )
+    before = browser.execute_script(look)
+    assert before["plots"] > 6
+    assert before["pictures"] == 0
+    browser.execute_script("dispatchEvent(new Event('beforeprint'))")
+    browser.execute_async_script(
+        "const done = arguments[0]; Promise.all([...document.images].map(i => i.decode().catch(() => 0))).then(done)"
+    )
+    printed = browser.execute_script(look)
+    assert printed["pictures"] == printed["plots"] + 1  # and the moving picture
+    assert printed["hidden"] == printed["plots"]
+    assert 0 < printed["width"] <= 800
+    assert printed["ink"] == "#000"
+    assert printed["open"] > before["open"]
+    browser.execute_script("dispatchEvent(new Event('afterprint'))")
+    browser.execute_async_script("setTimeout(arguments[0], 300)")
+    assert browser.execute_script(look) == before
+    assert len(browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True})["data"]) > 100_000
+    assert browser.execute_script(look) == before
+    assert complaints(browser) == []
+
+
 def told_under_the_pointer(browser, plot, across=0.5, up=0.5) -> str:
     """What the box beside the pointer says at a share of a plot's frame."""
     return browser.execute_async_script(

@@ -10,7 +10,7 @@ function options(list, entries, chosen) {
 /* Make something once, when it comes into sight or when it is asked for. */
 function whenSeen(element, make) {
   let made;
-  const once = () => { watch.disconnect(); return made ??= make(); };
+  const once = () => { watch.disconnect(); once.made = true; return made ??= make(); };
   const watch = new IntersectionObserver(found => { if (found.some(one => one.isIntersecting)) once(); }, {rootMargin: "500px"});
   watch.observe(element); once.element = element; page.waiting.push(once);
 }
@@ -22,6 +22,32 @@ function links() {
     e.preventDefault(); history.replaceState(null, "", link.hash);
     await Promise.all(page.waiting.filter(make => to.compareDocumentPosition(make.element) & Node.DOCUMENT_POSITION_PRECEDING).map(make => make()));
     to.scrollIntoView(); to.focus({preventScroll: true});
+  });
+}
+
+/* What nobody scrolled to is drawn when the browser has nothing else to do, a plot at a time: paper wants all of them. */
+const idle = () => new Promise(done => (window.requestIdleCallback || (f => setTimeout(f, 300)))(done));
+async function drawRest() {
+  for (let k = 0; k < page.waiting.length; k++) { await idle(); if (!page.waiting[k].made) await page.waiting[k](); }
+  document.body.dataset.drawn = "yes";
+}
+/* On paper: light colours, pictures of the plots, and what is folded open if it is for readers of paper; back again afterwards. */
+function printing() {
+  const opened = [], root = document.documentElement, stage = $("stage"); let undo = null;
+  addEventListener("beforeprint", () => {
+    if (undo) return;
+    root.dataset.print = "yes";
+    for (const d of document.querySelectorAll("#scene details, details.worth, #words, .legend details")) if (!d.open) { d.open = true; opened.push(d); }
+    const back = pictured(), picture = new Image();
+    stage.style.width = `${PAPER}px`; page.resized(); picture.className = "picture"; picture.src = stage.toDataURL(); picture.alt = $("state").textContent;
+    stage.before(picture); stage.classList.add("screen");
+    undo = () => { back(); picture.remove(); stage.style.width = ""; stage.classList.remove("screen"); page.resized(); };
+  });
+  addEventListener("afterprint", () => {
+    delete root.dataset.print;
+    for (const d of opened.splice(0)) d.open = false;
+    if (undo) undo();
+    undo = null;
   });
 }
 
@@ -110,7 +136,7 @@ function maps(runs) {
   $("maps").hidden = !with_maps.length;
   if (!with_maps.length) return;
   ofRun(with_maps, "map-run", (run, now) => {
-    const draw = async () => { const made = document.createElement("div"); $("map-list").replaceChildren(made); for (const name of mapped(run)) await map(run, run.lines[0], name, made); };
+    const draw = async () => { const made = document.createElement("div"); $("map-list").replaceChildren(made); for (const name of mapped(run)) { await map(run, run.lines[0], name, made); await idle(); } };
     if (now) draw(); else whenSeen($("maps"), draw);
   });
 }
@@ -132,10 +158,10 @@ async function begin() {
   await stage(readable[0]);
   clock.heard.push(t => page.draw(t));
   let later; new ResizeObserver(() => { clearTimeout(later); later = setTimeout(() => page.resized(), 80); }).observe($("stage"));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { if (!document.documentElement.dataset.print) location.reload(); });
   signals(readable); zones(readable); maps(readable); links();
-  addEventListener("beforeprint", () => { for (const d of document.querySelectorAll("#scene details, details.worth")) d.open = true; });
+  printing();
   const ruck = readable[0].rucks[0]; clock.set(ruck ? ruck.t : clock.end * .4);
-  document.body.dataset.ready = "yes";
+  document.body.dataset.ready = "yes"; setTimeout(drawRest, 1500);
 }
 begin().catch(error => { $("state").textContent = `The moving picture could not be made: ${error.message}`; throw error; });

@@ -4,22 +4,38 @@ const TOOLS = "xbox_zoom,xpan,xwheel_zoom,xzoom_in,xzoom_out,reset,save";
 const MOST_POINTS = 60000;
 
 function styled(p, x, y) {
-  const ink = css("ink"), soft = css("soft"), rule = css("rule");
-  Object.assign(p, {background_fill_color: null, border_fill_color: null, outline_line_color: rule, sizing_mode: "stretch_width"});
-  for (const [axis, label] of [[p.xaxis, x], [p.yaxis, y]]) for (const a of [].concat(axis)) {
-    a.axis_label = label;
-    Object.assign(a, {axis_label_text_color: ink, axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", major_label_text_color: soft,
-      axis_line_color: rule, major_tick_line_color: rule, minor_tick_line_color: null, major_label_text_font_size: "11px"});
-  }
-  for (const g of [].concat(p.xgrid, p.ygrid)) g.grid_line_color = rule, g.grid_line_alpha = .6;
+  Object.assign(p, {background_fill_color: null, border_fill_color: null, sizing_mode: "stretch_width"});
+  for (const [axis, label] of [[p.xaxis, x], [p.yaxis, y]]) for (const a of [].concat(axis))
+    Object.assign(a, {axis_label: label, axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", minor_tick_line_color: null, major_label_text_font_size: "11px"});
   p.toolbar.logo = null;
   p.toolbar.active_drag = p.toolbar.tools.find(tool => tool.type === "BoxZoomTool") || "auto";
+  return inked(p);
+}
+/* Frame, axes and grid in the colours that the page has now. */
+function inked(p) {
+  const ink = css("ink"), soft = css("soft"), rule = css("rule");
+  p.outline_line_color = rule;
+  for (const a of [].concat(p.xaxis, p.yaxis)) Object.assign(a, {axis_label_text_color: ink, major_label_text_color: soft, axis_line_color: rule, major_tick_line_color: rule});
+  for (const g of [].concat(p.xgrid, p.ygrid)) Object.assign(g, {grid_line_color: rule, grid_line_alpha: .6});
+  for (const bar of p.right) if (bar.type === "ColorBar") bar.major_label_text_color = soft;
   return p;
 }
 function figure(options, x, y) {
   return styled(B().figure({height: 250, width: 600, tools: TOOLS, toolbar_location: "right", output_backend: "canvas", ...options}), x, y);
 }
-async function put(p, element) { const view = await B().show(p, element); return Array.isArray(view) ? view[0] : view; }
+const views = new Map();
+async function put(p, element) { const found = await B().show(p, element), view = Array.isArray(found) ? found[0] : found; views.set(element, view); return view; }
+/* Plots as pictures of the width of paper, in the colours of paper; `undo` lets the plots be as they were. */
+const PAPER = 760; // px
+function pictured() {
+  const made = [...views].filter(([element]) => element.isConnected).map(([element, view]) => {
+    element.style.width = `${PAPER}px`; inked(view.model); view.compute_layout();
+    const picture = new Image(); picture.className = "picture"; picture.src = view.export("png", true).canvas.toDataURL();
+    picture.alt = element.parentElement.getAttribute("aria-label") || "Plot"; element.before(picture); element.classList.add("screen");
+    return [element, view, picture];
+  });
+  return () => { for (const [element, view, picture] of made) { picture.remove(); element.style.width = ""; element.classList.remove("screen"); inked(view.model); view.compute_layout(); } };
+}
 
 /* The line that shows the time of the clock over a plot, and clicks that set it. */
 function cursor(box, view) {
