@@ -24,6 +24,8 @@ OPEN = 2.0
 NO_REBOUND, REBOUND, RUBS = 0, 1, 2
 REST = 10.0
 """Rebound, in error weights, below which there is none."""
+ROUNDING = 1e-9
+"""Share of the largest slip of an instant below which a row did not meet, but held: that much is rounding."""
 LIMITED, UNLIMITED = 1, 2
 
 
@@ -31,15 +33,20 @@ LIMITED, UNLIMITED = 1, 2
 def rebound(problem, point, matrices, floor):
     """Set `y_probe` = e of every unknown, and say whether anything rebounds; RUBS if friction takes part in that.
 
-    b holds dV and P, u holds dV, v the slip that is taken; `floor` is the least impulse that counts.
+    b holds dV and P, u holds dV, v the slip that is taken, of which rounding is struck out; `floor` is the least
+    impulse that counts.
     """
     n = problem.n
     b, r, e = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
     given, takes = reals(problem.at_rebound, n), indices(problem.at_takes_impulse, n)
-    some = False
+    some, most = False, 0.0
+    for k in range(n):
+        most = max(most, abs(r[k])) if takes[k] == UNLIMITED else most
     for k in range(n):
         e[k] = OPEN
-        if takes[k] == UNLIMITED and r[k] != 0.0 and abs(b[k]) > floor:
+        if takes[k] == UNLIMITED and abs(r[k]) <= ROUNDING * most:
+            r[k] = 0.0
+        elif takes[k] == UNLIMITED and abs(b[k]) > floor:
             e[k] = given[k]
             some = some or given[k] > 0.0
     if not some:
