@@ -2,6 +2,7 @@
 
     find_inputs(netlist, system, more)     inputs of the `interface` block and those named in `Model.start`
     find_outputs(netlist, signals)         columns of all names that can be read
+    find_tunable(netlist, entries, more)   parameters of the `interface` block and those named in `Model.start`
     interface_faults(netlist, system)      all mistakes in the block
 
 Numbers pass the border in SI. A unit says what a plain number of the model is; it cannot rescale.
@@ -13,6 +14,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from fairlead.analysis.record.suggestion import suggest
+from fairlead.component.numbers import numbers
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.interface import Outer, OuterInput
 from fairlead.quantities import QuantityError, fits, parse_unit, si
@@ -20,23 +22,24 @@ from fairlead.renamed import now_called
 from fairlead.system.compiled.opened import FreeInput, free_inputs
 
 if TYPE_CHECKING:
+    from fairlead.component.values import Values
     from fairlead.netlist.netlist import Netlist
     from fairlead.system.arrays.recording import OutputSignal
     from fairlead.system.compiled.system import System
 
 
 class Variable(NamedTuple):
-    """An input or an output as a program outside sees it; numbers are in SI."""
+    """An input, an output or a parameter as a program outside sees it; numbers are in SI."""
 
     name: str
-    causality: Literal["input", "output"]
+    causality: Literal["input", "output", "parameter"]
     of: str
-    """The signal inside."""
+    """The signal or the parameter inside."""
     unit: str
     """Its SI unit, `1` for a plain number."""
     description: str
     start: float | None
-    """Of an input the value until it is set; None for an output."""
+    """Of an input or a parameter the value until it is set; None for an output."""
     nominal: float
     """A usual size, above zero; 1 where the netlist gives none."""
 
@@ -48,9 +51,42 @@ class Found(NamedTuple):
     seen: Variable
 
 
-def interface_faults(netlist: Netlist, system: System) -> list[Fault]:
+def interface_faults(netlist: Netlist, entries: Mapping[str, Values], system: System) -> list[Fault]:
     """Mistakes in the `interface` block: inputs that cannot be set, outputs that nothing gives, units, numbers."""
-    return find_inputs(netlist, system, ())[1] + find_outputs(netlist, system.signals)[2]
+    faults = find_inputs(netlist, system, ())[1] + find_outputs(netlist, system.signals)[2]
+    return faults + find_tunable(netlist, entries, ())[1] + _twice(netlist)
+
+
+def _twice(netlist: Netlist) -> list[Fault]:
+    """Tunable parameters under the name of an input or an output."""
+    interface = netlist.interface
+    taken = dict.fromkeys(interface.outputs, "output") | dict.fromkeys(interface.inputs, "input")
+    return [
+        Fault(_place(netlist, "tunable", name), f"interface.tunable.{name}: an {taken[name]} has this name already.",
+              "Give one of them another.")
+        for name in interface.tunable if name in taken
+    ]  # fmt: skip
+
+
+def find_tunable(
+    netlist: Netlist, entries: Mapping[str, Values], more: Iterable[str]
+) -> tuple[tuple[Variable, ...], list[Fault]]:
+    """Parameters by outer name, and what is wrong with others; `entries` are the components by name."""
+    known = numbers(netlist, entries)
+    given = netlist.interface.tunable | {name: Outer(of=name) for name in more}
+    faults, found = list[Fault](), list[Variable]()
+    for name, outer in given.items():
+        what, place = f"interface.tunable.{name}", _place(netlist, "tunable", name)
+        if outer.of not in known:
+            near = did_you_mean(outer.of, known)
+            what = f"{what}: there is no parameter {shown(outer.of)} that is a number. {near}".rstrip()
+            faults.append(Fault(place, what, f"There are {listing(known)}." if known else "This model has none."))
+            continue
+        value, unit = known[outer.of]
+        variable, wrong = _variable(name, "parameter", outer, unit or "1", what, place)
+        found.append(variable._replace(start=value))
+        faults += wrong
+    return tuple(found), faults
 
 
 def find_inputs(netlist: Netlist, system: System, more: Iterable[str]) -> tuple[dict[str, Found], list[Fault]]:
@@ -95,7 +131,8 @@ def find_outputs(
 
 
 def _variable(
-    name: str, causality: Literal["input", "output"], outer: Outer, inside: str, what: str, place: Location | None
+    name: str, causality: Literal["input", "output", "parameter"], outer: Outer, inside: str, what: str,
+    place: Location | None,
 ) -> tuple[Variable, list[Fault]]:
     """How a signal of the unit `inside` is seen, and what does not fit."""
     unit, faults = _unit(outer.unit, inside, what, place)

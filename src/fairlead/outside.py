@@ -108,6 +108,7 @@ class Stepping:
         asked = dataclasses.replace(asked, every=NO_GRID, between=False)
         own = opened(system, [one.free for one in self._inputs.values()])
         check(own, asked)
+        self._span = asked.stop - asked.start
         self._now = self._next = Standing(Underway(own, asked, self._take), tunable, own)
         self._told(self._memory)
         self._values: np.ndarray | None = None
@@ -152,14 +153,14 @@ class Stepping:
     def _tune(self, name: str, value: float | str) -> None:
         """Have the model with another value of a parameter; the run goes over to it as it goes on."""
         assert self._next.tunable is not None, "there are none to set"
-        changed = self._next.tunable.with_value(name, value)
+        changed = self._next.tunable.with_value(name, value, begun=self._begun)
         own = opened(changed.model.system, [one.free for one in self._inputs.values()])
         self._next = Standing(self._now.going, changed, own)
 
     def _go_over(self) -> None:
         """Go on with the values of parameters that were set."""
         if self._next.own is not self._now.own:
-            going = gone_on(self._now.going, self._now.own, self._next.own, self.t, begun=self._begun)
+            going = gone_on(self._now.going, self._now.own, self._next.own, self.t, self._span, begun=self._begun)
             self._now = self._next = self._next._replace(going=going)
             self._values = None
             self._told(self._memory)
@@ -215,8 +216,6 @@ class Stepping:
 
     def save(self) -> State:
         """Where the run is, with what was set."""
-        if not self._begun:
-            self._go_over()
         self._begin()
         return State(self._going.save(), self._of, self._next._replace(going=self._going), self._now)
 
@@ -255,6 +254,7 @@ class Stepping:
     def _begin(self) -> None:
         """Settle at the start, once; what is set before holds from the start."""
         if not self._begun:
+            self._go_over()
             self._begun = True
             while self.t == self._memory.number["start"] and self._memory.number["phase"] != TRY:
                 self._enter(0)

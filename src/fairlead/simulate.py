@@ -176,7 +176,7 @@ class Model:
             self.assembly, self.flattened = _shown_in_a_line(assembly), flat
             try:
                 self.flat = laid_under_statics(flat)
-                faults += interface_faults(self.netlist, self.system)
+                faults += interface_faults(self.netlist, assembly.entries, self.system)
             except ModelError as error:
                 faults += error.faults
         if faults:
@@ -260,8 +260,8 @@ class Model:
         """A run that is stepped from outside: `set`, `advance`, `get`, `save`, `restore` (docs/coupling.md).
 
         What can be set: the inputs of the netlist's `interface` block, and signal inputs named by `inputs`, which are
-        connected to nothing; and parameters named by `tunable`, such as `pad.normal_force`. `settings` are those of
-        `run`. Raises ModelError and UsageError as `run` does.
+        connected to nothing; and parameters that the block has as `tunable` or that are named so here, such as
+        `pad.normal_force`. `settings` are those of `run`. Raises ModelError and UsageError as `run` does.
         """
         from fairlead.netlist.keywords import with_keywords
         from fairlead.outside import Stepping

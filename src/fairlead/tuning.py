@@ -1,8 +1,8 @@
 """Parameters that change while a run is stepped from outside: which may, and how the run goes on with another value.
 
     tunable = Tunable.of(model, ["pad.normal_force", "mu"])
-    changed = tunable.with_value("mu", 0.4)
-    going = gone_on(going, old, new, t, begun=True)
+    changed = tunable.with_value("mu", 0.4, begun=True)
+    going = gone_on(going, old, new, t, span, begun=True)
 
 A parameter may change many numbers: those of derived parameters, of bodies, of plans. So the model is made anew with
 the value, as `with_values` makes it, and the run begins once more where it is, with the unknowns, zones, samples and
@@ -57,23 +57,33 @@ KEPT = ("zones", "sample_count", "sample_start", "set_due", "set_values")
 
 
 class Tunable(NamedTuple):
-    """A model, and names of its parameters that can be set while it runs."""
+    """A model, and parameters of it that can be set while it runs: by outer name, the name inside."""
 
     model: Model
-    names: tuple[str, ...]
+    inside: Mapping[str, str]
 
     @classmethod
     def of(cls, model: Model, names: Iterable[str]) -> Tunable:
-        """Each name is of a scene parameter or of a parameter of a component. Raises ModelError for others."""
-        known = tuple(map(str, names))
-        if faults := [fault for name in known if (fault := _unknown(model, name)) is not None]:
+        """Those of the `interface` block, and `names` of parameters of the scene or of a component.
+
+        Raises ModelError for others.
+        """
+        known = {name: outer.of for name, outer in model.netlist.interface.tunable.items()}
+        known |= {str(name): str(name) for name in names if str(name) not in known}
+        if faults := [fault for name in known.values() if (fault := _unknown(model, name)) is not None]:
             raise ModelError(faults)
         return cls(model, known)
 
-    def with_value(self, name: str, value: float | str) -> Tunable:
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What can be set."""
+        return tuple(self.inside)
+
+    def with_value(self, name: str, value: float | str, *, begun: bool) -> Tunable:
         """The same with another value. Raises ModelError for one that does not fit, UsageError as `refuse`."""
-        changed = self.model.with_values({name: value})
-        refuse(name, self.model, changed)
+        inside = self.inside[name]
+        changed = self.model.with_values({inside: value})
+        refuse(inside, self.model, changed, begun=begun)
         return self._replace(model=changed)
 
 
@@ -93,7 +103,7 @@ def _unknown(model: Model, name: str) -> Fault | None:
     return Fault(None, what, f"There are {listing(allowed)}.")
 
 
-def refuse(name: str, old: Model, new: Model) -> None:
+def refuse(name: str, old: Model, new: Model, *, begun: bool) -> None:
     """Raise UsageError for a change that a run cannot go on with, or that changes nothing any more."""
     one, two = old.system, new.system
     why = ""
@@ -105,7 +115,7 @@ def refuse(name: str, old: Model, new: Model) -> None:
         why = "its tables are of another length"
     if why:
         raise UsageError(f"set: {name} cannot change while a run goes on: {why}. Begin another run with it.")
-    if not _differs(one, two) and _written(name, old) != _written(name, new):
+    if begun and not _differs(one, two) and _written(name, old) != _written(name, new):
         raise UsageError(f"set: {name} says how a run begins, and changes nothing now. Begin another run with it.")
 
 
@@ -118,7 +128,7 @@ def _written(name: str, model: Model) -> str:
 def _differs(one: System, two: System) -> bool:
     """Whether any number of the equations is another one."""
     same = all(
-        np.array_equal(a.parameters[:, ~_discrete(a)], b.parameters[:, ~_discrete(b)])
+        np.array_equal(a.parameters[:, ~discrete_columns(a)], b.parameters[:, ~discrete_columns(b)])
         and np.array_equal(a.in_offset, b.in_offset) and np.array_equal(a.in_coef, b.in_coef)
         and np.array_equal(a.flow_coef, b.flow_coef)
         for a, b in zip(one.blocks, two.blocks, strict=True)
@@ -127,7 +137,7 @@ def _differs(one: System, two: System) -> bool:
     return not same or masses[0] != masses[1] or not _same_tables(one, two)
 
 
-def _discrete(block: Block) -> np.ndarray:
+def discrete_columns(block: Block) -> np.ndarray:
     """[parameters of the kernel]: whether it is a discrete variable, which lies among them."""
     return np.array([key(f"{PARAMETER}:{name}").is_discrete for name in block.kernel.structure.parameters], dtype=bool)
 
@@ -136,11 +146,10 @@ def _same_tables(one: System, two: System) -> bool:
     return np.array_equal(one.tables.vector(), two.tables.vector())
 
 
-def gone_on(going: Underway, old: System, new: System, t: float, *, begun: bool) -> Underway:
-    """The run of the System `new` from where that of `old` is, which stays as it is."""
+def gone_on(going: Underway, old: System, new: System, t: float, span: float, *, begun: bool) -> Underway:
+    """The run of the System `new` from where that of `old` is, which stays as it is, with `span` as its length [s]."""
     memory, was = going.scope.memory, going.scope.problem
     begin = replace(new, initial=memory.array["y"].copy()) if begun else new
-    span = going.run.stop - going.run.start
     made = Underway(begin, replace(going.run, start=t, stop=t + span) if begun else going.run, going.take)
     now: Instance = made.scope.problem  # type: ignore[assignment]
     for name in KEPT if begun else ("set_due", "set_values"):
@@ -151,7 +160,7 @@ def gone_on(going: Underway, old: System, new: System, t: float, *, begun: bool)
             kept = before.in_offset == after.in_offset
             at_work.in_offset[kept] = here.in_offset[kept]
         if discrete(k) in new.working.places and begun:
-            variables = _discrete(after)
+            variables = discrete_columns(after)
             at_work.parameters[:, variables] = here.parameters[:, variables]
     if begun and not _same_tables(old, new):
         for table in new.timed_tables:

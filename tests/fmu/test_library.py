@@ -69,6 +69,42 @@ def test_the_example_beside_a_library_runs_and_goes_as_in_fairlead(tmp_path):
     assert float.fromhex(last.split()[-1]) == run.get("block.x")
 
 
+TUNES = """
+#include "tuned.h"
+#include <stdio.h>
+
+int main(void) {
+    double speed;
+    tuned *run = tuned_new();
+    if (run == NULL || tuned_set(run, tuned_INPUT_pull, 9.0) || tuned_tune(run, tuned_PARAMETER_load, 4.0)) return 1;
+    if (tuned_advance(run, 0.1, 0, NULL) || tuned_tune(run, tuned_PARAMETER_load, 14.0)) return 1;
+    unsigned char state[1 << 15];
+    if (tuned_save(run, state, sizeof state) || tuned_advance(run, 0.2, 0, NULL)) return 1;
+    if (tuned_get(run, tuned_OUTPUT_speed, &speed)) return 1;
+    printf("%a\\n", speed);
+    if (tuned_restore(run, state, tuned_state_size(run)) || tuned_tune(run, tuned_PARAMETER_load, 10.0)) return 1;
+    if (tuned_advance(run, 0.2, 0, NULL) || tuned_get(run, tuned_OUTPUT_speed, &speed)) return 1;
+    printf("%a\\n", speed);
+    if (tuned_tune(run, tuned_PARAMETER_load, 1e9) != -1) return 1;
+    printf("%s\\n", tuned_message(run));
+    tuned_free(run);
+    return 0;
+}
+"""
+
+
+def test_a_parameter_is_tuned_from_c(tmp_path):
+    """(9 - 2) N and then (9 - 7) N or (9 - 5) N on 2 kg, for 0.1 s each."""
+    needs_compiler()
+    scene = PUSHED + "  tunable: {load: pad.normal_force}\n"
+    folder = export_library(model(tmp_path, "tuned", scene), tmp_path / "tuned")
+    (folder / "tunes.c").write_text(TUNES)
+    one, other, refused = in_group([built(folder, folder / "tunes.c", "tuned")], env={}).splitlines()
+    assert float.fromhex(one) == pytest.approx(0.35 + 0.1, abs=1e-7)
+    assert float.fromhex(other) == pytest.approx(0.35 + 0.2, abs=1e-7)
+    assert refused == "is beyond its range (its min and max)"
+
+
 def test_names_that_c_does_not_take_are_changed_and_stay_apart(tmp_path):
     """Words of C, names with dots, two that would become one, descriptions that would end a comment."""
     needs_compiler()

@@ -161,6 +161,9 @@ def test_what_cannot_be_set_is_told_with_what_can(tmp_path):
         run.set("pad.normal_force", 3)
     with pytest.raises(ModelError, match="at least 0 N"):
         run.set("weight", -3)
+    other = model.start(tunable=["block.velocity"])
+    other.set("block.velocity", 0.4)
+    assert other.get("block.v") == 0.4  # before the start it says how to begin
     run.advance(0.1)
     with pytest.raises(UsageError, match="says how a run begins"):
         run.set("block.velocity", 3)

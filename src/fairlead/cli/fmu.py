@@ -36,6 +36,12 @@ Outputs = Annotated[
                  default_factory=list, show_default=False, autocompletion=completion.signals),
 ]  # fmt: skip
 
+Tunable = Annotated[
+    list[str],
+    typer.Option("--tunable", metavar="PARAMETER", help="A parameter that can be set while it runs. Repeatable.",
+                 default_factory=list, show_default=False),
+]  # fmt: skip
+
 
 def fmu(
     action: Annotated[
@@ -46,6 +52,7 @@ def fmu(
     libraries: Libraries,
     inputs: Inputs,
     outputs: Outputs,
+    tunable: Tunable,
     version: Annotated[Version, typer.Option("--fmi", help="Version of the standard, of an FMU.")] = Version.THREE,
     out: Annotated[
         pathlib.Path | None,
@@ -56,18 +63,18 @@ def fmu(
 ) -> None:
     """Write a model as a co-simulation FMU (docs/fmu.md) or as a C library (docs/coupling.md), for Linux on x86-64.
 
-    Neither needs Python where it runs. Inputs and outputs are those of the netlist's interface block and of --in and
-    --out. A C compiler links it.
+    Neither needs Python where it runs. Inputs, outputs and tunable parameters are those of the netlist's interface
+    block and of --in, --out and --tunable. A C compiler links it.
     """
     import fairlead
     from fairlead.fmu import export, export_library
 
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
     if action is Action.LIBRARY:
-        folder = export_library(model, out, inputs=inputs, outputs=outputs)
+        folder = export_library(model, out, inputs=inputs, outputs=outputs, tunable=tunable)
         if not quiet:
             echo(f"Library, header and an example in {folder}/")
         return
-    written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs)
+    written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs, tunable=tunable)
     if not quiet:
         echo(f"FMI {version.value}.0 for co-simulation in {written}")

@@ -1,16 +1,18 @@
 """modelDescription.xml of an FMU, for version 3 or 2 of the standard.
 
-Value references: 0 is time, then come inputs, then outputs, in order. Every variable is a real number in an SI unit.
+Value references: 0 is time, then come inputs, outputs and tunable parameters, in order. Every variable is a real
+number in an SI unit.
 """
 
 from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from fairlead.fmu.tuned import BEFORE, Tuned
 from fairlead.outer import Variable
 from fairlead.quantities import BASES, ENERGY, parse_unit
 
@@ -56,7 +58,7 @@ def identifier(name: str, longest: int = 60) -> str:
     return safe if safe and not safe[0].isdigit() else f"model_{safe}"
 
 
-def description(about: About, variables: Sequence[Variable], version: int) -> bytes:
+def description(about: About, variables: Sequence[Variable], tuned: Sequence[Tuned], version: int) -> bytes:
     """The text."""
     root = ET.Element("fmiModelDescription", _head(about, version))
     ET.SubElement(root, "CoSimulation", {"modelIdentifier": about.identifier} | OF_COSIMULATION[version])
@@ -71,7 +73,7 @@ def description(about: About, variables: Sequence[Variable], version: int) -> by
     if version == 2:
         annotated = ET.SubElement(ET.SubElement(root, "VendorAnnotations"), "Tool", name="fairlead")
         ET.SubElement(annotated, "netlist", digest=about.digest)
-    _variables(root, variables, version)
+    _variables(root, variables, {one.name: one for one in tuned}, version)
     _structure(root, variables, version)
     if version == 3:
         annotated = ET.SubElement(ET.SubElement(root, "Annotations"), "Annotation", type="fairlead")
@@ -99,7 +101,7 @@ def _units(root: ET.Element, variables: Sequence[Variable]) -> None:
             ET.SubElement(made, "BaseUnit", {base: str(power) for base, power in exponents.items() if power})
 
 
-def _variables(root: ET.Element, variables: Sequence[Variable], version: int) -> None:
+def _variables(root: ET.Element, variables: Sequence[Variable], tuned: Mapping[str, Tuned], version: int) -> None:
     found, names = ET.SubElement(root, "ModelVariables"), {one.name for one in variables}
     time = next(name for name in TIME if name not in names)
     _variable(found, {"name": time, "valueReference": "0", "causality": "independent", "variability": "continuous",
@@ -110,6 +112,10 @@ def _variables(root: ET.Element, variables: Sequence[Variable], version: int) ->
         kind = {"nominal": _number(one.nominal)} | ({"unit": one.unit} if one.unit != "1" else {})
         if one.causality == "input":
             kind["start"] = _number(one.start or 0.0)
+        elif one.causality == "parameter":
+            own = tuned[one.name]
+            said |= {"variability": "fixed" if own.when == BEFORE else "tunable", "initial": "exact"}
+            kind |= {"min": _number(own.low), "max": _number(own.high), "start": _number(own.value)}
         else:
             said["initial"] = "calculated"
         _variable(found, said, kind, version)

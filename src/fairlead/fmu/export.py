@@ -24,12 +24,15 @@ FOLDERS = {2: "linux64", 3: "x86_64-linux"}
 LICENCE = "The engine of fairlead: MIT (documentation/licenses/license.txt). The model: as its author says."
 
 
-def export(model: Model, file: str | os.PathLike[str] | None = None, *, version: int = 3, inputs: Iterable[str] = (),
-           outputs: Iterable[str] = (), **settings: Unpack[RunKeywords]) -> pathlib.Path:  # fmt: skip
+def export(
+    model: Model, file: str | os.PathLike[str] | None = None, *, version: int = 3, inputs: Iterable[str] = (),
+    outputs: Iterable[str] = (), tunable: Iterable[str] = (), **settings: Unpack[RunKeywords],
+) -> pathlib.Path:  # fmt: skip
     """Write a model as a co-simulation FMU for Linux on x86-64, and return the file.
 
     Inputs and outputs are those of the netlist's `interface` block, and signal inputs and signals named by `inputs`
-    and `outputs` (patterns with * and ?) under their names inside. `version` of the standard is 3 or 2, `settings`
+    and `outputs` (patterns with * and ?) under their names inside. Parameters of the block and of `tunable` can be set
+    while it runs, where what follows them does so by a law (tuned.py). `version` of the standard is 3 or 2, `settings`
     are those of `Model.run`. Without `file` it is the name of the model in this folder. An FMU of the same model has
     the same bytes.
 
@@ -41,9 +44,10 @@ def export(model: Model, file: str | os.PathLike[str] | None = None, *, version:
     given.path("file", file, none="None for the name of the model")
     given.texts("inputs", inputs, '"valve.command"')
     given.texts("outputs", outputs, '"spring.force"')
+    given.texts("tunable", tunable, '"pad.normal_force"')
     given.refuse()
     refuse_version(version)
-    asked = asked_of(model, inputs, outputs, settings)
+    asked = asked_of(model, inputs, outputs, tunable, settings)
     name = identifier(model.netlist.name)
     target = pathlib.Path(f"{name}.fmu" if file is None else file)
     write(target, _made(asked, name, version))
@@ -56,7 +60,7 @@ def _made(asked: Asked, name: str, version: int) -> bytes:
     about = _about(asked, name, made.token)
     library = linked(sources(made, name, ("wrapper.h", "wrapper.c", f"fmi{version}.c")))
     return packed({
-        "modelDescription.xml": description(about, made.variables, version),
+        "modelDescription.xml": description(about, made.variables, made.tuned, version),
         f"binaries/{FOLDERS[version]}/{name}.so": library,
         "documentation/licenses/license.txt": _licence(),
     })  # fmt: skip

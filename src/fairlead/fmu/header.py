@@ -7,16 +7,16 @@ from collections.abc import Iterable, Mapping, Sequence
 import fairlead.integrate.codes as codes
 from fairlead.fmu.image import Image
 from fairlead.fmu.machine_code import Code
-from fairlead.integrate.memory.arena import Memory
+from fairlead.fmu.tuned import Tuned, kept_words
 from fairlead.integrate.memory.layout import PLACES
 from fairlead.integrate.problem import Status
-from fairlead.system.compiled.system import Instance
+from fairlead.outside import LaidOpen
 
 FIELDS = (
     "t", "t_next", "start", "stop", "phase", "rows", "events", "at_y", "context", "call_outputs", "worst", "culprit",
     "dense", "midway", "replanned", "replans", "factorisations", "core_valid", "n", "n_core", "n_matrix",
     "at_matrix_starts", "at_matrix_rows", "at_matrix", "at_row_scale", "at_column_scale", "at_row_order",
-    "at_column_order",
+    "at_column_order", "at_absolute", "at_relative", "at_cap",
 )  # fmt: skip
 """Single values of the structs, and addresses in them, that the wrapper reads or writes."""
 REPLACED = (
@@ -27,10 +27,11 @@ REPLACED = (
 
 
 def header(
-    memory: Memory, own: Instance, image: Image, code: Code, *, columns: Sequence[int],
-    names: Mapping[str, Sequence[str]], token: str, identifier: str,
+    opened: LaidOpen, image: Image, code: Code, *, columns: Sequence[int],
+    names: Mapping[str, Sequence[str]], tuned: Sequence[Tuned], token: str, identifier: str,
 ) -> str:  # fmt: skip
     """The text. `columns` says which recorded values the outputs are; `names` are those of each `input`, `output`."""
+    own = opened.problem
     piece = {name: own.working.places[name].at for name in ("set_due", "set_values")}
     numbers = {
         "MEMORY_BYTES": image.size, "STATE_BYTES": image.state, "N_LINKS": len(image.links),
@@ -40,7 +41,11 @@ def header(
         **{f"AT_{name.upper()}": image.piece + at for name, at in piece.items()},
         **{f"STATUS_{name}": value for name, value in _statuses().items()}, "PHASE_TRY": codes.TRY,
     }  # fmt: skip
-    lines = ["/* Made by fairlead fmu export. */", '#include "image.h"']
+    laws = [(which, law) for which, one in enumerate(tuned) for law in one.laws]
+    kept = kept_words(opened, image.size, [law for _, law in laws])
+    numbers |= {"N_TUNED": len(tuned), "N_FOLLOWERS": len(laws), "N_KEPT": len(kept),
+                "KEPT_BYTES": sum(length for _, length in kept)}  # fmt: skip
+    lines = ["/* Made by fairlead. */", '#include "image.h"', '#include "tuned.h"']
     lines += [f"#define {name} {value}" for name, value in numbers.items()]
     lines += [f"#define MODEL_TOKEN {_text(token)}", f"#define MODEL_IDENTIFIER {_text(identifier)}"]
     lines.append(f"#define MODEL_PREFIX {identifier}")
@@ -51,6 +56,15 @@ def header(
     lines.append(_array("const int model_columns[]", map(str, columns)))
     texts = {"unknowns": own.unknown_names, "machines": own.machine_names, **{f"{k}s": v for k, v in names.items()}}
     lines += [_array(f"const char *const model_{what}[]", map(_text, those)) for what, those in texts.items()]
+    lines += [
+        _table("Parameter model_parameters[]", (
+            ", ".join([_text(one.name), *map(_exact, (one.value, one.low, one.high)), one.when]) for one in tuned
+        )),
+        _table("Follower model_followers[]", (
+            f"{law.at}, {which}, {law.law}, {_exact(law.offset)}, {_exact(law.slope)}" for which, law in laws
+        )),
+        _table("Kept model_kept[]", (f"{at}, {length}" for at, length in kept)),
+    ]  # fmt: skip
     return "\n".join(lines) + "\n"
 
 
@@ -71,6 +85,16 @@ def _statuses() -> Mapping[str, int]:
 def _array(declared: str, values: Iterable[str]) -> str:
     """An array of constants; one entry more, so that none is empty."""
     return f"static __attribute__((unused)) {declared} = {{{', '.join([*values, '0'])}}};"
+
+
+def _table(declared: str, rows: Iterable[str]) -> str:
+    """An array of structs; one entry more, so that none is empty."""
+    return f"static __attribute__((unused)) const {declared} = {{{', '.join(f'{{{row}}}' for row in [*rows, '0'])}}};"
+
+
+def _exact(number: float) -> str:
+    """A number in C, to the last bit."""
+    return float(number).hex()
 
 
 def _text(text: str) -> str:

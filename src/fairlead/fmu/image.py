@@ -1,7 +1,7 @@
 """The memory of a run that has not begun, as data: numbers as they are, addresses as places to be filled in.
 
-    memory      of an instance: the arena first, whose beginning is the state; then what else has addresses in it or is
-                written to. Only what is not zero is kept, in runs of bytes.
+    memory      of an instance: the arena first, whose beginning is the state; then what else has addresses in it, is
+                written to, or follows a parameter (tuned.py). Only what is not zero is kept, in runs of bytes.
     shared      what no run changes and has no address in it
     links       (place in memory, kind, target): an address in memory, in shared, or of a function by number
 
@@ -11,7 +11,7 @@ Nothing else in memory is an address: a word that holds one of an array that is 
 from __future__ import annotations
 
 import bisect
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -75,12 +75,26 @@ class _Placed(NamedTuple):
     name: str
 
 
-def image_of(memory: Memory, own: Instance, functions: Mapping[int, int]) -> Image:
-    """The image of a run at its start; `functions` are the numbers of functions by address.
+class Laid(NamedTuple):
+    """The same with the zeros, and with the names of what lies where."""
 
-    Raises ValueError for an address that is not known.
+    memory: np.ndarray
+    """Bytes, addresses blotted out."""
+    shared: np.ndarray
+    links: Sequence[Link]
+    arrays: Mapping[str, np.ndarray]
+    """By name, as they are in this process."""
+    places: Mapping[str, _Placed]
+
+
+def laid(memory: Memory, own: Instance, functions: Mapping[int, int], moved: Collection[str] = ()) -> Laid:
+    """A run at its start; `functions` are the numbers of functions by address.
+
+    `moved` names arrays that no run changes and that are to lie in the memory of an instance all the same. Raises
+    ValueError for an address that is not known.
     """
     mine, others = _arrays(memory, own)
+    mine |= {name: others.pop(name) for name in moved if name in others}
     placed, size = _laid_out(mine, MEMORY)
     of_others, length = _laid_out(others, SHARED)
     everything = sorted([*placed, *of_others])
@@ -95,8 +109,15 @@ def image_of(memory: Memory, own: Instance, functions: Mapping[int, int]) -> Ima
     ]  # fmt: skip
     words = filled.view(np.int64)
     words[[at // 8 for at, _, _ in _addresses(memory, own, where)]] = 0
+    return Laid(filled, shared, links, {**mine, **others}, {place.name: place for place in everything})
+
+
+def image_of(memory: Memory, own: Instance, found: Laid) -> Image:
+    """The image of what was laid."""
     piece = int(own.piece.ctypes.data) - int(memory.arena.ctypes.data)
-    return Image(size, memory.arena.nbytes, list(_runs(filled)), shared.tobytes(), links, piece)
+    return Image(
+        found.memory.size, memory.arena.nbytes, list(_runs(found.memory)), found.shared.tobytes(), found.links, piece
+    )
 
 
 def _arrays(memory: Memory, own: Instance) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:

@@ -38,12 +38,13 @@ RESERVED = frozenset(_WORDS.split())
 
 def export_library(
     model: Model, folder: str | os.PathLike[str] | None = None, *, inputs: Iterable[str] = (),
-    outputs: Iterable[str] = (), **settings: Unpack[RunKeywords],
+    outputs: Iterable[str] = (), tunable: Iterable[str] = (), **settings: Unpack[RunKeywords],
 ) -> pathlib.Path:  # fmt: skip
     """Write NAME.h, libNAME.so and example.c into a folder, and return the folder.
 
-    NAME is that of the model, as far as it is a name in C. Inputs, outputs and settings are those of
-    `fairlead.fmu.export`; without `folder` it is NAME in this folder. A library of the same model has the same bytes.
+    NAME is that of the model, as far as it is a name in C. Inputs, outputs, tunable parameters and settings are those
+    of `fairlead.fmu.export`; without `folder` it is NAME in this folder. A library of the same model has the same
+    bytes.
 
     Raises ModelError as `Model.start` does, and UsageError for what cannot go along, without a C compiler, and where
     a file cannot be written.
@@ -53,8 +54,9 @@ def export_library(
     given.path("folder", folder, none="None for the name of the model")
     given.texts("inputs", inputs, '"valve.command"')
     given.texts("outputs", outputs, '"spring.force"')
+    given.texts("tunable", tunable, '"pad.normal_force"')
     given.refuse()
-    asked = asked_of(model, inputs, outputs, settings)
+    asked = asked_of(model, inputs, outputs, tunable, settings)
     name = prefix(model.netlist.name)
     made = made_of(asked)
     target = pathlib.Path(name if folder is None else folder)
@@ -81,8 +83,8 @@ def header_text(name: str, title: str, variables: Sequence[Variable]) -> str:
 
 
 def _numbers(name: str, variables: Sequence[Variable]) -> Iterator[str]:
-    """Enumerations with the numbers of inputs and outputs."""
-    for causality, what in (("input", "INPUTS"), ("output", "OUTPUTS")):
+    """Enumerations with the numbers of inputs, outputs and parameters."""
+    for causality, what in (("input", "INPUTS"), ("output", "OUTPUTS"), ("parameter", "PARAMETERS")):
         those = [one for one in variables if one.causality == causality]
         entries = [f"{name}_{causality.upper()}_{safe}" for safe in _distinct([one.name for one in those])]
         lines = [f"    {entry}, /* {_told(one)} */" for entry, one in zip(entries, those, strict=True)]

@@ -7,13 +7,13 @@ import hashlib
 import importlib.metadata
 import importlib.resources
 import uuid
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from fairlead.fmu.compiler import compiler
 from fairlead.fmu.data import data_object
 from fairlead.fmu.header import header, stubs
-from fairlead.fmu.image import Image, image_of
+from fairlead.fmu.image import Image, Laid, image_of, laid
 from fairlead.fmu.machine_code import Code, objects
 from fairlead.fmu.refusals import (
     refuse_engine,
@@ -23,8 +23,9 @@ from fairlead.fmu.refusals import (
     refuse_platform,
     refuse_twice,
 )
+from fairlead.fmu.tuned import Another, Tuned, with_parameters
 from fairlead.netlist.interface import Outer
-from fairlead.outer import Variable
+from fairlead.outer import Variable, find_tunable
 from fairlead.outside import LaidOpen, Stepping, laid_open
 from fairlead.patterns import picked
 from fairlead.run import engine_of
@@ -36,17 +37,20 @@ if TYPE_CHECKING:
     from fairlead.simulate import Model
     from fairlead.system.compiled.system import System
 
-RUN = ("run.h", "run.c", "image.h", "pivots.h", "pivots.c")
+RUN = ("run.h", "run.c", "image.h", "pivots.h", "pivots.c", "tuned.h", "tuned.c")
 """C of a run, which every kind of library has."""
 
 
 class Asked(NamedTuple):
     """What is to be made."""
 
+    model: Model
     netlist: Netlist
+    """That of the model, with all outputs in its interface."""
     settings: RunSettings
-    system: System
     inputs: Sequence[str]
+    tunable: Sequence[Variable]
+    """Parameters that can be set while it runs."""
 
 
 class Made(NamedTuple):
@@ -56,10 +60,13 @@ class Made(NamedTuple):
     image: Image
     code: Code
     variables: Sequence[Variable]
+    tuned: Sequence[Tuned]
     token: str
 
 
-def asked_of(model: Model, inputs: Iterable[str], outputs: Iterable[str], settings: RunKeywords) -> Asked:
+def asked_of(
+    model: Model, inputs: Iterable[str], outputs: Iterable[str], tunable: Iterable[str], settings: RunKeywords
+) -> Asked:
     """What is asked for, or UsageError for what this machine or a copy of the model cannot do."""
     from fairlead.netlist.keywords import with_keywords
 
@@ -67,8 +74,10 @@ def asked_of(model: Model, inputs: Iterable[str], outputs: Iterable[str], settin
     compiler()
     chosen = with_keywords(model.netlist.run, settings)
     refuse_engine(engine_of(chosen, model.system)[0])
-    refuse_names(model.system, inputs, outputs)
-    return Asked(_with_outputs(model.netlist, model.system, outputs), chosen, model.system, list(inputs))
+    parameters, faults = find_tunable(model.netlist, model.assembly.entries, tunable)
+    refuse_names(model.system, inputs, outputs, faults)
+    netlist = _with_outputs(model.netlist, model.system, outputs)
+    return Asked(model, netlist, chosen, list(inputs), parameters)
 
 
 def _with_outputs(netlist: Netlist, system: System, outputs: Iterable[str]) -> Netlist:
@@ -81,17 +90,41 @@ def _with_outputs(netlist: Netlist, system: System, outputs: Iterable[str]) -> N
 
 def made_of(asked: Asked) -> Made:
     """Memory and machine code of a run at its start. Raises UsageError for parts that cannot go along."""
-    netlist = asked.netlist
-    if not netlist.interface.outputs:
+    if not asked.netlist.interface.outputs:
         refuse_no_outputs()
-    record = [outer.of for outer in netlist.interface.outputs.values()]
-    run = Stepping(netlist, asked.settings, asked.system, asked.inputs, record)
-    refuse_twice([one.name for one in run.variables])
+    run = _run_of(asked, asked.model)
+    variables = [*run.variables, *asked.tunable]
+    refuse_twice([one.name for one in variables])
     opened = laid_open(run)
     refuse_parts(opened.problem)
     code = objects(opened.engine, opened.problem)
-    image = image_of(opened.memory, opened.problem, code.numbers)
-    return Made(opened, image, code, run.variables, _token(image, code, run.variables))
+
+    def lay(value: Mapping[str, float], moved: Collection[str]) -> Laid:
+        other = laid_open(_run_of(asked, _alike(asked.model, value))) if value else opened
+        return laid(other.memory, other.problem, code.numbers, moved)
+
+    found, tuned = with_parameters(asked.tunable, lay, opened)
+    image = image_of(opened.memory, opened.problem, found)
+    return Made(opened, image, code, variables, tuned, _token(image, code, variables, tuned))
+
+
+def _alike(model: Model, value: Mapping[str, float]) -> Model:
+    """The model with another value. Raises Another where it is not of the same structure and the same times."""
+    other = model.with_values(value)
+    if other.rebuilt:
+        raise Another(f"the structure depends on it ({other.rebuilt.partition(': ')[2].removesuffix('.')})")
+    systems = (model.system, other.system)
+    times = [[table.polynomial.rows[:, 0].tolist() for table in one.timed_tables] for one in systems]
+    periods = [one.memory["sample_period"].tolist() for one in systems]
+    if times[0] != times[1] or periods[0] != periods[1]:
+        raise Another("it says at which times something happens")
+    return other
+
+
+def _run_of(asked: Asked, model: Model) -> Stepping:
+    """A run of a model of this structure, at its start."""
+    record = [outer.of for outer in asked.netlist.interface.outputs.values()]
+    return Stepping(asked.netlist, asked.settings, model.system, asked.inputs, record)
 
 
 def sources(made: Made, identifier: str, own: Sequence[str]) -> Mapping[str, bytes]:
@@ -101,17 +134,18 @@ def sources(made: Made, identifier: str, own: Sequence[str]) -> Mapping[str, byt
         causality: [one.name for one in made.variables if one.causality == causality]
         for causality in ("input", "output")
     }
-    text = header(made.opened.memory, made.opened.problem, made.image, made.code, columns=columns, names=names,
-                  token=made.token, identifier=identifier)  # fmt: skip
+    text = header(made.opened, made.image, made.code, columns=columns, names=names,
+                  tuned=made.tuned, token=made.token, identifier=identifier)  # fmt: skip
     folder = importlib.resources.files("fairlead.fmu") / "c"
     files = {name: (folder / name).read_bytes() for name in (*RUN, *own)}
     generated = {"model.h": text.encode(), "stubs.c": stubs(made.code).encode(), "data.o": data_object(made.image)}
     return {**files, **made.code.objects, **generated}
 
 
-def _token(image: Image, code: Code, variables: Sequence[Variable]) -> str:
+def _token(image: Image, code: Code, variables: Sequence[Variable], tuned: Sequence[Tuned]) -> str:
     """What tells this library from all others: a hash of all that it is made of."""
-    state = hashlib.sha256(repr((image.size, image.state, list(image.links), variables, code.functions)).encode())
+    told = (image.size, image.state, list(image.links), variables, tuned, code.functions)
+    state = hashlib.sha256(repr(told).encode())
     for part in (*(bytes(run) for _, run in image.runs), image.shared, *code.objects.values()):
         state.update(len(part).to_bytes(8, "little") + part)
     return f"{{{uuid.UUID(bytes=state.digest()[:16])}}}"

@@ -6,7 +6,7 @@ import platform
 import sys
 from collections.abc import Collection, Iterable
 
-from fairlead.errors import UsageError, did_you_mean, listing, shown
+from fairlead.errors import Fault, UsageError, did_you_mean, listing, shown
 from fairlead.foreign.block import ForeignBlock
 from fairlead.patterns import picked
 from fairlead.system.compiled.opened import free_inputs
@@ -55,14 +55,15 @@ def refuse_parts(own: Instance) -> None:
         raise UsageError("\n".join(told))
 
 
-def refuse_names(system: System, inputs: Iterable[str], outputs: Iterable[str]) -> None:
-    """Raise UsageError for inputs that are not free and outputs that no signal has, by name."""
+def refuse_names(system: System, inputs: Iterable[str], outputs: Iterable[str], parameters: Iterable[Fault]) -> None:
+    """Raise UsageError for inputs that are not free, outputs that no signal has, and what is wrong with parameters."""
     free = [name for one in free_inputs(system) for name in one.names]
     signals = dict.fromkeys(signal.name for signal in system.signals)
     wrong = [_unknown("--in", name, free, "input that is free", "Free inputs") for name in inputs if name not in free]
     wrong += [
         _unknown("--out", name, signals, "signal", "Signals") for name in outputs if not picked(signals, name)
     ]  # fmt: skip
+    wrong += [f"--tunable: {fault.what}\n    {fault.way_out}" for fault in parameters]
     if wrong:
         raise UsageError("\n".join(wrong))
 

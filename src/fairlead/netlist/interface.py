@@ -12,10 +12,11 @@ OuterName = Annotated[str, StringConstraints(pattern=r"^[a-zA-Z_]\w*$", max_leng
 
 
 class Outer(Strict):
-    """A signal under the name that it has outside."""
+    """A signal or a parameter under the name that it has outside."""
 
     of: str
-    """The signal inside: of an input one that nothing is connected to, of an output any that can be recorded."""
+    """What it is inside: of an input a signal that nothing is connected to, of an output any that can be recorded; of
+    what is tunable a parameter."""
     unit: str = ""
     """Its unit outside, where the model has a plain number."""
     description: str = ""
@@ -45,9 +46,11 @@ def _nothing_is_empty(value: object) -> object:
 
 
 class Interface(Strict):
-    """Inputs and outputs by the names that they have outside."""
+    """Inputs, outputs and tunable parameters by the names that they have outside."""
 
     inputs: Annotated[Inputs, BeforeValidator(_nothing_is_empty)] = {}
     """What is set from outside, such as reference: command.value."""
     outputs: Annotated[Outputs, BeforeValidator(_nothing_is_empty)] = {}
     """What is read outside, such as force: spring.tension."""
+    tunable: Annotated[Outputs, BeforeValidator(_nothing_is_empty)] = {}
+    """What can be set between two steps, such as load: pad.normal_force."""

@@ -1,6 +1,6 @@
 /* The calls of library.h: those of run.h under the name of the model, with their arguments looked at. */
-#include "run.h"
 #include "model.h"
+#include "run.h"
 
 #include <math.h>
 
@@ -20,6 +20,12 @@ OFFERED int OF_MODEL(set)(Run *run, int input, double value) {
     if (!isfinite(value)) return run_refuse(run, "set: the value is not a finite number.");
     run_set(run, input, value);
     return 0;
+}
+
+OFFERED int OF_MODEL(tune)(Run *run, int parameter, double value) {
+    if (parameter < 0 || parameter >= N_TUNED) return run_refuse(run, "tune: there is no parameter of this number.");
+    const char *why = run_tune(run, parameter, value);
+    return why == NULL ? 0 : run_refuse(run, why);
 }
 
 OFFERED int OF_MODEL(advance)(Run *run, double goal, int until_change, int *changed) {
@@ -60,6 +66,9 @@ OFFERED int OF_MODEL(restore)(Run *run, const unsigned char *state, size_t size)
 
 OFFERED const char *OF_MODEL(input_name)(int input) {
     return input >= 0 && input < N_INPUTS ? model_inputs[input] : NULL;
+}
+OFFERED const char *OF_MODEL(parameter_name)(int parameter) {
+    return parameter >= 0 && parameter < N_TUNED ? model_parameters[parameter].name : NULL;
 }
 OFFERED const char *OF_MODEL(output_name)(int output) {
     return output >= 0 && output < N_OUTPUTS ? model_outputs[output] : NULL;

@@ -3,7 +3,9 @@
 #include "image.h"
 #include "model.h"
 #include "pivots.h"
+#include "tuned.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +19,8 @@ struct Run {
     int changes; /* zone changes since they were last counted */
     Pivots *pivots;       /* that the run has come upon, or NULL */
     int64_t replanned_at; /* how often was factorised when it did */
+    double tuned[N_TUNED + 1], asked[N_TUNED + 1]; /* values of parameters in force, and as they were set last */
+    int tune_due;
     char message[MESSAGE];
 };
 
@@ -26,6 +30,8 @@ typedef struct {
     int32_t begun, ended;
     int64_t replanned_at;
     int64_t n_lower, n_upper; /* of its pivots, which follow the arena; -1 for those of the plan */
+    double tuned[N_TUNED + 1], asked[N_TUNED + 1];
+    int64_t tune_due;
 } Header;
 
 static int64_t *whole(const Run *run, int64_t at) { return (int64_t *)(run->memory + at); }
@@ -44,10 +50,21 @@ static void link_up(Run *run) {
 static void fill(Run *run) {
     for (int64_t k = 0; k < N_RUNS; k++)
         memcpy(run->memory + fairlead_runs[k].at, fairlead_bytes + fairlead_runs[k].from, fairlead_runs[k].length);
+    tuned_apply(run->memory, run->tuned);
     link_up(run);
     run->begun = run->ended = run->changes = 0;
     run->replanned_at = -1;
     run->message[0] = 0;
+}
+
+static void fill_anew(Run *run) {
+    memset(run->memory, 0, MEMORY_BYTES);
+    fill(run);
+}
+
+static void with_own_parameters(Run *run) {
+    for (int k = 0; k < N_TUNED; k++) run->tuned[k] = run->asked[k] = model_parameters[k].value;
+    run->tune_due = 0;
 }
 
 static void forget_pivots(Run *run) {
@@ -64,6 +81,7 @@ Run *run_new(void) {
         return NULL;
     }
     run->memory = run->room + (LINE - (uintptr_t)run->room % LINE) % LINE;
+    with_own_parameters(run);
     fill(run);
     return run;
 }
@@ -77,8 +95,8 @@ void run_free(Run *run) {
 
 void run_reset(Run *run) {
     forget_pivots(run);
-    memset(run->memory, 0, MEMORY_BYTES);
-    fill(run);
+    with_own_parameters(run);
+    fill_anew(run);
 }
 
 double run_time(const Run *run) { return *real(run, AT_T); }
@@ -89,6 +107,19 @@ void run_set(Run *run, int input, double value) {
 }
 
 double run_input(const Run *run, int input) { return real(run, AT_SET_VALUES)[input]; }
+
+const char *run_tune(Run *run, int parameter, double value) {
+    const Parameter *one = &model_parameters[parameter];
+    if (value == run->asked[parameter]) return NULL;
+    if (!(value >= one->low && value <= one->high)) return "is beyond its range (its min and max)";
+    if (run->begun && one->when == WHEN_BEFORE) return "says how a run begins, and changes nothing now";
+    if (!run->begun && one->when == WHEN_AFTER) return "can be set after the start only: the start follows it otherwise";
+    run->asked[parameter] = value;
+    run->tune_due = 1;
+    return NULL;
+}
+
+double run_parameter(const Run *run, int parameter) { return run->asked[parameter]; }
 
 const char *run_message(const Run *run) { return run->message; }
 
@@ -196,8 +227,45 @@ static int step(Run *run, double goal) {
     return said;
 }
 
+/* The units of the unknowns, which are those at the start of a run (fairlead/integrate/prepare.py). In memory where
+   there are parameters, and then a part of the state. */
+static double *units(const Run *run) { return (double *)(intptr_t)*whole(run, AT_AT_COLUMN_SCALE); }
+enum { UNITS_BYTES = N_TUNED > 0 ? N_UNKNOWNS * sizeof(double) : 0 };
+
+static void take_units(Run *run) {
+    const double *y = (const double *)(intptr_t)*whole(run, AT_AT_Y), *cap = (const double *)(intptr_t)*whole(run, AT_AT_CAP);
+    const double *absolute = (const double *)(intptr_t)*whole(run, AT_AT_ABSOLUTE);
+    const double *relative = (const double *)(intptr_t)*whole(run, AT_AT_RELATIVE);
+    for (int k = 0; k < N_UNKNOWNS; k++) units(run)[k] = fmin(absolute[k] + relative[k] * fabs(y[k]), cap[k]);
+}
+
+/* Go on with the values of parameters that were set: as a run that begins where this one is (fairlead/tuning.py). */
+static int go_over(Run *run) {
+    if (!run->tune_due) return 0;
+    unsigned char *room = malloc(KEPT_BYTES + 1);
+    if (room == NULL) return run_refuse(run, "There is no memory to change a parameter.");
+    memcpy(run->tuned, run->asked, sizeof run->tuned);
+    run->tune_due = 0;
+    if (!run->begun) {
+        tuned_apply(run->memory, run->tuned);
+    } else {
+        const double t = run_time(run);
+        kept_save(run->memory, room);
+        forget_pivots(run);
+        fill_anew(run);
+        kept_restore(run->memory, room);
+        *real(run, AT_STOP) = t + (*real(run, AT_STOP) - *real(run, AT_START));
+        *real(run, AT_START) = *real(run, AT_T) = t;
+        take_units(run);
+        run->begun = 1;
+    }
+    free(room);
+    return 0;
+}
+
 int run_begin(Run *run) {
     if (run->begun) return 0;
+    if (go_over(run)) return -1;
     run->begun = 1;
     while (run_time(run) == *real(run, AT_START) && *whole(run, AT_PHASE) != PHASE_TRY)
         if (enter(run, 0)) return -1;
@@ -205,7 +273,7 @@ int run_begin(Run *run) {
 }
 
 int run_settle(Run *run) {
-    if (run_begin(run)) return -1;
+    if (run_begin(run) || go_over(run)) return -1;
     while (*whole(run, AT_SET_DUE))
         if (step(run, run_time(run))) return -1;
     while (*whole(run, AT_PHASE) != PHASE_TRY)
@@ -215,7 +283,7 @@ int run_settle(Run *run) {
 
 int run_advance(Run *run, double goal, int until_change, int *changed) {
     *changed = 0;
-    if (run_begin(run)) return -1;
+    if (run_begin(run) || go_over(run)) return -1;
     if (goal == run_time(run)) return run_settle(run);
     if (goal >= *real(run, AT_STOP)) /* the span is a scale of times, and its end no event */
         *real(run, AT_STOP) = *real(run, AT_START) + 2.0 * (goal - *real(run, AT_START));
@@ -243,7 +311,7 @@ static size_t pivots_of(const Run *run, int64_t n_lower, int64_t n_upper) {
 
 size_t run_state_size(const Run *run) {
     const Pivots *pivots = run->pivots;
-    return sizeof(Header) + STATE_BYTES + (pivots == NULL ? 0 : pivots_of(run, pivots->n_lower, pivots->n_upper));
+    return sizeof(Header) + STATE_BYTES + UNITS_BYTES + (pivots == NULL ? 0 : pivots_of(run, pivots->n_lower, pivots->n_upper));
 }
 
 void run_save(const Run *run, unsigned char *state) {
@@ -253,31 +321,40 @@ void run_save(const Run *run, unsigned char *state) {
     header.begun = run->begun;
     header.ended = run->ended;
     header.replanned_at = run->replanned_at;
+    memcpy(header.tuned, run->tuned, sizeof header.tuned);
+    memcpy(header.asked, run->asked, sizeof header.asked);
+    header.tune_due = run->tune_due;
     header.n_lower = run->pivots == NULL ? -1 : run->pivots->n_lower;
     header.n_upper = run->pivots == NULL ? -1 : run->pivots->n_upper;
     memcpy(state, &header, sizeof header);
     memcpy(state + sizeof header, run->memory, STATE_BYTES);
     for (int64_t k = 0; k < N_LINKS; k++) /* addresses belong to a run, and are no part of its state */
         if (fairlead_links[k].at < STATE_BYTES) memset(state + sizeof header + fairlead_links[k].at, 0, 8);
+    if (UNITS_BYTES > 0) memcpy(state + sizeof header + STATE_BYTES, units(run), UNITS_BYTES);
     if (run->pivots != NULL)
-        memcpy(state + sizeof header + STATE_BYTES, run->pivots, pivots_of(run, header.n_lower, header.n_upper));
+        memcpy(state + sizeof header + STATE_BYTES + UNITS_BYTES, run->pivots, pivots_of(run, header.n_lower, header.n_upper));
 }
 
 int run_restore(Run *run, const unsigned char *state, size_t size) {
     Header header;
     Pivots *pivots = NULL;
-    if (size < sizeof header + STATE_BYTES) return -1;
+    if (size < sizeof header + STATE_BYTES + UNITS_BYTES) return -1;
     memcpy(&header, state, sizeof header);
-    size_t more = size - sizeof header - STATE_BYTES;
+    size_t more = size - sizeof header - STATE_BYTES - UNITS_BYTES;
     if (memcmp(header.token, MODEL_TOKEN, sizeof MODEL_TOKEN)) return -1;
     if (more != pivots_of(run, header.n_lower, header.n_upper)) return -1;
     if (more > 0) {
         pivots = malloc(more);
         if (pivots == NULL) return -1;
-        memcpy(pivots, state + sizeof header + STATE_BYTES, more);
+        memcpy(pivots, state + sizeof header + STATE_BYTES + UNITS_BYTES, more);
     }
+    memcpy(run->tuned, header.tuned, sizeof header.tuned);
+    memcpy(run->asked, header.asked, sizeof header.asked);
+    run->tune_due = (int)header.tune_due;
+    tuned_apply(run->memory, run->tuned);
     memcpy(run->memory, state + sizeof header, STATE_BYTES);
     link_up(run);
+    if (UNITS_BYTES > 0) memcpy(units(run), state + sizeof header + STATE_BYTES, UNITS_BYTES);
     forget_pivots(run);
     run->pivots = pivots;
     if (pivots != NULL) pivots_link(run->memory, pivots);

@@ -21,6 +21,10 @@ double run_time(const Run *run);
 void run_set(Run *run, int input, double value);
 /* An input as it was set last. */
 double run_input(const Run *run, int input);
+/* Set a parameter from here on, as inputs; NULL, or why it cannot be set to that. */
+const char *run_tune(Run *run, int parameter, double value);
+/* A parameter as it was set last. */
+double run_parameter(const Run *run, int parameter);
 
 /* These return 0, or -1 where the run cannot go on: run_message says why, and the run stays where it got to. */
 

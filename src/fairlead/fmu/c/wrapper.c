@@ -9,6 +9,7 @@
 #include <string.h>
 
 enum { TEXT = 1400 };
+#define LAST_REFERENCE (N_INPUTS + N_OUTPUTS + N_TUNED)
 static const double SAME_TIME = 1e-9; /* of a step: what a master's sums may be off */
 
 static enum Said say(Instance *instance, enum Said said, const char *form, ...) {
@@ -87,16 +88,21 @@ static enum Said failed(Instance *instance) {
     return say(instance, SAID_ERROR, "%s", run_message(instance->run));
 }
 
+/* To before the start, with what was set since. */
+static void back_to_start(Instance *instance) {
+    double inputs[N_INPUTS + 1], parameters[N_TUNED + 1];
+    for (int k = 0; k < N_INPUTS; k++) inputs[k] = run_input(instance->run, k);
+    for (int k = 0; k < N_TUNED; k++) parameters[k] = run_parameter(instance->run, k);
+    run_reset(instance->run);
+    for (int k = 0; k < N_TUNED; k++) run_tune(instance->run, k, parameters[k]);
+    for (int k = 0; k < N_INPUTS; k++)
+        if (inputs[k] != run_input(instance->run, k)) run_set(instance->run, k, inputs[k]);
+    instance->begun_anew = 0;
+}
+
 /* While initialising what is set last counts: the run begins again with it. */
 static enum Said begin(Instance *instance) {
-    if (instance->begun_anew) {
-        double inputs[N_INPUTS + 1];
-        for (int k = 0; k < N_INPUTS; k++) inputs[k] = run_input(instance->run, k);
-        run_reset(instance->run);
-        for (int k = 0; k < N_INPUTS; k++)
-            if (inputs[k] != run_input(instance->run, k)) run_set(instance->run, k, inputs[k]);
-        instance->begun_anew = 0;
-    }
+    if (instance->begun_anew) back_to_start(instance);
     return run_begin(instance->run) ? failed(instance) : SAID_OK;
 }
 
@@ -124,6 +130,8 @@ enum Said get_reals(Instance *instance, const unsigned references[], size_t n, d
                 known = 1;
             }
             values[k] = outputs[at - N_INPUTS - 1];
+        } else if (at <= LAST_REFERENCE) {
+            values[k] = run_parameter(instance->run, (int)(at - N_INPUTS - N_OUTPUTS - 1));
         } else {
             return say(instance, SAID_ERROR, "get: there is no variable with the value reference %u.", at);
         }
@@ -131,19 +139,31 @@ enum Said get_reals(Instance *instance, const unsigned references[], size_t n, d
     return SAID_OK;
 }
 
+static int is_parameter(unsigned at) { return at > N_INPUTS + N_OUTPUTS && at <= LAST_REFERENCE; }
+
+static enum Said set_parameter(Instance *instance, int parameter, double value) {
+    const char *name = model_parameters[parameter].name;
+    if (instance->stage == MADE || instance->stage == INITIALISING) back_to_start(instance); /* an output may be read */
+    const char *why = run_tune(instance->run, parameter, value);
+    return why == NULL ? SAID_OK : say(instance, SAID_ERROR, "set: %s = %.9g %s.", name, value, why);
+}
+
 enum Said set_reals(Instance *instance, const unsigned references[], size_t n, const double values[], size_t given) {
     if (given != n) return refuse(instance, "set", "every variable is one number.");
     for (size_t k = 0; k < n; k++) {
         unsigned at = references[k];
-        if (at == 0 || at > N_INPUTS)
-            return say(instance, SAID_ERROR, "set: the value reference %u is of no input.", at);
+        if ((at == 0 || at > N_INPUTS) && !is_parameter(at))
+            return say(instance, SAID_ERROR, "set: the value reference %u is of no input and no parameter.", at);
         if (!isfinite(values[k]))
             return say(instance, SAID_ERROR, "set: %s is given a value that is not a finite number.",
-                       model_inputs[at - 1]);
+                       at <= N_INPUTS ? model_inputs[at - 1] : model_parameters[at - N_INPUTS - N_OUTPUTS - 1].name);
     }
     for (size_t k = 0; k < n; k++) {
         int input = (int)references[k] - 1;
-        if (instance->stage == INITIALISING || instance->stage == MADE) {
+        if (is_parameter(references[k])) {
+            enum Said said = set_parameter(instance, input - N_INPUTS - N_OUTPUTS, values[k]);
+            if (said != SAID_OK) return said;
+        } else if (instance->stage == INITIALISING || instance->stage == MADE) {
             instance->begun_anew = 1;
             run_set(instance->run, input, values[k]);
         } else if (values[k] != run_input(instance->run, input)) { /* a value that stays is no event */

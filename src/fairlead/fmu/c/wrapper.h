@@ -41,7 +41,7 @@ enum Said not_offered(Instance *instance, const char *function);
 
 enum Said set_up(Instance *instance, double start);
 enum Said initialised(Instance *instance, enum Stage next);
-/* Numbers by value reference: 0 is time, then inputs, then outputs. */
+/* Numbers by value reference: 0 is time, then inputs, then outputs, then parameters. */
 enum Said get_reals(Instance *instance, const unsigned references[], size_t n, double values[], size_t room);
 enum Said set_reals(Instance *instance, const unsigned references[], size_t n, const double values[], size_t given);
 enum Said settle(Instance *instance);

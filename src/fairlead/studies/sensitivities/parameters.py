@@ -6,14 +6,14 @@ was left out have no derivative; a quantity in time has one where it is constant
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fairlead.component.given import Block, Parameter, Waveform
-from fairlead.component.values import Group, Values, Wave
+from fairlead.component.numbers import numbers, numbers_of_scene
+from fairlead.component.values import Group, Values
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
-from fairlead.quantities import QuantityError, parse_unit, si, split, unit_text
+from fairlead.quantities import QuantityError, si
 
 if TYPE_CHECKING:
     from fairlead.simulate import Model
@@ -37,58 +37,14 @@ class Varied:
 
 def asked_parameters(model: Model, wanted: Mapping[str, str | float | None], faults: list[Fault]) -> list[Varied]:
     """The parameters of these names, each with its size if one is given; what is wrong goes to `faults`."""
-    known = numbers(model)
+    known = numbers(model.netlist, model.assembly.entries)
     found = (_varied(model, known, name, size, faults) for name, size in wanted.items())
     return [one for one in found if one is not None]
 
 
-def numbers(model: Model) -> dict[str, tuple[float, str]]:
-    """Value [SI] and unit of every parameter of a model that is a number."""
-    found = dict(_of_scene(model))
-    for name, values in model.assembly.entries.items():
-        found |= {f"{name}.{inner}": one for inner, one in _of_values(values)}
-    return found
-
-
 def defaults(model: Model) -> list[str]:
     """What is varied when nobody says: the numbers among the parameters of the scene."""
-    return [name for name, _ in _of_scene(model)]
-
-
-def _of_scene(model: Model) -> Iterator[tuple[str, tuple[float, str]]]:
-    for name, value in model.netlist.parameters.items():
-        if isinstance(value.content, bool) or not isinstance(value.content, str | int | float):
-            continue
-        text = str(value.content)
-        try:
-            number, unit = split(text)
-            one = parse_unit(unit) if unit else None
-        except QuantityError:
-            continue
-        yield name, (number * (one.factor if one else 1.0), unit_text(one.dimension) if one else "")
-
-
-def _of_values(values: Values) -> Iterator[tuple[str, tuple[float, str]]]:
-    declared = values.type.declaration.parameters
-    for name, value in values.given.items():
-        yield from _of_one(name, declared.get(name), value)
-
-
-def _of_one(name: str, declared: Any, value: Any) -> Iterator[tuple[str, tuple[float, str]]]:
-    if isinstance(value, Values):
-        yield from ((f"{name}.{inner}", one) for inner, one in _of_values(value))
-    elif isinstance(value, Group) and isinstance(declared, Block):
-        for inner, content in vars(value).items():
-            found = _of_one(inner, declared.parameters.get(inner), content)
-            yield from ((f"{name}.{more}", one) for more, one in found)
-    elif isinstance(declared, Parameter) and isinstance(value, int | float) and not isinstance(value, bool):
-        yield name, (float(value), declared.unit)
-    elif isinstance(declared, Waveform) and isinstance(value, Wave) and _is_steady(value):
-        yield name, (value(0.0), declared.unit)
-
-
-def _is_steady(wave: Wave) -> bool:
-    return wave.sine.amplitude == 0 and len(wave.polynomial.rows) == 1 and not wave.polynomial.rows[0, 4:].any()
+    return list(numbers_of_scene(model.netlist))
 
 
 def _varied(

@@ -1,0 +1,64 @@
+"""Every parameter of a model that is a number, with value and unit: of the scene, of components and inside them.
+
+They bear the names that `--set` takes: `mu`, `pad.normal_force`, `pad.curve.stiction`. Counts, words, tables and what
+was left out are none; a quantity in time is one where it is constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from fairlead.component.given import Block, Parameter, Waveform
+from fairlead.component.values import Group, Values, Wave
+from fairlead.netlist.netlist import Netlist
+from fairlead.quantities import QuantityError, parse_unit, split, unit_text
+
+
+def numbers(netlist: Netlist, entries: Mapping[str, Values]) -> dict[str, tuple[float, str]]:
+    """Value [SI] and unit of every parameter that is a number; `entries` are the components by name."""
+    found = numbers_of_scene(netlist)
+    for name, values in entries.items():
+        found |= {f"{name}.{inner}": one for inner, one in _of_values(values)}
+    return found
+
+
+def numbers_of_scene(netlist: Netlist) -> dict[str, tuple[float, str]]:
+    """Value [SI] and unit of the numbers among the parameters of the scene."""
+    return dict(_of_scene(netlist))
+
+
+def _of_scene(netlist: Netlist) -> Iterator[tuple[str, tuple[float, str]]]:
+    for name, value in netlist.parameters.items():
+        if isinstance(value.content, bool) or not isinstance(value.content, str | int | float):
+            continue
+        text = str(value.content)
+        try:
+            number, unit = split(text)
+            one = parse_unit(unit) if unit else None
+        except QuantityError:
+            continue
+        yield name, (number * (one.factor if one else 1.0), unit_text(one.dimension) if one else "")
+
+
+def _of_values(values: Values) -> Iterator[tuple[str, tuple[float, str]]]:
+    declared = values.type.declaration.parameters
+    for name, value in values.given.items():
+        yield from _of_one(name, declared.get(name), value)
+
+
+def _of_one(name: str, declared: Any, value: Any) -> Iterator[tuple[str, tuple[float, str]]]:
+    if isinstance(value, Values):
+        yield from ((f"{name}.{inner}", one) for inner, one in _of_values(value))
+    elif isinstance(value, Group) and isinstance(declared, Block):
+        for inner, content in vars(value).items():
+            found = _of_one(inner, declared.parameters.get(inner), content)
+            yield from ((f"{name}.{more}", one) for more, one in found)
+    elif isinstance(declared, Parameter) and isinstance(value, int | float) and not isinstance(value, bool):
+        yield name, (float(value), declared.unit)
+    elif isinstance(declared, Waveform) and isinstance(value, Wave) and _is_steady(value):
+        yield name, (value(0.0), declared.unit)
+
+
+def _is_steady(wave: Wave) -> bool:
+    return wave.sine.amplitude == 0 and len(wave.polynomial.rows) == 1 and not wave.polynomial.rows[0, 4:].any()

@@ -1,0 +1,178 @@
+"""Parameters that are set while an FMU runs: as `run.set` between two advances does it, or refused by name."""
+
+import pytest
+
+import fairlead
+from fairlead.errors import UsageError
+from fairlead.fmu import export
+from tests.fmu.exported import fmpy, model, once, slave
+
+H = 0.02  # s
+SCENE = """
+parameters: {mu: 0.5, grip: 0.9}
+components:
+  wall: {type: Ground}
+  floor: {type: Ground}
+  spring: {type: Spring, stiffness: 100 N/m}
+  block: {type: Mass, mass: 2 kg, position: 0.2 m}
+  cart: {type: Mass, mass: 1 kg}
+  joint: {type: RigidLink}
+  pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: "{grip}", coulomb: "{mu}"}}
+  push: {type: ForceActuator}
+  command: {type: SignalInput, start: 0}
+connections:
+  - [floor.flange, pad.a]
+  - [wall.flange, spring.a]
+  - [spring.b, pad.b, block.flange, push.flange, joint.a]
+  - [joint.b, cart.flange]
+  - [command.signal, push.force]
+run: {stop: 1 s, accuracy: 1e-6}
+interface:
+  inputs: {pull: command.value}
+  outputs: {speed: block.v, place: block.x, friction: pad.friction}
+  tunable:
+    load: {of: pad.normal_force, description: What presses on the pad., nominal: 10 N}
+    stiffness: spring.stiffness
+    mu: mu
+    mass: cart.mass
+    begin: block.position
+"""
+"""3 kg on a spring, which rub; two bodies that move as one, so a mass is a part of a sum."""
+OUT = ["speed", "place", "friction"]
+PLAN = [
+    ("load", 12.0),
+    (None, 0.0),
+    ("stiffness", 170.0),
+    ("mass", 1.4),
+    ("pull", 4.0),
+    (None, 0.0),
+    ("mu", 0.3),
+    ("load", 70.0),
+    (None, 0.0),
+    (None, 0.0),
+]
+"""What is set before every fifth step."""
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    """The scene, and its FMU by version and engine."""
+    folder = tmp_path_factory.mktemp("tunable")
+
+    def made(version=3, engine="rodas"):
+        return once(folder, f"scene_{engine}", version, SCENE, engine=engine)
+
+    return made
+
+
+def native(tmp_path, engine, before=()):
+    """The same by `run.set` and `run.advance`."""
+    run, rows = model(tmp_path, "scene", SCENE).start(engine=engine), []
+    for name, value in before:
+        run.set(name, value)
+    for k in range(5 * len(PLAN)):
+        name, value = PLAN[k // 5]
+        if k % 5 == 0 and name:
+            run.set(name, value)
+        run.advance(run.t + H)
+        rows.append([run.get(one) for one in OUT])
+    return rows
+
+
+@pytest.mark.parametrize(("version", "engine"), [(3, "rodas"), (2, "rodas"), (3, "stepping")])
+def test_what_is_tuned_moves_as_in_fairlead_to_the_last_bit(scene, tmp_path, version, engine):
+    fmpy()
+    from fmpy.validation import validate_fmu
+
+    assert validate_fmu(str(scene(version, engine))) == []
+    with slave(scene(version, engine), tmp_path) as one:
+        one.set("begin", 0.25)
+        one.fmu.exitInitializationMode()
+        rows = []
+        for k in range(5 * len(PLAN)):
+            name, value = PLAN[k // 5]
+            if k % 5 == 0 and name:
+                one.set(name, value)
+            one.step(H)
+            rows.append(one.get(*OUT))
+    own = native(tmp_path, engine, [("begin", 0.25)])
+    assert rows == own
+    assert len({row[0] == 0.0 for row in rows}) == 2  # it sticks, and slips
+
+
+def test_a_parameter_acts_from_the_point_where_it_is_set_and_a_state_takes_it_back(scene, tmp_path):
+    """Held by the spring alone at the start: 20 N; sliding friction 5 N, and 3 N with another load; 3 kg."""
+    fmpy()
+    with slave(scene(), tmp_path) as one:
+        one.set("load", 20.0)  # 18 N of stiction hold 20 N not
+        assert one.get("load", "speed") == [20.0, 0.0]
+        one.set("load", 80.0)  # 72 N do
+        one.fmu.exitInitializationMode()
+        one.step(0.1)
+        assert one.get("speed") == [0.0]
+        state = one.fmu.getFMUState()
+        one.set("load", 10.0)
+        pending = one.fmu.getFMUState()
+        one.step(1e-3)
+        first = one.get("speed", "load")
+        assert first[0] == pytest.approx(-1e-3 * (20 - 5) / 3, rel=1e-4)
+        one.fmu.setFMUState(pending)
+        one.t = 0.1
+        assert one.get("load") == [10.0]
+        one.step(1e-3)
+        assert one.get("speed", "load") == first
+        one.fmu.setFMUState(state)
+        one.t = 0.1
+        one.step(0.1)
+        assert one.get("speed", "load") == [0.0, 80.0]
+
+
+def test_the_description_tells_range_start_and_when_a_parameter_can_be_set(scene):
+    fmpy()
+    from fmpy import read_model_description
+
+    told = {one.name: one for one in read_model_description(str(scene())).modelVariables}
+    load = told["load"]
+    assert (load.causality, load.variability, load.unit, load.start) == ("parameter", "tunable", "N", "10.0")
+    assert (float(load.min), float(load.max), load.nominal) == (1.25, 80.0, "10.0")
+    assert load.description == "What presses on the pad."
+    assert told["begin"].variability == "fixed"
+    assert float(told["mu"].max) == 0.75  # not above stiction
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("load", 81.0, "beyond its range"),
+        ("load", float("nan"), "not a finite number"),
+        ("begin", 0.1, "how a run begins"),
+    ],
+)
+def test_a_value_that_cannot_be_set_is_an_error_that_says_why(scene, tmp_path, capsys, name, value, said):
+    fmpy()
+    with slave(scene(), tmp_path) as one:
+        one.fmu.exitInitializationMode()
+        with pytest.raises(Exception, match=r"(?i)status|error"):
+            one.set(name, value)
+        assert said in capsys.readouterr().out
+        one.step(H)
+        assert one.get("load") == [10.0]
+
+
+REFUSED = {
+    "line.element": "the structure depends on it",
+    "line.bulkhead_friction.velocity": "by a law that the FMU cannot work out",
+    "line.diameter": "nothing in this model follows it",
+    "line.weight": "is 0, from which no range follows",
+    "line.hose.masss": "there is no parameter line.hose.masss that is a number. Did you mean line.hose.mass?",
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_parameter_that_follows_no_law_is_refused_by_name(tmp_path, name):
+    with pytest.raises(UsageError) as told:
+        export(
+            fairlead.load("single_bend"), tmp_path / "no.fmu", outputs=["haul.force"], tunable=[name], engine="rodas"
+        )
+    assert REFUSED[name] in str(told.value)
+    assert not (tmp_path / "no.fmu").exists()
