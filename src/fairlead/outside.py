@@ -98,8 +98,9 @@ class Stepping:
             raise ModelError(faults + more)
         self.outputs = tuple(one.name for one in outputs)
         """Names of outputs of the `interface` block; every other signal can be read as well."""
-        self.variables = (*(one.seen for one in self._inputs.values()), *outputs)
-        """Inputs and outputs with unit, start value, nominal size and description."""
+        parameters = () if tunable is None else tunable.variables
+        self.variables = (*(one.seen for one in self._inputs.values()), *outputs, *parameters)
+        """Inputs, outputs and tunable parameters with unit, start value, nominal size and description."""
         if (fault := refused(settings, system) or not_allowed(system)) is not None:
             raise UsageError(f"{fault.what} {fault.way_out}")
         asked = engine_settings(netlist, settings, system, list(record))

@@ -20,6 +20,7 @@ import numpy as np
 from fairlead.component.keys import PARAMETER, key
 from fairlead.errors import Fault, ModelError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.underway import Underway
+from fairlead.outer import Variable, find_tunable
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.working import discrete, offsets
 from fairlead.system.compiled.system import Instance, System
@@ -78,6 +79,12 @@ class Tunable(NamedTuple):
     def names(self) -> tuple[str, ...]:
         """What can be set."""
         return tuple(self.inside)
+
+    @property
+    def variables(self) -> tuple[Variable, ...]:
+        """Those that are numbers, with unit and start."""
+        more = [name for name in self.inside if name not in self.model.netlist.interface.tunable]
+        return find_tunable(self.model.netlist, self.model.assembly.entries, more)[0]
 
     def with_value(self, name: str, value: float | str, *, begun: bool) -> Tunable:
         """The same with another value. Raises ModelError for one that does not fit, UsageError as `refuse`."""

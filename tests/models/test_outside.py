@@ -285,6 +285,10 @@ INTERFACES = {
     "{inputs: {a: command.value, b: command.value}}": ["interface.inputs.b: command.value is a already"],
     "{inputs: {a: nothing}, outputs: {b: block.w}}": ["interface.inputs.a", "interface.outputs.b", "block gives x, v"],
     "{input: {a: command.value}}": ["Did you mean inputs"],
+    "{tunable: {load: pad.normal_forc}}": ["interface.tunable.load", "Did you mean pad.normal_force?"],
+    "{tunable: {load: pad}}": ["interface.tunable.load: there is no parameter pad that is a number"],
+    "{tunable: {load: {of: pad.normal_force, unit: m}}}": ["interface.tunable.load.unit: m is no unit"],
+    "{inputs: {load: command.value}, tunable: {load: pad.normal_force}}": ["an input has this name already"],
 }
 
 
@@ -297,6 +301,23 @@ def test_an_interface_that_fits_no_signal_is_told_with_its_place(tmp_path, block
     assert all(text in str(told.value) for text in INTERFACES[block])
     line = 1 + PUSHED[: PUSHED.index("interface:")].count("\n")
     assert f"scene.yaml:{line}:" in str(told.value)
+
+
+def test_the_interface_names_what_is_tunable(tmp_path):
+    """9 N against 5 N, and then against 7 N, on 2 kg."""
+    path = tmp_path / "scene.yaml"
+    path.write_text(f"{PUSHED}  tunable: {{load: pad.normal_force, more: block.mass}}\n", encoding="utf-8")
+    model = fairlead.load(path)
+    run = model.start(tunable=["pad.curve.coulomb"])
+    assert run.tunable == ("load", "more", "pad.curve.coulomb")
+    assert [one.start for one in run.variables if one.causality == "parameter"] == [10.0, 2.0, 0.5]
+    run.set("pull", 9.0)
+    run.advance(0.1)
+    run.set("load", "14 N")
+    run.advance(0.2)
+    assert run.get("speed") == pytest.approx(0.2 + 0.1, abs=1e-7)
+    with pytest.raises(fairlead.UsageError, match="Tunable are load, more and pad.curve.coulomb"):
+        run.set("pad.normal_force", 3.0)
 
 
 def test_inputs_may_be_named_when_a_run_is_started(tmp_path):
