@@ -316,7 +316,7 @@ def test_the_interface_names_what_is_tunable(tmp_path):
     run.set("load", "14 N")
     run.advance(0.2)
     assert run.get("speed") == pytest.approx(0.2 + 0.1, abs=1e-7)
-    with pytest.raises(fairlead.UsageError, match="Tunable are load, more and pad.curve.coulomb"):
+    with pytest.raises(fairlead.UsageError, match="Tunable are load, more, pad"):
         run.set("pad.normal_force", 3.0)
 
 
