@@ -10,6 +10,7 @@ Numbers pass the border in SI. A unit says what a plain number of the model is; 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -17,6 +18,7 @@ from fairlead.analysis.record.suggestion import suggest
 from fairlead.component.numbers import numbers
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.interface import Outer, OuterInput
+from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, fits, parse_unit, si
 from fairlead.renamed import now_called
 from fairlead.system.compiled.opened import FreeInput, free_inputs
@@ -42,6 +44,20 @@ class Variable(NamedTuple):
     """Of an input or a parameter the value until it is set; None for an output."""
     nominal: float
     """A usual size, above zero; 1 where the netlist gives none."""
+
+
+class Read(NamedTuple):
+    """What is read by a name: the largest or the smallest of some recorded values, mostly of one."""
+
+    take: str
+    """`max` or `min`."""
+    columns: tuple[int, ...]
+
+
+def gathered(of: str) -> tuple[str, str]:
+    """`max` or `min` and the pattern of `max(line.hose[*].compressed)`; of a signal "" and its name."""
+    fits = re.fullmatch(r"\s*(max|min)\s*\(\s*(.+?)\s*\)\s*", of)
+    return (fits[1], fits[2]) if fits else ("", of)
 
 
 class Found(NamedTuple):
@@ -111,20 +127,25 @@ def find_inputs(netlist: Netlist, system: System, more: Iterable[str]) -> tuple[
 
 def find_outputs(
     netlist: Netlist, signals: Sequence[OutputSignal]
-) -> tuple[dict[str, int], tuple[Variable, ...], list[Fault]]:
-    """Columns by all names that can be read, outputs of the netlist, and what is wrong with these."""
+) -> tuple[dict[str, Read], tuple[Variable, ...], list[Fault]]:
+    """What is read by all names that can be, outputs of the netlist, and what is wrong with these."""
     units = {signal.name: signal.unit for signal in signals}
     columns = {name: k for k, name in enumerate(units)}
-    found, seen, faults = dict(columns), list[Variable](), list[Fault]()
+    found = {name: Read("max", (k,)) for name, k in columns.items()}
+    seen, faults = list[Variable](), list[Fault]()
     for name, outer in netlist.interface.outputs.items():
         what, place = f"interface.outputs.{name}", _place(netlist, "outputs", name)
-        of = now_called(outer.of, columns) or outer.of
-        if of not in columns:
-            near, way_out = suggest(outer.of, list(units))
-            faults.append(Fault(place, f"{what}: no signal has the name {shown(outer.of)}. {near}".rstrip(), way_out))
+        take, pattern = gathered(outer.of)
+        of = picked(columns, pattern) if take else [now_called(pattern, columns) or pattern]
+        if not of or of[0] not in columns:
+            near, way_out = suggest(pattern, list(units))
+            faults.append(Fault(place, f"{what}: no signal has the name {shown(pattern)}. {near}".rstrip(), way_out))
             continue
-        found[name] = columns[of]
-        variable, wrong = _variable(name, "output", outer, units[of], what, place)
+        if several := sorted({units[one] for one in of} - {units[of[0]]}):
+            told = f"{what}: {shown(outer.of)} is of signals in {listing([units[of[0]], *several])}."
+            faults.append(Fault(place, told, "Name signals of one unit."))
+        found[name] = Read(take or "max", tuple(columns[one] for one in of))
+        variable, wrong = _variable(name, "output", outer, units[of[0]], what, place)
         seen.append(variable)
         faults += wrong
     return found, tuple(seen), faults

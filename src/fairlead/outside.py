@@ -31,7 +31,7 @@ from fairlead.integrate.problem import Block, Status
 from fairlead.integrate.run import check
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Saved, Underway
-from fairlead.outer import find_inputs, find_outputs
+from fairlead.outer import Read, find_inputs, find_outputs
 from fairlead.quantities import QuantityError, si
 from fairlead.renamed import now_called
 from fairlead.run import engine_settings, failed, failure_of, named_change, not_allowed, refused
@@ -182,7 +182,8 @@ class Stepping:
         if self._values is None:
             self._values = np.zeros(self._instance.n_outputs)
             call(self._instance, "outputs", self.t, self._memory.array["y"], self._values)
-        return float(self._values[self._columns[name]])
+        take, columns = self._columns[name]
+        return (max if take == "max" else min)(float(self._values[k]) for k in columns)
 
     def advance(self, t: float | str, *, until_change: bool = False) -> float:
         """Go on to `t` [s] and return the time reached: `t`, or with `until_change` that of a zone change before.
@@ -311,7 +312,7 @@ class LaidOpen(NamedTuple):
     memory: Memory
     problem: Instance
     engine: Engine
-    columns: Mapping[str, int]
+    columns: Mapping[str, Read]
     """Where among the recorded values a signal or an output is, by name."""
 
 

@@ -29,7 +29,7 @@ connections:
 run: {stop: 1 s, accuracy: 1e-6}
 interface:
   inputs: {pull: command.value}
-  outputs: {speed: block.v, place: block.x, friction: pad.friction}
+  outputs: {speed: block.v, place: block.x, friction: pad.friction, lowest: "min(*.x)", highest: "max(*.x)"}
   tunable:
     load: {of: pad.normal_force, description: What presses on the pad., nominal: 10 N}
     stiffness: spring.stiffness
@@ -38,7 +38,7 @@ interface:
     begin: block.position
 """
 """3 kg on a spring, which rub; two bodies that move as one, so a mass is a part of a sum."""
-OUT = ["speed", "place", "friction"]
+OUT = ["speed", "place", "friction", "lowest", "highest"]
 PLAN = [
     ("load", 12.0),
     (None, 0.0),

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+import fairlead
+
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))  # scripts that import each other by name
 import coupled_route
 
@@ -43,6 +45,33 @@ def test_electronics_without_the_sample_of_delay_are_told_apart(one, monkeypatch
 
     monkeypatch.setattr(coupled_route.Pi, "sample", at_once)
     assert most(coupled_route.coupled(1, STOP, ACCURACY), one, 1) > 1e-4
+
+
+@pytest.mark.slow
+def test_a_weak_clamp_that_is_commanded_lets_the_belts_slip_and_the_hose_is_told_to_ruck():
+    """100 N/m on 1.5 m carry 2 * 0.6 * 100 * 1.5 = 180 N; the hose is taken to ruck below -15 N.
+
+    The flag goes by the elastic tension, which damping is no part of, so points near the limit say nothing.
+    """
+    low = {}
+    for clamp in (0.0, -1400.0):
+        plant = fairlead.load(coupled_route.PLANT, set={"line.ruck_force": "15 N"}).start(accuracy=ACCURACY)
+        hose = [f"line.hose[{k}].tension" for k in range(160)]
+        electronics, low[clamp] = coupled_route.Electronics(), []
+        plant.set("clamp_command", clamp)
+        measured = [plant.get(name) for name in coupled_route.MEASURED]
+        for k in range(400):
+            for name, value in electronics.sample(*measured).items():
+                plant.set(name, value)
+            plant.advance(coupled_route.PERIOD * (k + 1))
+            measured = [plant.get(name) for name in coupled_route.MEASURED]
+            low[clamp].append((min(plant.get(name) for name in hose), plant.get("rucked")))
+        assert plant.get("route.deployer.pressing") == pytest.approx(2 * (1500 + clamp), rel=1e-12)
+    assert {flag for _, flag in low[0.0]} == {0.0}
+    assert min(tension for tension, _ in low[0.0]) > -15
+    told = [(tension, flag) for tension, flag in low[-1400.0] if abs(tension + 15) > 1]
+    assert {flag for _, flag in told} == {0.0, 1.0}
+    assert all(flag == (tension < -15) for tension, flag in told)
 
 
 @pytest.mark.slow

@@ -285,6 +285,8 @@ INTERFACES = {
     "{inputs: {a: command.value, b: command.value}}": ["interface.inputs.b: command.value is a already"],
     "{inputs: {a: nothing}, outputs: {b: block.w}}": ["interface.inputs.a", "interface.outputs.b", "block gives x, v"],
     "{input: {a: command.value}}": ["Did you mean inputs"],
+    "{outputs: {b: max(block.*)}}": ["interface.outputs.b: max(block.*) is of signals in m, m/s"],
+    "{outputs: {b: max(blok.v)}}": ["interface.outputs.b: no signal has the name blok.v. Did you mean block.v?"],
     "{tunable: {load: pad.normal_forc}}": ["interface.tunable.load", "Did you mean pad.normal_force?"],
     "{tunable: {load: pad}}": ["interface.tunable.load: there is no parameter pad that is a number"],
     "{tunable: {load: {of: pad.normal_force, unit: m}}}": ["interface.tunable.load.unit: m is no unit"],
@@ -301,6 +303,23 @@ def test_an_interface_that_fits_no_signal_is_told_with_its_place(tmp_path, block
     assert all(text in str(told.value) for text in INTERFACES[block])
     line = 1 + PUSHED[: PUSHED.index("interface:")].count("\n")
     assert f"scene.yaml:{line}:" in str(told.value)
+
+
+@pytest.mark.parametrize(("of", "value"), [("max(*.v)", 0.2), ("min( *.v )", 0.0), ("max(block.v)", 0.2)])
+def test_an_output_may_be_the_largest_or_the_smallest_of_several_signals(tmp_path, of, value):
+    """9 N against 5 N on 2 kg for 0.1 s, beside a body that rests."""
+    path = tmp_path / "scene.yaml"
+    text = PUSHED.replace(
+        "  spare:", "  other: {type: Mass, mass: 1 kg}\n  rope: {type: Spring, stiffness: 1 N/m}\n  spare:"
+    )
+    text = text.replace("run:", "  - [floor.flange, rope.a]\n  - [rope.b, other.flange]\nrun:")
+    text = text.replace("speed: block.v", f'speed: "{of}"')
+    path.write_text(text, encoding="utf-8")
+    run = fairlead.load(path).start()
+    run.set("pull", 9.0)
+    run.advance(0.1)
+    assert run.get("speed") == pytest.approx(value, abs=1e-9)
+    assert [one.unit for one in run.variables if one.name == "speed"] == ["m/s"]
 
 
 def test_the_interface_names_what_is_tunable(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 
 import fairlead.integrate.codes as codes
@@ -10,6 +11,7 @@ from fairlead.fmu.machine_code import Code
 from fairlead.fmu.tuned import Tuned, kept_words
 from fairlead.integrate.memory.layout import PLACES
 from fairlead.integrate.problem import Status
+from fairlead.outer import Read
 from fairlead.outside import LaidOpen
 
 FIELDS = (
@@ -27,10 +29,10 @@ REPLACED = (
 
 
 def header(
-    opened: LaidOpen, image: Image, code: Code, *, columns: Sequence[int],
+    opened: LaidOpen, image: Image, code: Code, *, columns: Sequence[Read],
     names: Mapping[str, Sequence[str]], tuned: Sequence[Tuned], token: str, identifier: str,
 ) -> str:  # fmt: skip
-    """The text. `columns` says which recorded values the outputs are; `names` are those of each `input`, `output`."""
+    """The text. `columns` says what the outputs are of recorded values; `names` are those of each `input`, `output`."""
     own = opened.problem
     piece = {name: own.working.places[name].at for name in ("set_due", "set_values")}
     numbers = {
@@ -53,7 +55,10 @@ def header(
     lines.append(_array("void (*const model_functions[])(void)", code.functions))
     replaced = [f"{{{k}, {at}}}" for k, name in enumerate(REPLACED) for at in PLACES[f"at_{name}"]]
     lines.append(f"static __attribute__((unused)) const int64_t model_replaced[][2] = {{{', '.join(replaced)}}};")
-    lines.append(_array("const int model_columns[]", map(str, columns)))
+    starts = itertools.accumulate((len(one.columns) for one in columns), initial=0)
+    lines.append(_array("const int model_columns[]", (str(k) for one in columns for k in one.columns)))
+    lines.append(_array("const int model_columns_starts[]", map(str, starts)))
+    lines.append(_array("const int model_takes_largest[]", (str(int(one.take == "max")) for one in columns)))
     texts = {"unknowns": own.unknown_names, "machines": own.machine_names, **{f"{k}s": v for k, v in names.items()}}
     lines += [_array(f"const char *const model_{what}[]", map(_text, those)) for what, those in texts.items()]
     lines += [

@@ -25,7 +25,7 @@ from fairlead.fmu.refusals import (
 )
 from fairlead.fmu.tuned import Another, Tuned, with_parameters
 from fairlead.netlist.interface import Outer
-from fairlead.outer import Variable, find_tunable
+from fairlead.outer import Variable, find_tunable, gathered
 from fairlead.outside import LaidOpen, Stepping, laid_open
 from fairlead.patterns import picked
 from fairlead.run import engine_of
@@ -123,13 +123,13 @@ def _alike(model: Model, value: Mapping[str, float]) -> Model:
 
 def _run_of(asked: Asked, model: Model) -> Stepping:
     """A run of a model of this structure, at its start."""
-    record = [outer.of for outer in asked.netlist.interface.outputs.values()]
+    record = [gathered(outer.of)[1] for outer in asked.netlist.interface.outputs.values()]
     return Stepping(asked.netlist, asked.settings, model.system, asked.inputs, record)
 
 
 def sources(made: Made, identifier: str, own: Sequence[str]) -> Mapping[str, bytes]:
     """Files for the compiler, by name: those of a run, and of the folder `c` those named `own`."""
-    columns = [made.opened.columns[one.of] for one in made.variables if one.causality == "output"]
+    columns = [made.opened.columns[one.name] for one in made.variables if one.causality == "output"]
     names = {
         causality: [one.name for one in made.variables if one.causality == causality]
         for causality in ("input", "output")

@@ -15,8 +15,8 @@ class Outer(Strict):
     """A signal or a parameter under the name that it has outside."""
 
     of: str
-    """What it is inside: of an input a signal that nothing is connected to, of an output any that can be recorded; of
-    what is tunable a parameter."""
+    """What it is inside: of an input a signal that nothing is connected to, of an output any that can be recorded, or
+    max(...) or min(...) of a pattern of them; of what is tunable a parameter."""
     unit: str = ""
     """Its unit outside, where the model has a plain number."""
     description: str = ""

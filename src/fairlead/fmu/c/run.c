@@ -301,7 +301,13 @@ int run_outputs(Run *run, double *values) {
     Outputs outputs = (Outputs)(intptr_t)*whole(run, AT_CALL_OUTPUTS);
     double all[N_RECORDED + 1];
     outputs(*whole(run, AT_CONTEXT), run_time(run), (const double *)(intptr_t)*whole(run, AT_AT_Y), all);
-    for (int k = 0; k < N_OUTPUTS; k++) values[k] = all[model_columns[k]];
+    for (int k = 0; k < N_OUTPUTS; k++) {
+        values[k] = all[model_columns[model_columns_starts[k]]];
+        for (int j = model_columns_starts[k] + 1; j < model_columns_starts[k + 1]; j++) {
+            const double other = all[model_columns[j]];
+            if (model_takes_largest[k] ? other > values[k] : other < values[k]) values[k] = other;
+        }
+    }
     return 0;
 }
 
