@@ -172,3 +172,148 @@ def test_a_map_that_is_none_is_refused_with_its_row(tmp_path, text, says):
     (tmp_path / "scene.yaml").write_text(scene)
     with pytest.raises(ModelError, match=re.escape(says)):
         fairlead.load(tmp_path / "scene.yaml").check()
+
+
+def test_a_function_is_its_expression():
+    result = run("function_of_signals")
+    a, b = result["force.signal"], result["angle.signal"]
+    assert np.allclose(result["shaped.signal"], a * np.sin(b) ** 2 + 2 - np.sqrt(1 + b) / 2, atol=1e-9)
+    cornered = np.maximum(np.maximum(np.abs(a) - 0.5, 0), a * b / 3)
+    assert np.allclose(result["cornered.signal"], cornered, atol=1e-6)
+    assert np.allclose(result["ratio.signal"], 3 * a / (1 + b / 3), atol=1e-9)
+
+
+EXPRESSIONS = {
+    "a**3 - a**-2 + a**1.5": lambda a, b: a**3 - a**-2 + a**1.5,
+    "a**0.3/b": lambda a, b: a**0.3 / b,
+    "-(a - 2*b)*exp(-b/3) + log(a)": lambda a, b: -(a - 2 * b) * np.exp(-b / 3) + np.log(a),
+    "2*3 - 1": lambda a, b: 5 + 0 * a,
+    "3/a": lambda a, b: 3 / a,
+    "a**0 + 1 - a": lambda a, b: 2 - a,
+    "min(a, b, 1.5) + cos(60*deg)": lambda a, b: np.minimum(a, 1.5) + 0.5,
+    "+a*a - (a*a)/b": lambda a, b: a * a - a * a / b,
+}
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+def test_every_operation_of_an_expression_is_what_python_says(simulate, engine):
+    parts, joins = [], []
+    for k, text in enumerate(EXPRESSIONS):
+        parts.append(f'f{k}: {{type: SignalFunction, expression: "{text}"}}')
+        joins += [f"[{one}.signal, f{k}.{one}]" for one in "ab" if re.search(rf"\b{one}\b", text)]
+    result = simulate(f"""
+        components:
+          a: {{type: SignalSource, value: {{ramp: {{from: 1, to: 2, over: 1 s}}}}}}
+          b: {{type: SignalSource, value: 4}}
+          {(chr(10) + 10 * " ").join(parts)}
+          memory: {{type: Integrator}}
+        connections: [[f0.signal, memory.value], {", ".join(joins)}]
+        run: {{stop: 1 s, engine: {engine}}}
+    """)
+    a, b = result["a.signal"], result["b.signal"]
+    for k, value in enumerate(EXPRESSIONS.values()):
+        assert np.allclose(result[f"f{k}.signal"], value(a, b), rtol=1e-9, atol=1e-9), k
+
+
+def function(**given):
+    """The mistakes of a scene with a function; it feeds a force."""
+    settings = ", ".join(f"{name}: {value}" for name, value in given.items())
+    return f"""
+schema: 1
+components:
+  a: {{type: SignalSource, value: 1}}
+  f: {{type: SignalFunction, {settings}}}
+  pull: {{type: ForceActuator}}
+  block: {{type: Mass, mass: 1 kg}}
+connections: [[a.signal, f.a, f.b], [f.signal, pull.force], [pull.flange, block.flange]]
+run: {{stop: 1 s}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"expression": "a*sinn(b)"}, r"f.expression: .*there is no function sinn.*Did you mean sin\?"),
+        ({"expression": "a^b"}, "f.expression: .*Write .. for a power"),
+        ({"expression": "a**b"}, "f.expression: .*an exponent is a number"),
+        ({"expression": "'(lambda: a*b)()'"}, "f.expression: .*is not arithmetic"),
+        ({"expression": "a.real + b"}, "f.expression: .*is not arithmetic"),
+        ({"expression": "a/0 + b"}, "f.expression: .*divides by zero"),
+        ({"expression": "a*b*signal"}, "f.inputs: signal cannot be the name of an input"),
+        ({"expression": "a + b", "inputs": "{a: N, b: m}"}, "f.expression: .*1 m.kg/s.2 and 1 m are not of one kind"),
+        ({"expression": "a*b", "inputs": "{a: N, b: 1, c: m}"}, "f.inputs: c does not occur in the expression"),
+        ({"expression": "a*b*k", "inputs": "{a: N, b: 1}"}, "f.expression: .*there is no input k"),
+        ({"expression": "a*b", "inputs": "{a: N, b: s}"}, r"f.signal is in .*, pull.force wants N"),
+    ],
+)  # fmt: skip
+def test_an_expression_that_is_none_is_told(given, says, tmp_path):
+    (tmp_path / "scene.yaml").write_text(function(**given), encoding="utf-8")
+    with pytest.raises(ModelError, match=f"(?s){says}"):
+        fairlead.load(tmp_path / "scene.yaml").check()
+
+
+def test_a_function_with_units_tells_the_unit_that_follows(tmp_path):
+    text = function(expression="a*k*b + (2 kN)*b", inputs="{a: m, b: 1}", constants="{k: 3 N/mm}")
+    (tmp_path / "scene.yaml").write_text(text, encoding="utf-8")
+    result = fairlead.load(tmp_path / "scene.yaml").run(out=None)
+    assert result["block.v"][-1] == pytest.approx(5000.0, rel=1e-6)  # 1 m * 3 N/mm + 2 kN on 1 kg for 1 s
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_a_state_space_with_two_inputs_answers_as_scipy_says(engine):
+    """The reference holds its inputs linear between 80000 samples."""
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    result = run("state_space", **{"run.engine": engine})
+    t = np.linspace(0, 4, 80001)
+    inputs = np.stack([np.minimum(t / 0.01, 1), np.sin(2 * np.pi * (t + t**2 / 2))], axis=1)
+    a = [[0, 1, 0, 0], [-200, -2, 100, 1], [0, 0, 0, 1], [100, 1, -100, -1]]
+    system = (a, [[0, 0], [1, 0], [0, 0], [0, 1]], [[1, 0, 0, 0], [0, 0, 1, 0]], [[0, 0], [0, 1e-3]])
+    _, answer, _ = scipy.signal.lsim(system, inputs, t, X0=[0.01, 0, 0, 0])
+    for k in range(2):
+        told = result[f"masses.signal{k + 1}"]
+        assert np.max(np.abs(np.interp(result.t, t, answer[:, k]) - told)) < 1e-5
+
+
+def test_a_state_space_is_the_transfer_function_of_its_matrices(simulate):
+    """Two formulations of (s + 3)/(s^2 + 2 s + 10), the second with feed-through beside it."""
+    result = simulate("""
+        components:
+          step: {type: SignalSource, value: {ramp: {to: 1, over: 10 ms}}}
+          one: {type: TransferFunction, b0: 3, b1: 1 s, a0: 10, a1: 2 s, a2: 1 s^2}
+          two: {type: StateSpace, a: [[0, 1], [-10, -2]], b: [0, 1], c: [3, 1]}
+          three: {type: StateSpace, a: [[0, 1], [-10, -2]], b: [[0], [1]], c: [[3, 1]], d: 2}
+        connections: [[step.signal, one.value, two.value, three.value]]
+        run: {stop: 3 s, accuracy: 1e-7}
+    """)
+    assert np.allclose(result["one.signal"], result["two.signal"], atol=1e-5)
+    assert np.allclose(result["three.signal"], result["two.signal"] + 2 * result["step.signal"], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ("a: [[0, 1], [1]], b: 1, c: 1", r"plant.a\[1\] has 1 numbers, and the first row 2"),
+        ("a: [[0, 1]], b: 1, c: 1", "plant.a: a has 1 rows and 2 columns"),
+        ("a: [[0, 1], [1, 0]], b: [0, 1, 1], c: [1, 0]", "plant.b: b has 1 rows, and a 2"),
+        ("a: [[0, 1], [1, 0]], b: [0, 1], c: [1]", "plant.c: c has 1 columns, and a 2"),
+        ("a: [[0, 1], [1, 0]], b: [0, 1], c: [1, 0], d: [[1, 1]]", "plant.d: d has 1 rows and 2 columns"),
+        ("a: [[0, 1], [1, 0]], b: [0, 1], c: [1, 0], initial: 3", "plant.initial: initial has 1 numbers, and a 2 rows"),
+        ("a: [[0, 1], [1, x]], b: [0, 1], c: [1, 0]", r"plant.a\[1\]\[1\] = x"),
+        ("a: hello, b: 1, c: 1", "plant.a = hello"),
+        ("a: [], b: 1, c: 1", "plant.a: this is not a matrix"),
+    ],
+)
+def test_matrices_that_do_not_fit_are_told(given, says, tmp_path):
+    text = f"""
+schema: 1
+components:
+  step: {{type: SignalSource, value: 1}}
+  plant: {{type: StateSpace, {given}}}
+connections: [[step.signal, plant.value]]
+run: {{stop: 1 s}}
+"""
+    (tmp_path / "scene.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(ModelError, match=says):
+        fairlead.load(tmp_path / "scene.yaml").check()

@@ -17,7 +17,7 @@ TOLD_BY = {
     "VelocityActuator": {"place": "x", "moving": "v"}, "LoadSensingPump": {"delivered": "flow"},
     "SignalEdge": {"was": "last", "found": "signal", "edges": "count"}, "TransferStage": {"gathered": "signal"},
     "SignalTimer": {"lasted": "elapsed", "done": "signal"},
-    "SecondOrder": {"told": "signal", "rate": "slope"},
+    "SpaceState": {"gathered": "signal"}, "SecondOrder": {"told": "signal", "rate": "slope"},
     "Accumulator": {"log_pressure": "pressure"}, "Bristle": {"moved": "slid"}, "CavitatingVolume": {"empty": "void"},
     "Chamber": {"oil": "pressure", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},
     "Dahl": {"z": "deflection"}, "DcDrive": {"flowing": "current"}, "DcMotor": {"flowing": "current"},

@@ -46,19 +46,22 @@ from fairlead.component.given import (
     Effect,
     Entries,
     File,
+    Matrix,
     Name,
     Parameter,
     Part,
     Stations,
     Table,
+    Text,
     Waveform,
 )  # fmt: skip
 from fairlead.component.holding import hold, hold_position
 
 __all__ = [
     "Block", "Carries", "Choice", "Component", "Composite", "Controller", "Count", "Declared", "Discrete", "Effect",
-    "Electrical", "Entries", "Expansion", "Family", "File", "Hydraulic", "Input", "Law", "Name", "Output",
-    "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Summing", "Table", "Thermal", "Translational",
-    "Unknown", "Waveform", "Zones", "atan", "clip", "cos", "derived", "derived_wave", "exceeds", "exp", "greatest",
-    "guard", "hold", "hold_position", "least", "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh", "zone",
+    "Electrical", "Entries", "Expansion", "Family", "File", "Hydraulic", "Input", "Law", "Matrix", "Name", "Output",
+    "Parameter", "Part", "Path", "Rotational", "State", "Stations", "Summing", "Table", "Text", "Thermal",
+    "Translational", "Unknown", "Waveform", "Zones", "atan", "clip", "cos", "derived", "derived_wave", "exceeds", "exp",
+    "greatest", "guard", "hold", "hold_position", "least", "log", "pi", "sampled", "shared", "sin", "sqrt", "tanh",
+    "zone",
 ]  # fmt: skip

@@ -59,11 +59,13 @@ from fairlead.component.given import (
     Effect,
     Entries,
     File,
+    Matrix,
     Name,
     Parameter,
     Part,
     Stations,
     Table,
+    Text,
     Waveform,
 )  # fmt: skip
 from fairlead.component.holding import HoldPosition
@@ -71,7 +73,9 @@ from fairlead.component.replies import AnswerError, held_to, is_bundled
 from fairlead.errors import did_you_mean
 from fairlead.quantities import QuantityError, parse_unit
 
-PARAMETER_KINDS = (Parameter, Choice, Count, Name, File, Entries, Part, Block, Table, Waveform, Stations)
+PARAMETER_KINDS = (
+    Parameter, Choice, Count, Name, File, Entries, Text, Matrix, Part, Block, Table, Waveform, Stations
+)  # fmt: skip
 CONTROLLERS = "fairlead.component.controller"
 LEDGER = ("dissipated", "supplied", "stored")
 RESERVED = {"type", "given", "variant", "path", "effects"}  # attributes of `values.Values` that would hide a parameter

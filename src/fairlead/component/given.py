@@ -105,6 +105,25 @@ class Entries:
 
 
 @dataclass(frozen=True)
+class Text:
+    """A line of text with a meaning of its own, such as an expression; read by the class, and never seen by a law."""
+
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """Numbers in rows, in SI: a list of lists of one length, a list for one row, a number for one by one.
+
+    Read as a tuple of rows; no law sees it. Whether a list is a row or a column is for the class to say.
+    """
+
+    doc: str = ""
+    default: Any = REQUIRED
+
+
+@dataclass(frozen=True)
 class Part:
     """A replaceable part of a law: an instance of a `family` of small declarations (such as a curve)."""
 

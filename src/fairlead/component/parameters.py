@@ -28,13 +28,16 @@ from fairlead.component.given import (
     Effect,
     Entries,
     File,
+    Matrix,
     Name,
     Parameter,
     Part,
     Stations,
     Table,
+    Text,
     Waveform,
 )  # fmt: skip
+from fairlead.component.matrices import matrix_schema, read_matrix
 from fairlead.component.members import view
 from fairlead.component.mistakes import explain
 from fairlead.component.replies import AnswerError
@@ -135,7 +138,7 @@ def _field(declared: Any) -> tuple[Any, Any]:
         kind = Literal[declared.options]
     elif isinstance(declared, Count):
         kind = Annotated[int, BeforeValidator(whole), Field(ge=declared.least, le=declared.most)]
-    elif isinstance(declared, Name | File | Entries):
+    elif isinstance(declared, Name | File | Entries | Text | Matrix):
         kind = _own_words(declared)
     elif isinstance(declared, Part):
         kind = family_type(declared.family)
@@ -195,12 +198,23 @@ def _named(value: Any) -> str:
     return value
 
 
-def _own_words(declared: Name | File | Entries) -> Any:
+def _text(value: Any) -> str:
+    """A line of text; a number alone is one too. Raises ValueError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise ValueError("write a text")
+    return str(value)
+
+
+def _own_words(declared: Name | File | Entries | Text | Matrix) -> Any:
     """What is written in words of the user's own."""
     if isinstance(declared, Name):
         return Annotated[str, BeforeValidator(_named), _Schema({"type": "string", "pattern": NAME.pattern})]
     if isinstance(declared, File):
         return Annotated[pathlib.Path, BeforeValidator(_file_of(declared)), _Schema({"type": "string"})]
+    if isinstance(declared, Text):
+        return Annotated[str, BeforeValidator(_text), _Schema({"type": "string"})]
+    if isinstance(declared, Matrix):
+        return Annotated[tuple[tuple[float, ...], ...], BeforeValidator(read_matrix), _Schema(matrix_schema())]
     return Annotated[tuple[Any, ...], BeforeValidator(_entries), _Schema({"type": "object"})]
 
 

@@ -16,11 +16,13 @@ from fairlead.component.given import (
     Count,
     Entries,
     File,
+    Matrix,
     Name,
     Parameter,
     Part,
     Stations,
     Table,
+    Text,
     Waveform,
 )  # fmt: skip
 from fairlead.component.waveforms import TERMS
@@ -127,6 +129,8 @@ def _allowed(declared: Any) -> str:
         return f"file{declared.ending and f' (*{declared.ending})'}"
     if isinstance(declared, Entries):
         return "map"
+    if isinstance(declared, Text | Matrix):
+        return "text" if isinstance(declared, Text) else "matrix: a list of rows"
     if isinstance(declared, Part):
         return f"{declared.family.__name__}, see below"
     if isinstance(declared, Stations):

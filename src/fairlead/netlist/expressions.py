@@ -77,7 +77,7 @@ def substitute(text: str, parameters: Mapping[str, Scalar]) -> Scalar:
     if inside in parameters and not unit:
         return parameters[inside]
     result = evaluate(inside, parameters)
-    own_unit = _unit_of(result, inside)
+    own_unit = unit_of(result, inside)
     if unit and own_unit:
         what = f"{shown(text)} has two units, {own_unit} from its parameters and {shown(unit)}"
         raise ExpressionError(what, "Leave out the unit after the braces.")
@@ -86,9 +86,9 @@ def substitute(text: str, parameters: Mapping[str, Scalar]) -> Scalar:
 
 def evaluate(text: str, parameters: Mapping[str, Scalar]) -> Quantity:
     """The value of an expression (without braces); raises ExpressionError."""
-    spelled, written = _spelled(text)
+    plain, written = spelled(text)
     try:
-        result = _walk(parse(spelled), {**parameters, **written} if written else parameters)
+        result = _walk(parse(plain), {**parameters, **written} if written else parameters)
     except ExpressionError as error:
         raise ExpressionError(f"{{{shown(text)}}}: {error.what}", error.way_out) from None
     except ZeroDivisionError:
@@ -108,14 +108,14 @@ def names_in(text: str) -> set[str]:
     """The parameters that "{expression} unit" needs; empty when it cannot be read."""
     match = WHOLE_TEXT.fullmatch(text) if len(text) <= 2 * LONGEST else None
     try:
-        spelled, written = _spelled(match[1].strip()) if match else ("0", {})
-        tree = parse(spelled)
+        plain, written = spelled(match[1].strip()) if match else ("0", {})
+        tree = parse(plain)
     except ExpressionError:
         return set()
     return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - RESERVED - written.keys()
 
 
-def _spelled(text: str) -> tuple[str, dict[str, Scalar]]:
+def spelled(text: str) -> tuple[str, dict[str, Scalar]]:
     """The expression with a name for every quantity in parentheses, such as `(1 m)`, and the quantities by name."""
     written: dict[str, Scalar] = {}
 
@@ -144,25 +144,43 @@ def parse(text: str) -> ast.expr:
 
 
 def _walk(node: ast.expr, parameters: Mapping[str, Scalar]) -> Quantity:
+    found = leaf(node, parameters)
+    return applied(node, [_walk(one, parameters) for one in operands(node)]) if found is None else found
+
+
+def leaf(node: ast.expr, parameters: Mapping[str, Scalar]) -> Quantity | None:
+    """The value of a number or of a name; None of what is made of others."""
     if (
         isinstance(node, ast.Constant)
         and isinstance(node.value, int | float)
         and not isinstance(node.value, bool)
     ):
         return Quantity(node.value)
-    if isinstance(node, ast.Name):
-        return _named(node.id, parameters)
+    return _named(node.id, parameters) if isinstance(node, ast.Name) else None
+
+
+def operands(node: ast.expr) -> list[ast.expr]:
+    """What an operation or a function works on. Raises ExpressionError for anything else."""
     if isinstance(node, ast.UnaryOp) and type(node.op) in _SIGNS:
-        inner = _walk(node.operand, parameters)
-        return Quantity(_SIGNS[type(node.op)](inner.value), inner.dimension)
+        return [node.operand]
     if isinstance(node, ast.BinOp) and type(node.op) in _OPERATIONS:
-        left, right = _walk(node.left, parameters), _walk(node.right, parameters)
-        return _OPERATIONS[type(node.op)](left, right)
+        return [node.left, node.right]
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
-        return _call(node.func.id, [_walk(argument, parameters) for argument in node.args])
+        return node.args
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitXor):
         raise ExpressionError("^ is not a power here", "Write ** for a power.")
     raise ExpressionError(f"{shown(ast.unparse(node))} is not arithmetic", ALLOWED)
+
+
+def applied(node: ast.expr, values: list[Quantity]) -> Quantity:
+    """The value of an operation or a function whose operands have these values."""
+    if isinstance(node, ast.UnaryOp):
+        return Quantity(_SIGNS[type(node.op)](values[0].value), values[0].dimension)
+    if isinstance(node, ast.BinOp):
+        return _OPERATIONS[type(node.op)](*values)
+    assert isinstance(node, ast.Call)  # see operands
+    assert isinstance(node.func, ast.Name)
+    return _call(node.func.id, values)
 
 
 def _named(name: str, parameters: Mapping[str, Scalar]) -> Quantity:
@@ -271,7 +289,8 @@ def _whole(value: float) -> float:
     return value if abs(value) < LARGEST_WHOLE else float(value)
 
 
-def _unit_of(result: Quantity, text: str) -> str:
+def unit_of(result: Quantity, text: str) -> str:
+    """The unit in SI of a result, "" of a plain number. Raises ExpressionError where there is none."""
     try:
         return unit_text(result.dimension)
     except QuantityError as error:

@@ -1,0 +1,187 @@
+"""A function of signals, written as an expression."""
+
+import functools
+
+from fairlead.components.control.signal_gain import SignalGain
+from fairlead.components.control.sum import Sum
+from fairlead.components.signals.arithmetic import SignalProduct, SignalSelect, SignalSize
+from fairlead.components.signals.elementary import CURVES, ElementaryFunction, SignalQuotient
+from fairlead.components.sources.signal_source import SignalSource
+
+from fairlead.component import Component, Composite, Entries, Expansion, Input, Law, Output, Text
+from fairlead.component.formula import FormulaError, formula
+
+
+class Passing(Component, abstract=True):
+    """signal = value, of signals with a unit; `passing` makes the class for one."""
+
+    def law(p, value):
+        """At once."""
+        return Law(signal=value)
+
+
+@functools.cache
+def passing(taken, told):
+    """The class that takes a signal in one unit and tells it in another, both in SI."""
+    body = {"value": Input(taken, "What comes in.", signed=True), "signal": Output(told, "The same.")}
+    return type("SignalPass", (Passing,), {"__module__": __name__, "__doc__": Passing.__doc__, **body})
+
+
+class SignalFunction(Composite):
+    """signal = an expression of its inputs, such as `expression: "a*sin(b) + 2"`; each name in it is an input.
+
+    Operations are + - * / ** ( ), with sqrt, sin, cos, exp, log, abs, min, max and the constants pi, rad, deg: the
+    language of expressions in braces (docs/netlist.md), and nothing of Python. Without `inputs` all is plain
+    numbers in SI. With `inputs: {a: N, b: rad}` units must go together, and the signal has the unit that
+    follows; quantities stand in parentheses, `(2 N)`. `constants: {k: 3 N/m}` are numbers by name. An exponent is a
+    number.
+
+    It is made of a block an operation. abs, min and max have zones, so a run locates their corners. Limits: what it
+    divides by must not come to zero; what a root or a logarithm is taken of stays above zero.
+    """
+
+    asked_with = {"expression": "a*sin(b) + 2"}
+    expression = Text("The expression; names in it are inputs.")
+    inputs = Entries("Units of the inputs by name: {a: N, b: rad, c: 1}; plain numbers when not given.", default=None)
+    constants = Entries("Numbers by name, which may have units.", default=())
+    signal = Output("1", "The value.")
+
+    def check(p):
+        """It is arithmetic, its names are told, and its units go together."""
+        try:
+            step, _ = read(p)
+        except FormulaError as error:
+            yield error.of, error.what, error.way_out
+            return
+        unused = [name for name, _ in p.inputs or () if name not in step.names()]
+        if unused:
+            yield "inputs", f"{unused[0]} does not occur in the expression", "Leave it out."
+
+    def expand(p, scene):
+        """A block for every operation; what occurs twice is made once."""
+        step, unit = read(p)
+        blocks = Blocks(scene, dict(p.inputs or ()))
+        end = blocks.end(blocks.made(step))
+        if unit != "1":
+            blocks.children["out"] = scene.make(passing("1", unit))
+            blocks.joins.append((end, "out.value"))
+            end = "out.signal"
+        joins = {}
+        for one, other in blocks.joins:  # one connection for all that a block feeds
+            joins.setdefault(one, []).append(other)
+        handed = {name: f"in_{name}.value" for name in blocks.inputs}
+        connections = [(one, *others) for one, others in joins.items()]
+        return Expansion(blocks.children, connections, {}, {"signal": end, **handed})
+
+
+def read(p):
+    """The tree of the expression and the unit of its value. Raises FormulaError."""
+    units = None if p.inputs is None else {name: str(unit) for name, unit in p.inputs}
+    return formula(p.expression, units, dict(p.constants), output="signal")
+
+
+class Blocks:
+    """The blocks of an expression, step by step."""
+
+    def __init__(self, scene, units):
+        """Nothing is made yet."""
+        self.scene, self.units = scene, units
+        self.children, self.joins, self.inputs, self.known = {}, [], [], {}
+
+    def made(self, step):
+        """What a step gives: a number, or the end that tells it."""
+        if step.number is not None:
+            return step.number
+        if step not in self.known:
+            self.known[step] = self.read(step.name) if step.operation == "input" else self.operation(step)
+        return self.known[step]
+
+    def read(self, name):
+        """A signal that comes in."""
+        unit = str(self.units.get(name, "1"))
+        self.inputs.append(name)
+        self.children[f"in_{name}"] = self.scene.make(passing(unit, "1"))
+        return f"in_{name}.signal"
+
+    def block(self, kind, joined, **given):
+        """One more block, with what is joined to its inputs."""
+        name = f"step{len(self.children) - len(self.inputs) + 1}"
+        self.children[name] = self.scene.make(kind, **given)
+        self.joins += [(end, f"{name}.{port}") for port, end in joined.items()]
+        return f"{name}.signal"
+
+    def end(self, value):
+        """A number as a signal."""
+        return self.block(SignalSource, {}, value=value) if isinstance(value, float) else value
+
+    def operation(self, step):
+        """The block of an operation or of a function."""
+        values = [self.made(one) for one in step.inner]
+        if step.operation in CURVES:
+            return self.block(ElementaryFunction, {"value": values[0]}, curve=step.operation)
+        if step.operation in ("min", "max"):
+            pick = "least" if step.operation == "min" else "greatest"
+            ends = map(self.end, values)
+            return functools.reduce(lambda a, b: self.block(SignalSelect, {"a": a, "b": b}, pick=pick), ends)
+        return getattr(self, NAMES[step.operation])(*values)
+
+    def size(self, a):
+        """|a|."""
+        return self.block(SignalSize, {"value": a})
+
+    def same(self, a):
+        """+a."""
+        return a
+
+    def opposite(self, a):
+        """-a."""
+        return self.scaled(a, -1.0)
+
+    def scaled(self, a, gain=1.0, offset=0.0):
+        """A times a gain, plus an offset."""
+        if isinstance(a, float):
+            return gain * a + offset
+        return self.block(SignalGain, {"value": a}, gain=gain, offset=offset)
+
+    def sum(self, a, b, sign=1.0):
+        """A + sign B."""
+        if isinstance(b, float):
+            return self.scaled(a, 1.0, sign * b)
+        return self.scaled(b, sign, a) if isinstance(a, float) else self.block(Sum, {"a": a, "b": b}, gain_b=sign)
+
+    def difference(self, a, b):
+        """A - B."""
+        return self.sum(a, b, -1.0)
+
+    def product(self, a, b):
+        """A times B."""
+        if isinstance(a, float) or isinstance(b, float):
+            return self.scaled(b, a) if isinstance(a, float) else self.scaled(a, b)
+        return self.block(SignalProduct, {"a": a, "b": b})
+
+    def quotient(self, a, b):
+        """A by B."""
+        if isinstance(b, float):
+            return self.scaled(a, 1 / b)
+        return (self.block(SignalQuotient, {"b": b}, gain=a) if isinstance(a, float)
+                else self.block(SignalQuotient, {"a": a, "b": b}))  # fmt: skip
+
+    def power(self, a, exponent):
+        """To a power: products for a whole one, with a root for a half, else exp(exponent log(a))."""
+        if exponent < 0:
+            return self.quotient(1.0, self.power(a, -exponent))
+        if not (2 * exponent).is_integer():
+            logarithm = self.block(ElementaryFunction, {"value": a}, curve="log")
+            return self.block(ElementaryFunction, {"value": self.scaled(logarithm, exponent)}, curve="exp")
+        whole = int(exponent)
+        result = 1.0 if whole == exponent else self.block(ElementaryFunction, {"value": a}, curve="sqrt")
+        while whole:
+            if whole % 2:
+                result = a if result == 1.0 else self.product(result, a)
+            whole //= 2
+            a = self.product(a, a) if whole else a
+        return result
+
+
+NAMES = {"+": "sum", "-": "difference", "*": "product", "/": "quotient", "**": "power", "abs": "size",
+         "neg": "opposite", "pos": "same"}  # fmt: skip
