@@ -17,6 +17,7 @@ from typing import Any
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si
 
+NAN = "Look where it comes from: an empty cell of a table is nan, and 0/0."
 ONE = "Give one value; for several make a model of each, in a loop."
 
 
@@ -99,6 +100,8 @@ class Arguments:
                 self._wrong(name, key, "is no name of a parameter or a setting", 'Write it as {"run.stop": "5 s"}.')
             elif not _is(one, str | int | float):
                 self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", ONE)
+            elif one != one:
+                self._wrong(f"{name}[{shown(key)}]", one, "is not a number", NAN)
 
     def texts(self, name: str, value: object, example: str) -> None:
         """Several texts or paths; a single one is taken for the mistake it is."""

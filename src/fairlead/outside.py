@@ -138,8 +138,9 @@ class Stepping:
             return
         if name not in self._inputs:
             near = did_you_mean(name, self._inputs) if isinstance(name, str) else ""
-            known = f"Inputs are {listing(self._inputs)}." if self._inputs else "It has none: see docs/coupling.md."
-            known += f" Tunable are {listing(self.tunable)}." if self.tunable else ""
+            known = f"Inputs are {listing(self._inputs)}." if self._inputs else "The scene has none (`interface`)."
+            of_start = f"A parameter is named at the start: model.start(tunable=[{shown(repr(name))}])."
+            known += f" Tunable are {listing(self.tunable)}." if self.tunable else f" {of_start}"
             raise UsageError(f"set: there is no input {shown(str(name))}. {near} {known}".replace("  ", " "))
         try:
             number = si(value, self._inputs[name].seen.unit)
@@ -224,7 +225,8 @@ class Stepping:
     def restore(self, state: State) -> None:
         """Go to where this run was, or another one of the same model. Raises UsageError for one of another model."""
         if not isinstance(state, State) or state.of is not self._of:
-            raise UsageError("restore: this state is not of a run of this model. Take what `save` of such a run gave.")
+            what = "this state" if isinstance(state, State) else f"a {type(state).__name__}"
+            raise UsageError(f"restore: {what} is not of a run of this model. Take what `save` of such a run gave.")
         self._begun, self._values, self.changes = True, None, []
         if state.now.own is not self._now.own:  # with other values of parameters
             self._now = state.now._replace(going=state.now.going.beside(self._take))

@@ -98,7 +98,7 @@ class Result(results.Result):
 
     def plot(
         self, names: str | Iterable[str] | None = None, *, title: str = "",
-        between: tuple[float, float] | None = None, file: str | Path | None = None,
+        between: tuple[float | str, float | str] | None = None, file: str | Path | None = None,
     ) -> Figure:  # fmt: skip
         """Draw signals (all, or those of names or patterns) over time, a panel for each unit; a matplotlib Figure.
 

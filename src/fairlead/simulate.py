@@ -238,7 +238,7 @@ class Model:
             asked.yes_or_no(name, value)
         asked.function("progress", progress, ("the fraction done", "the time reached [s]", "None"))
         try:
-            netlist = with_keywords(self.netlist.run, settings)
+            netlist = with_keywords(self.netlist.run, settings, self.netlist.parameters)
         except ModelError as error:
             raise ModelError([*asked.faults, *error.faults]) from None
         asked.refuse()
@@ -272,7 +272,8 @@ class Model:
         asked.texts("tunable", tunable, '"pad.normal_force"')
         asked.refuse()
         named = Tunable.of(self, tunable)
-        return Stepping(self.netlist, with_keywords(self.netlist.run, settings), self.system, inputs, tunable=named)
+        chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters)
+        return Stepping(self.netlist, chosen, self.system, inputs, tunable=named)
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
         """A model with other values of scene parameters (`mu=0.6`) and settings (`{"pad.normal_force": "20 N"}`).

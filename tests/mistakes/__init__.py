@@ -1,4 +1,4 @@
-"""A hundred and fifty mistakes of users, and what a good answer to each must hold.
+"""More than two hundred mistakes of users, and what a good answer to each must hold.
 
 They were written from the pages alone, before the checks they ask for: by whom it was not known which of them fairlead
 finds. `python -m tests.mistakes` plays them and prints the score.
@@ -9,6 +9,7 @@ finds. `python -m tests.mistakes` plays them and prints the score.
     command_mistakes.py     on the command line
     component_mistakes.py   in a class of one's own
     python_mistakes.py      in calls from Python
+    second_look.py          fifty more by somebody else, most of them in calls from Python
     play.py, judge.py       make one and catch the answer; what is missing in it
     known.py                those that are not answered well yet, with a word on why
 """

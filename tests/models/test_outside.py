@@ -253,7 +253,7 @@ MISTAKES = {
     "get: no signal has the name spee. Did you mean speed?": lambda run: run.get("spee"),
     "advance: t = 0.05 s is before 0.1 s": lambda run: run.advance(0.05),
     "advance: t = 1 m is a length": lambda run: run.advance("1 m"),
-    "restore: this state is not of a run of this model": lambda run: run.restore(None),
+    "restore: a NoneType is not of a run of this model": lambda run: run.restore(None),
 }
 
 

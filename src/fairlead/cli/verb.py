@@ -51,9 +51,18 @@ def _told() -> Iterator[None]:
         raise typer.Exit(INTERRUPTED) from error
     except Exception as error:
         if isinstance(error, USAGE_ERRORS):
-            text = printable(error.format_message())  # type: ignore[attr-defined]
+            text = printable(f"{error.format_message()}{_meant_to_set(error)}")  # type: ignore[attr-defined]
             error.format_message = lambda: text  # type: ignore[attr-defined]
         raise
+
+
+def _meant_to_set(error: Exception) -> str:
+    """A hint for who types a parameter as if it were an option, where the verb has `--set`."""
+    name, command = getattr(error, "option_name", ""), getattr(getattr(error, "ctx", None), "command", None)
+    near = [one for one in getattr(error, "possibilities", None) or () if one.startswith(name)]
+    if near or not name.startswith("--") or not any("--set" in one.opts for one in getattr(command, "params", ())):
+        return ""
+    return f"\nA value of the scene is given by --set {name[2:]}=VALUE."
 
 
 class Verb(typer.core.TyperCommand):

@@ -72,7 +72,7 @@ def asked_of(
 
     refuse_platform()
     compiler()
-    chosen = with_keywords(model.netlist.run, settings)
+    chosen = with_keywords(model.netlist.run, settings, model.netlist.parameters)
     refuse_engine(engine_of(chosen, model.system)[0])
     parameters, faults = find_tunable(model.netlist, model.assembly.entries, tunable)
     refuse_names(model.system, inputs, outputs, faults)

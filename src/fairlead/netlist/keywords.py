@@ -5,14 +5,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal, TypedDict
 
 import numpy as np
 
-from fairlead.errors import Location, ModelError
+from fairlead.errors import Fault, Location, ModelError, shown
 from fairlead.netlist.netlist import Value
-from fairlead.netlist.settings import RunSettings, Strict
+from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
 from fairlead.netlist.translate import validate
 
 PLACE = Location("Model.run")
@@ -42,12 +42,32 @@ class _Block(Strict):
     run: RunSettings
 
 
-def with_keywords(settings: RunSettings, given: Mapping[str, Any]) -> RunSettings:
-    """The settings of a netlist with those that are given. Raises ModelError with every mistake in them."""
-    made, faults = validate(_Block, _written({"run": settings.model_dump() | {**given}}))
-    if made is None:
-        raise ModelError(faults)
+def with_keywords(settings: RunSettings, given: Mapping[str, Any], parameters: Collection[str] = ()) -> RunSettings:
+    """The settings of a netlist with those that are given. Raises ModelError with every mistake in them.
+
+    `parameters` are those of the scene: who gives one here is told where it goes.
+    """
+    strays = [*_strays(given, parameters)]
+    names = {fault.what.rpartition(" ")[2] for fault in strays}
+    known = {name: value for name, value in given.items() if name not in names}
+    made, faults = validate(_Block, _written({"run": settings.model_dump() | known}))
+    if made is None or strays:
+        raise ModelError([*strays, *faults])
     return made.run
+
+
+def _strays(given: Mapping[str, Any], parameters: Collection[str]) -> Iterator[Fault]:
+    """What is no setting of a run, but of its record, of the scene or of a part."""
+    for name, value in given.items():
+        if name in RecordSettings.model_fields:
+            way_out = f'It stands in the block record: load(..., set={{"record.{name}": ...}}).'
+        elif name in parameters:
+            way_out = f"It is a parameter of the scene: model.with_values({name}={shown(repr(value))}).run()."
+        elif "." in name:
+            way_out = f"What a part has is given before: model.with_values({{{name!r}: {shown(repr(value))}}}).run()."
+        else:
+            continue
+        yield Fault(PLACE, f"run has no key {name}", way_out)
 
 
 def _written(value: Any) -> Value:

@@ -16,9 +16,12 @@ from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.files import UNPRINTABLE
 from fairlead.netlist.limits import DEEPEST
 from fairlead.netlist.netlist import Value
+from fairlead.netlist.settings import RecordSettings, RunSettings
 from fairlead.netlist.yaml12 import resolve
 
 BLOCKS = ("run", "record", "friction", "effects", "initial", "nominal", "limits")
+KEYS = {"run": RunSettings.model_fields, "record": RecordSettings.model_fields}
+"""Blocks whose names are always the same."""
 DOTTED = ("initial", "nominal", "limits")
 """Blocks whose names are those of signals, with dots and brackets in them."""
 SIDES = ("above", "below")
@@ -138,7 +141,9 @@ def _unknown(name: str, parameters: Mapping[str, Value], components: Mapping[str
         f"there is no component or block {shown(first)}" if rest else f"there is no parameter {shown(name)}"
     )
     names = f"Known: {listing(known)}." if known else "The netlist declares no parameters."
-    return Fault(PLACE, f"{shown(name)}: {what}", f"{did_you_mean(first, known)} {names}".strip())
+    blocks = [block for block, keys in KEYS.items() if name in keys]
+    near = f"Did you mean {blocks[0]}.{name}?" if blocks else did_you_mean(first, known)
+    return Fault(PLACE, f"{shown(name)}: {what}", f"{near} {names}".strip())
 
 
 def _sample(component: Value) -> str:

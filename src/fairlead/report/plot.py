@@ -22,7 +22,8 @@ FORMATS = (".png", ".svg", ".pdf")
 
 
 def plot(
-    result: Result, names: Sequence[str], title: str, between: tuple[float, float] | None, file: str | Path | None
+    result: Result, names: Sequence[str], title: str, between: tuple[float | str, float | str] | None,
+    file: str | Path | None,
 ) -> Figure:  # fmt: skip
     """Draw signals, a panel for each unit. Raises UsageError for more panels than a page has, and other formats."""
     import matplotlib
@@ -49,7 +50,7 @@ def plot(
     return drawn
 
 
-def _span(asked: Arguments, between: tuple[float, float]) -> tuple[float, float]:
+def _span(asked: Arguments, between: tuple[float | str, float | str]) -> tuple[float, float]:
     if not isinstance(between, tuple | list) or len(between) != 2:
         asked.pair("between", between, "(1.0, 2.5)")
         return 0.0, 1.0

@@ -13,13 +13,16 @@ from fairlead.results.placing import placing
 
 MOST_ROWS, MOST_COLUMNS, LONGEST_TEXT = 1_048_576, 16_384, 32_767
 """What a sheet holds (Microsoft, Excel specifications and limits)."""
+ENDINGS = (".xlsx", ".xlsm")
 
 
 def to_excel(result: Record, path: str | Path, names: Sequence[str], side: Side = "both") -> None:
     """Write the sheets `signals` (time and side first, units in the header), `events` and `run`.
 
-    Raises UsageError when openpyxl is missing, or the signals do not fit on a sheet.
+    Raises UsageError when openpyxl is missing, the file has another ending, or the signals do not fit on a sheet.
     """
+    if Path(path).suffix.lower() not in ENDINGS:
+        raise UsageError(f"{path} is no name of a workbook. End it in .xlsx, or write text with to_csv.")
     openpyxl = _package()
     rows = rows_of(result, side)
     if len(rows) + 1 > MOST_ROWS or len(names) + 2 > MOST_COLUMNS:

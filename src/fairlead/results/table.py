@@ -54,6 +54,8 @@ class Table:
     def __getitem__(self, which: str | int) -> Any:
         """The column of that name, or the row of that number. Raises KeyError, IndexError."""
         if isinstance(which, int):
+            if not -len(self.rows) <= which < len(self.rows):
+                raise IndexError(f"{which}: {f'rows are 0 to {len(self.rows) - 1}' if self.rows else 'it has no rows'}")
             return dict(zip(self.columns, self.rows[which], strict=True))
         if which not in self.columns:
             raise KeyError(f"{which}: the columns are {', '.join(self.columns)}")
