@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from fairlead.analysis.record.suggestion import suggest
+from fairlead.engine import engine_settings, refused
 from fairlead.errors import ModelError, SteppingError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.codes import TRY
 from fairlead.integrate.engines import engine_of
@@ -34,11 +35,12 @@ from fairlead.integrate.underway import Saved, Underway
 from fairlead.outer import Read, find_inputs, find_outputs
 from fairlead.quantities import QuantityError, si
 from fairlead.renamed import now_called
-from fairlead.run import engine_settings, failed, failure_of, named_change, not_allowed, refused
+from fairlead.run import failed, failure_of, not_allowed
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
 from fairlead.tuning import Tunable, gone_on
+from fairlead.watch import named_change
 
 if TYPE_CHECKING:
     from fairlead.integrate.engine import Engine

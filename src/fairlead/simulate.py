@@ -1,11 +1,11 @@
 """The pipeline, in order; the table of contents of fairlead.
 
-    netlist      load(path)             Netlist      validated, every value knows its line
-    component    instantiate(netlist)   Assembly     component instances, parameters in SI
-    flatten      flatten(assembly)      FlatModel    nodes, kinematic groups, links
-    system       compile(flat)          System       index arrays, kernels, patterns
-    integrate    integrate(system)      Outcome      steps, switches, counters
-    results      run(...)               Result       a directory, written as the run goes
+netlist      load(path)             Netlist      validated, every value knows its line
+component    instantiate(netlist)   Assembly     component instances, parameters in SI
+flatten      flatten(assembly)      FlatModel    nodes, kinematic groups, links
+system       compile(flat)          System       index arrays, kernels, patterns
+integrate    integrate(system)      Outcome      steps, switches, counters
+results      run(...)               Result       a directory, written as the run goes
 """
 
 from __future__ import annotations
@@ -156,10 +156,10 @@ class Model:
         from fairlead.analysis.statics.start_profile import laid_under_statics
         from fairlead.component.instantiate import survey as instantiate
         from fairlead.component.registry import known_types
+        from fairlead.engine import engine_remarks
         from fairlead.errors import without_echoes
         from fairlead.flatten.flatten import survey as flatten
         from fairlead.outer import interface_faults
-        from fairlead.run import engine_remarks
         from fairlead.system.compile import untraceable
 
         faults = list(self._faults)

@@ -124,7 +124,7 @@ class Play:
         return {"engine": self.engine}
 
     def _would_auto(self, model: Any) -> None:
-        from fairlead.run import engine_of
+        from fairlead.engine import engine_of
 
         asked = model.netlist.run.model_copy(update={"engine": "auto"})
         self.auto = self.auto and engine_of(asked, model.system)[0] == self.engine

@@ -14,9 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import fairlead
+from fairlead.engine import engine_settings
 from fairlead.integrate.problem import Status
 from fairlead.integrate.underway import Underway
-from fairlead.run import _patterns, engine_settings
+from fairlead.run import _patterns
 from tests.invariance.plays import Play
 from tests.invariance.reordering import permuted, shuffled
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fairlead.run import engine_of
+from fairlead.engine import engine_of
 
 ACCURACY = 1e-4
 

@@ -5,8 +5,8 @@ import sys
 import pytest
 
 import fairlead
+from fairlead.engine import engine_of
 from fairlead.errors import UsageError
-from fairlead.run import engine_of
 
 
 def test_ida_runs_from_a_netlist_and_run_json_says_so(tmp_path):

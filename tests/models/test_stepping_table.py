@@ -12,9 +12,9 @@ from fairlead.analysis.treatments.stepping_table import (
     handling,
     most_located,
 )
+from fairlead.engine import engine_of
 from fairlead.errors import ModelError, UsageError
 from fairlead.integrate import Run
-from fairlead.run import engine_of
 
 MANY = FEW + 5
 LEVEL, FALLING = "curve: 0.3", "curve: {curve: coulomb, stiction: 0.5, coulomb: 0.3}"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairlead.run import engine_of
+from fairlead.engine import engine_of
 from fairlead.system.active.timed_limits import timed_limits
 
 SWING = "{sine: {amplitude: 9.8, frequency: 500 Hz, offset: 10}}"

@@ -10,7 +10,7 @@ from fairlead import run
 from fairlead.cases import Cases
 from fairlead.errors import ModelError
 from fairlead.integrate.problem import Block, End
-from fairlead.run import Watch
+from fairlead.watch import Watch
 
 # Block on a belt (tests/reference): stiffness 100 N/m, mass 1 kg, belt 0.2 m/s, stiction 10 N, sliding 6 N.
 # It sticks until the spring pulls with 10 N, slips about x = 0.06 m, and comes to the speed of the belt again.

@@ -44,8 +44,8 @@ ALLOWED = {
     "report": {"arguments", "errors", "quantities", "patterns", "results", "analysis", "flatten"},
 }
 # May import all that lies before:
-LAST = {"", "model_page", "result", "run", "outside", "tuning", "outer", "renewal", "simulate", "statics", "studies",
-        "cases", "testing", "fmu", "cli", "__main__", "models"}  # fmt: skip
+LAST = {"", "model_page", "result", "engine", "watch", "run", "outside", "tuning", "outer", "renewal",
+        "simulate", "statics", "studies", "cases", "testing", "fmu", "cli", "__main__", "models"}  # fmt: skip
 
 
 def source_files() -> dict[str, pathlib.Path]:

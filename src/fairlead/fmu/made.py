@@ -10,6 +10,7 @@ import uuid
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from fairlead.engine import engine_of
 from fairlead.fmu.compiler import compiler
 from fairlead.fmu.data import data_object
 from fairlead.fmu.header import header, stubs
@@ -28,7 +29,6 @@ from fairlead.netlist.interface import Outer
 from fairlead.outer import Variable, find_tunable, gathered
 from fairlead.outside import LaidOpen, Stepping, laid_open
 from fairlead.patterns import picked
-from fairlead.run import engine_of
 
 if TYPE_CHECKING:
     from fairlead.netlist.keywords import RunKeywords

@@ -1,0 +1,66 @@
+"""The engine of a run: which one it is and why, what that cannot do with this model, and its settings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from fairlead.analysis.record.remedy import budget
+from fairlead.analysis.treatments.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
+from fairlead.choice import choose
+from fairlead.errors import Fault, ModelError
+from fairlead.integrate import Run
+from fairlead.netlist.netlist import Netlist
+from fairlead.netlist.settings import RunSettings
+
+if TYPE_CHECKING:
+    from fairlead.system.compiled.system import System
+
+
+def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "stepping", "ida"], str]:
+    """The engine of a run and why, as run.json tells them."""
+    if settings.engine != "auto":
+        return settings.engine, "chosen by run.engine"
+    if (reason := beyond(system, settings)) is not None:
+        return "rodas", f"auto: {reason}"
+    contacts = int(np.count_nonzero(system.holder >= 0))
+    smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
+    engine, reason = choose(contacts, smooth, settings.accuracy)
+    if engine == "stepping" and ((found := handling(system, settings)).way != INSIDE or found.of.auto):
+        return "rodas", f"auto: it locates every switch, and {found.why}"
+    return engine, reason
+
+
+def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
+    """What the engine that `run.engine` asks for cannot do well in this model. Raises ModelError if it refuses."""
+    if (fault := refused(settings, system)) is not None:
+        raise ModelError([fault])
+    return list(remark(system, settings))
+
+
+def refused(settings: RunSettings, system: System) -> Fault | None:
+    """Why the engine that `run.engine` asks for does not run this model, None where it does."""
+    if settings.engine == "ida" and (kept := system.kept_positions):
+        what = f"run.engine: ida does not bring positions back to what {few(kept)} keeps after every step"
+        return Fault(None, f"{what}, so they would drift.", "Take run.engine: rodas (or auto).")
+    return refusal(system, settings)
+
+
+def engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str], *,
+                    between: bool = True) -> Run:  # fmt: skip
+    """The settings of a run as the engine takes them; `between`: with what happens between the rows of a grid."""
+    method = "rodas5p" if settings.method == "auto" else settings.method
+    types = [instance.type for instance in system.flat.instances]
+    engine = engine_of(settings, system)[0]
+    located = {"most_located": most_located(system, settings)} if engine == "stepping" else {}
+    return Run(
+        stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
+        accuracy=settings.accuracy, record=patterns,
+        between=between or netlist.record.every is None,  # the curve of a step goes through its rows inside
+        engine=engine, **located,
+        first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
+        max_steps=budget(types, "max_steps", settings.max_steps),
+        max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,
+        dwell=settings.shortest_zone, on_chatter=settings.chatter,
+    )  # fmt: skip

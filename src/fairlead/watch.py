@@ -1,0 +1,174 @@
+"""What is watched while a run goes on: rows go to a sink, and the figures of the summary are kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairlead.analysis.record.below_weight import BelowWeight
+from fairlead.analysis.record.creep import WorstCreep
+from fairlead.analysis.record.energy import Ledger
+from fairlead.analysis.record.event_rows import EventRows, Rows
+from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.limits import Limits
+from fairlead.analysis.record.released_together import ReleasedTogether
+from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
+from fairlead.analysis.record.strains import Strains
+from fairlead.integrate import Block, End
+from fairlead.interruption import Interruption
+from fairlead.results import Sink
+
+if TYPE_CHECKING:
+    from fairlead.system.arrays.recording import OutputSignal, Recording
+    from fairlead.system.compiled.system import System
+
+SIDES = np.array([0, -1, +1, 2], dtype=np.int8)  # as the results do: ordinary, before an event, after it, inside a step
+MOST_JUMPS_TOLD = 5
+ZoneChange = tuple[float, str, str, str, str]  # when [s], whose, zones before and after, guard
+CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none
+
+
+@dataclass
+class Watch:
+    """Receives blocks of the engine: passes them on and keeps the figures of the summary."""
+
+    system: System
+    sink: Sink
+    recording: Recording
+    ledger: Ledger
+    creep: WorstCreep
+    limits: Limits
+    strains: Strains
+    below: BelowWeight
+    together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
+    progress: Callable[[float, float, Any], None] | None
+    interruption: Interruption
+    event_rows: EventRows | None  # what of events is kept; None: everything
+    accuracy: float
+    peaks: bool = True
+    """Whether extremes are looked for."""
+    steps: WholeSteps = field(init=False)
+    batches: Batches = field(init=False)
+    begun: bool = field(init=False)
+    extremes: Extremes = field(init=False)
+    thinning: Thinning = field(init=False)
+    names: dict[tuple[int, ...], tuple[str, str, str, str]] = field(init=False)  # by machine, zones and guard
+    creeping: NDArray[np.int64] = field(init=False)  # columns of what `creep` watches
+    metered: NDArray[np.int64] | None = field(init=False, default=None)  # and of what `ledger` does
+
+    def __post_init__(self) -> None:
+        """Find the columns."""
+        self.steps, self.batches, self.begun = WholeSteps(), Batches(len(self.recording.recorded)), False
+        self.extremes = Extremes(len(self.recording.recorded))
+        self.thinning, self.names = Thinning(self.accuracy, self.chosen), {}
+        columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
+        self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
+        if "energy.supplied" in columns:
+            self.metered = np.array([columns["energy.dissipated"], columns["energy.supplied"], -1])
+
+    @property
+    def chosen(self) -> int:
+        """How many of the recorded signals were asked for: the first ones."""
+        return len(self.recording.chosen)
+
+    def __call__(self, block: Block) -> End | None:
+        """Take one block, up to where its rows mean something, which ends the run.
+
+        Raises KeyboardInterrupt when it is written, if that was asked for meanwhile.
+        """
+        self.interruption.between_blocks = True
+        found = self.strains.end(block.t, block.values)
+        self._take(block if found is None else up_to(block, found[0]))
+        self.interruption.due()
+        return None if found is None else End(float(block.t[found[0]]), *found[1:])
+
+    def _take(self, block: Block) -> None:
+        rows = Rows(block.t, block.values, block.side)
+        if self.peaks:
+            for batch in self.batches.take(rows):
+                self.extremes.watch(batch)
+        whole = self.steps.take(rows._replace(values=rows.values[:, : self.chosen]))
+        if whole is not None:
+            self._take_steps(whole)
+        self.sink.events(self._named(block.events))
+        if self.together is not None:
+            self.together.watch(block.events)
+        self.creep.watch(block.t, block.values[:, self.creeping])
+        self.strains.watch(block.t, block.values)
+        self.below.watch(block.values)
+        if self.metered is not None:
+            self.ledger.watch(block.values[:, self.metered])
+        if self.progress is not None:
+            self.progress(block.fraction, block.reached, None)
+
+    def _named(self, events: NDArray[Any]) -> Iterator[ZoneChange]:
+        """Zone changes with names; those of a change are looked up once."""
+        for row in events.tolist():
+            change = row[1:5]
+            if change not in self.names:
+                self.names[change] = names_of_change(self.system, *change)
+            yield row[0], *self.names[change]
+
+    def _take_steps(self, rows: Rows) -> None:
+        if self.event_rows is None:
+            self._write(self.thinning.take(rows, first=not self.begun))
+        else:
+            self._write(self.event_rows.take(on_grid(rows.where(slice(int(self.begun), None)))))
+        self.begun = True
+
+    def _write(self, rows: Rows) -> None:
+        self.sink.append(rows.t, rows.values, SIDES[rows.side])
+
+    def finish(self) -> None:
+        """Write what still waits; no block follows."""
+        if (rest := self.steps.rest()) is not None and len(rest.t):
+            self._take_steps(rest)
+        if (rest := self.batches.rest()) is not None:
+            self.extremes.watch(rest)
+        self.limits.take(self.extremes)
+        if self.event_rows is not None and (rest := self.event_rows.rest()) is not None:
+            self._write(rest)
+
+    def jumps(self) -> dict[str, Any]:
+        """For run.json: events that have two rows on a grid, and the signals that jump at most of them."""
+        if self.event_rows is None:
+            return {"kept": 0, "most": {}}
+        counts = self.event_rows.jumps
+        most = [k for k in np.argsort(-counts, kind="stable")[:MOST_JUMPS_TOLD].tolist() if counts[k]]
+        return {"kept": self.event_rows.kept, "most": {self.recording.recorded[k].name: int(counts[k]) for k in most}}
+
+
+def up_to(block: Block, row: int) -> Block:
+    """The block with this row as its last."""
+    rows, t = slice(row + 1), float(block.t[row])
+    events = block.events[block.events["t"] <= t]
+    return block._replace(t=block.t[rows], values=block.values[rows], side=block.side[rows], events=events, reached=t)
+
+
+def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float) -> NDArray[np.float64]:
+    """By recorded signal: the share of its largest value from which a difference across an event is a jump.
+
+    What a sampler holds is a stair whose steps come by the clock: none of them has rows of its own (infinite).
+    """
+    held = set()
+    for block in system.blocks:
+        s = block.kernel.structure
+        stairs = set(range(len(s.outputs))) - {k for k, _ in s.d_signals} if s.period else set()
+        held |= {f"{instance.path}.{s.outputs[k]}" for instance in block.instances for k in stairs}
+    return np.array([np.inf if one.name in held else CONTINUOUS * accuracy for one in chosen])
+
+
+def named_change(system: System, row: Any) -> ZoneChange:
+    """One zone change with names."""
+    change = (int(row[name]) for name in ("machine", "before", "after", "guard"))
+    return float(row["t"]), *names_of_change(system, *change)
+
+
+def names_of_change(system: System, machine: int, before: int, after: int, guard: int) -> tuple[str, str, str, str]:
+    """Contact, zones before and after, and guard of a change."""
+    zones = system.zone_names(machine)
+    return system.machine_names[machine], zones[before], zones[after], system.guard_name(guard, machine, before)
