@@ -112,6 +112,12 @@ def test_all_mistakes_in_figures_come_at_once() -> None:
         assert word in told
 
 
+def test_contacts_of_a_line_with_its_devices_can_be_asked_for_before_anything_was_checked() -> None:
+    """They are there once the line is laid into its route."""
+    cases = Cases(fairlead.load("single_bend"), {"slip": "largest(line.outer[*].slip)"})
+    assert cases.units == {"slip": "m/s"}
+
+
 def test_a_key_hangs_on_values_and_not_on_their_order() -> None:
     cases, others = Cases(MODEL, {"n": "switches()"}), Cases(MODEL, {"n": "switches(pad)"})
     one = {"block.mass": "2 kg", "pad.normal_force": "9 N"}

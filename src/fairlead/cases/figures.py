@@ -119,7 +119,7 @@ class _Known:
     model: Model
 
     def __post_init__(self) -> None:
-        self.units = {one.name: one.unit for one in signals_of(self.model.assembly)}
+        self.units = {one.name: one.unit for one in signals_of(self.model.flat.assembly)}
 
     def figure(self, name: str, text: str) -> Figure:
         """Read one text. Raises _Wrong."""

@@ -112,7 +112,7 @@ def _refuse_mistakes(load: Load, fixed: Mapping[str, str], chosen: Sequence[Mapp
 
 def _refuse_unknown(model: Any, pattern: str) -> None:
     """Raise ModelError when no recorded signal fits the pattern that the error is to be taken from."""
-    names = dict.fromkeys(signal.name for signal in signals_of(model.assembly))
+    names = dict.fromkeys(signal.name for signal in signals_of(model.flat.assembly))
     recorded = [name for one in model.netlist.record.signals for name in picked(names, one)]
     if not picked(dict.fromkeys(recorded), pattern):
         near, way_out = suggest(pattern, recorded)

@@ -78,15 +78,15 @@ def intervals(
     drawn = _bootstrap(problem, j, r, slopes[0], bread, seed)
     made = []
     for k, one in enumerate(problem.sought):
+        value = _back(problem, z, k, z[k])
+        if one.name in hidden:  # what the data do not tell may be wider than a float holds
+            made.append(Interval(value, None, None, None))
+            continue
         half = factor * math.sqrt(max(covariance[k, k], 0.0))
-        ends = [_back(problem, z, k, z[k] + side * half) for side in (-1, 1)]
+        low, high = (_back(problem, z, k, z[k] + side * half) for side in (-1, 1))
         shares = [(1 - LEVEL) / 2, (1 + LEVEL) / 2]
         quantiles = [_back(problem, z, k, z[k] + q) for q in np.quantile(drawn[:, k], shares)]
-        value = _back(problem, z, k, z[k])
-        if one.name in hidden:
-            made.append(Interval(value, None, None, None))
-        else:
-            made.append(Interval(value, ends[0], ends[1], (quantiles[0], quantiles[1])))
+        made.append(Interval(value, low, high, (quantiles[0], quantiles[1])))
     return made
 
 
@@ -164,3 +164,13 @@ def loss_slopes(kind: str, scale: float, r: Floats) -> tuple[Floats, Floats]:
     first = {"soft_l1": lambda: (1 + z) ** -0.5, "huber": lambda: np.where(z <= 1, 1.0, z**-0.5),
              "cauchy": lambda: 1 / (1 + z), "arctan": lambda: 1 / (1 + z**2)}[kind]()  # fmt: skip
     return first, np.ones_like(r)
+
+
+def loss_sum(kind: str, scale: float, r: Floats) -> float:
+    """The sum of a loss, scale^2/2 sum of rho((r/scale)^2), as scipy.optimize.least_squares makes it small."""
+    if kind == LINEAR:
+        return 0.5 * float(r @ r)
+    z = (r / scale) ** 2
+    rho = {"soft_l1": lambda: 2 * (np.sqrt(1 + z) - 1), "huber": lambda: np.where(z <= 1, z, 2 * np.sqrt(z) - 1),
+           "cauchy": lambda: np.log1p(z), "arctan": lambda: np.arctan(z)}[kind]()  # fmt: skip
+    return 0.5 * scale**2 * float(rho.sum())

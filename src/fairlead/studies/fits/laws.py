@@ -1,12 +1,19 @@
-"""Laws beside each other: each is fitted with every record left out in turn, and foretells that one."""
+"""Laws beside each other: each is fitted with every record left out in turn, and foretells that one.
+
+Those with fewer parameters come first. The search of a law begins at their fits too, so that one that contains another
+is not fitted worse than that; with a record left out, at fits that have not seen it either.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fairlead.errors import FairleadError, UsageError
+from fairlead.simulate import Model
 from fairlead.studies.fits.fit_file import Asked, Law
+from fairlead.studies.fits.nests import Contained, Floats, places
+from fairlead.studies.fits.problem import Problem, Record, Target
 from fairlead.studies.fits.search import Error, Fitted, Told, errors, fit, foretelling, prepared
 
 
@@ -26,25 +33,55 @@ def compare(asked: Asked, laws: Sequence[Law], told: Told | None = None) -> list
     """Every law judged. Raises UsageError for a single record, ModelError for a law that the model has not."""
     if len(asked.given.records) < 2:
         raise UsageError("Laws are compared by leaving each record out in turn; give two records or more.")
-    ready = [(law, *prepared(asked, law)) for law in laws]  # all mistakes come before anything is fitted
-    made = []
-    for law, records, targets, _ in ready:
+    ready = [(law, *prepared(asked, law)[:2]) for law in laws]  # all mistakes come before anything is fitted
+    made: dict[int, Judged] = {}
+    fits: list[_Fits] = []
+    for k in sorted(range(len(laws)), key=lambda k: len(laws[k].sought)):
+        law, records, targets = ready[k]
         try:
-            whole = fit(asked, targets, law)
-            if told is not None:
-                told(f"{law.name}: loss {whole.loss:.6g} in {whole.runs} runs")
-            judged = Judged(law, fitted=whole)
-            for k, record in enumerate(records):
-                rest = foretelling(asked, [*targets[:k], *targets[k + 1 :]], law, whole)
-                judged.trained[record.name] = errors(record, whole.values) or {}
-                judged.left_out[record.name] = errors(record, rest) or {}
-                if told is not None:
-                    told(f"{law.name}: {record.name} {_sizes(judged.trained[record.name], record.units)}, "
-                         f"left out {_sizes(judged.left_out[record.name], record.units)}")
+            made[k], values = _judge(asked, law, records, targets, fits, told)
+            fits.append(_Fits(law, records[0].cases.model, values))
         except FairleadError as error:
-            judged = Judged(law, sentence=" ".join(str(error).split()))
-        made.append(judged)
-    return made
+            made[k] = Judged(law, sentence=" ".join(str(error).split()))
+    return [made[k] for k in range(len(laws))]
+
+
+@dataclass(frozen=True)
+class _Fits:
+    """Values of a law fitted to all records, under no name, and without each record, under its name."""
+
+    law: Law
+    model: Model
+    values: dict[str, dict[str, float]]
+
+    def places(self, asked: Asked, law: Law, records: Sequence[Record], without: str = "") -> Iterator[tuple[str, Floats]]:
+        """Where a law with more parameters may begin, for it to be this one."""
+        if len(law.sought) > len(self.law.sought):
+            problem = Problem((*asked.sought, *law.sought), ())
+            like = Contained.of(self.model, self.values[without])
+            yield from ((self.law.name, one) for one in places(problem, records[0].cases.model, like))
+
+
+def _judge(asked: Asked, law: Law, records: list[Record], targets: list[Target], fits: Sequence[_Fits],
+           told: Told | None) -> tuple[Judged, dict[str, dict[str, float]]]:  # fmt: skip
+    """A law judged, and its fits. Raises FairleadError when no start gives a run that finishes."""
+
+    def also(without: str = "") -> list[tuple[str, Floats]]:
+        return [place for one in fits for place in one.places(asked, law, records, without)]
+
+    whole = fit(asked, targets, law, also=also())
+    if told is not None:
+        told(f"{law.name}: loss {whole.loss:.6g} in {whole.runs} runs")
+    judged, values = Judged(law, fitted=whole), {"": whole.values}
+    for k, record in enumerate(records):
+        rest = foretelling(asked, [*targets[:k], *targets[k + 1 :]], law, whole, also(record.name))
+        values[record.name] = rest
+        judged.trained[record.name] = errors(record, whole.values) or {}
+        judged.left_out[record.name] = errors(record, rest) or {}
+        if told is not None:
+            told(f"{law.name}: {record.name} {_sizes(judged.trained[record.name], record.units)}, "
+                 f"left out {_sizes(judged.left_out[record.name], record.units)}")
+    return judged, values
 
 
 def _sizes(found: Mapping[str, Error], units: Mapping[str, str]) -> str:

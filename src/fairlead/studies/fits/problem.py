@@ -148,7 +148,7 @@ def _record(asked: Asked, name: str, given: RecordFile, law: Law, faults: list[F
     model = _model(asked, name, law, stop, faults)
     if model is None:
         return None
-    units = {one.name: one.unit for one in signals_of(model.assembly)}
+    units = {one.name: one.unit for one in signals_of(model.flat.assembly)}
     values, noise = {}, {}
     for signal, column in given.signals.items():
         where = asked.at("records", name, "signals", signal)

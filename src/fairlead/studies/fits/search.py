@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fairlead.errors import FairleadError
 from fairlead.studies.differences.steps import CHAOS, Step, jacobian, noise_floor, steps
 from fairlead.studies.fits.fit_file import Asked, Law
-from fairlead.studies.fits.known import Direction, Interval, directions, intervals, loss_slopes
+from fairlead.studies.fits.known import Direction, Interval, directions, intervals, loss_slopes, loss_sum
 from fairlead.studies.fits.problem import FAR, TIME, Problem, Record, Target, records_of, targets_of
 
 Floats = NDArray[np.float64]
@@ -22,6 +22,11 @@ PRECISION = 1e-8
 LITTLE = 0.01
 """Change of the sum of squares at which a search ends, in variances of the noise: 1 is one standard error."""
 MOST_TURNS = 30
+CLOSE = 0.01
+"""A contained law's fit is where a search begins if the loss there is at most this share above the best so far. Bounds
+such as those of a logarithm keep a law from being quite the one it contains."""
+Places = Sequence[tuple[str, Floats]]
+"""Further places to begin at, each with the law it comes from."""
 
 
 @dataclass(frozen=True)
@@ -83,17 +88,18 @@ def chaotic(records: list[Record], problem: Callable[[list[Target]], Problem]) -
     return found
 
 
-def foretelling(asked: Asked, targets: list[Target], law: Law, like: Fitted) -> dict[str, float]:
+def foretelling(asked: Asked, targets: list[Target], law: Law, like: Fitted, also: Places = ()) -> dict[str, float]:
     """Values of the parameters fitted to some of the targets, from all starts, by the steps of a fit.
 
-    No search begins where the fit to all targets ended, which has seen what is to be foretold.
+    No search begins where a fit to all targets ended, which has seen what is to be foretold; nor may `also`.
     """
     problem = Problem((*asked.sought, *law.sought), tuple(targets))
-    best, _ = _searches(asked, Counted(problem), [like.steps[one.name] for one in problem.sought], None)
+    best, _ = _searches(asked, Counted(problem), [like.steps[one.name] for one in problem.sought], None, also)
     return problem.values(best.x)
 
 
-def _searches(asked: Asked, counted: Counted, sizes: list[Step], told: Told | None) -> tuple[Any, list[Start]]:
+def _searches(asked: Asked, counted: Counted, sizes: list[Step], told: Told | None, also: Places
+              ) -> tuple[Any, list[Start]]:  # fmt: skip
     """The best of all searches, and what each came to."""
     problem, found, starts = counted.problem, [], []
     for number, begin in enumerate(_starts(problem, asked.given.starts, asked.given.seed)):
@@ -106,7 +112,26 @@ def _searches(asked: Asked, counted: Counted, sizes: list[Step], told: Told | No
         starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
         if told is not None:
             told(f"start {number + 1}: loss {one.cost:.6g}")
-    return min(found, key=lambda one: one.cost), starts
+    best = min(found, key=lambda one: one.cost)
+    least, law, begin = _best_place(asked, counted, also)
+    if begin is not None and least <= (1 + CLOSE) * best.cost:
+        one = _search(asked, counted, begin, sizes)
+        starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
+        best = min(best, one, key=lambda one: one.cost)
+        if told is not None:
+            told(f"from the fit of {law}, which this law contains: loss {one.cost:.6g}")
+    return best, starts
+
+
+def _best_place(asked: Asked, counted: Counted, also: Places) -> tuple[float, str, Floats | None]:
+    """Least loss at further places to begin at, the law it comes from, and the place; None when there is none."""
+    least: tuple[float, str, Floats | None] = (float("inf"), "", None)
+    for law, place in also:
+        begin = _inside(place, counted.problem.bounds)
+        residuals = counted(begin)
+        if not (residuals == FAR).any():
+            least = min(least, (loss_sum(asked.given.loss.kind, asked.given.loss.scale, residuals), law, begin), key=lambda one: one[0])
+    return least
 
 
 def _search(asked: Asked, counted: Counted, begin: Floats, sizes: list[Step]) -> Any:
@@ -120,7 +145,8 @@ def _search(asked: Asked, counted: Counted, begin: Floats, sizes: list[Step]) ->
                          xtol=PRECISION, gtol=1e-12, max_nfev=MOST_TURNS)  # fmt: skip
 
 
-def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | None = None) -> Fitted:  # noqa: B008
+def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | None = None,  # noqa: B008
+        also: Places = ()) -> Fitted:  # fmt: skip
     """Fit the parameters to the targets. Raises FairleadError when no start gives a run that finishes."""
     problem, loss = Problem((*asked.sought, *law.sought), tuple(targets)), asked.given.loss
     counted, bounds = Counted(problem), problem.bounds
@@ -132,7 +158,7 @@ def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | No
                             f"{record.sentence(problem.values(inside))})\n    Begin at other values.")  # fmt: skip
     noise = noise_floor(counted, inside, bounds)
     sizes = steps(counted, inside, bounds, noise)
-    best, starts = _searches(asked, counted, sizes, told)
+    best, starts = _searches(asked, counted, sizes, told, also)
     sizes = steps(counted, best.x, bounds, noise_floor(counted, best.x, bounds))
     r, j = counted(best.x), jacobian(counted, best.x, sizes, bounds)
     ways = directions(problem, j, r, sizes)
