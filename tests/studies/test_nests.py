@@ -23,9 +23,7 @@ DAMPED = (
     .replace("block.flange, pad.b]", "block.flange, pad.b, damper.b]")
 )
 SIDES = DAMPED.replace('"{c}"', '"{one + both} N*s/m"').replace('"{k}"', '"{400 + 100*(two + both)} N/m"')
-TWICE = HEAD.replace(
-    "parameters:", "  two: {file: coast.csv, time: t, signals: {block.x: place}}\nparameters:"
-)
+TWICE = HEAD.replace("parameters:", "  two: {file: coast.csv, time: t, signals: {block.x: place}}\nparameters:")
 
 
 def sought(name: str, start: float, low: float, high: float, *, log: bool = False) -> Sought:

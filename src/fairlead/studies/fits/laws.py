@@ -54,7 +54,7 @@ class _Fits:
     model: Model
     values: dict[str, dict[str, float]]
 
-    def places(self, asked: Asked, law: Law, records: Sequence[Record], without: str = "") -> Iterator[tuple[str, Floats]]:
+    def places(self, asked: Asked, law: Law, records: Sequence[Record], without: str) -> Iterator[tuple[str, Floats]]:
         """Where a law with more parameters may begin, for it to be this one."""
         if len(law.sought) > len(self.law.sought):
             problem = Problem((*asked.sought, *law.sought), ())
@@ -79,8 +79,10 @@ def _judge(asked: Asked, law: Law, records: list[Record], targets: list[Target],
         judged.trained[record.name] = errors(record, whole.values) or {}
         judged.left_out[record.name] = errors(record, rest) or {}
         if told is not None:
-            told(f"{law.name}: {record.name} {_sizes(judged.trained[record.name], record.units)}, "
-                 f"left out {_sizes(judged.left_out[record.name], record.units)}")
+            told(
+                f"{law.name}: {record.name} {_sizes(judged.trained[record.name], record.units)}, "
+                f"left out {_sizes(judged.left_out[record.name], record.units)}"
+            )
     return judged, values
 
 

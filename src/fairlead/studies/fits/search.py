@@ -112,12 +112,12 @@ def _searches(asked: Asked, counted: Counted, sizes: list[Step], told: Told | No
         starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
         if told is not None:
             told(f"start {number + 1}: loss {one.cost:.6g}")
-    best = min(found, key=lambda one: one.cost)
-    least, law, begin = _best_place(asked, counted, also)
-    if begin is not None and least <= (1 + CLOSE) * best.cost:
-        one = _search(asked, counted, begin, sizes)
-        starts.append(Start(problem.values(begin), problem.values(one.x), float(one.cost), str(one.message)))
-        best = min(best, one, key=lambda one: one.cost)
+    best = min(found, key=lambda each: each.cost)
+    least, law, place = _best_place(asked, counted, also)
+    if place is not None and least <= (1 + CLOSE) * best.cost:
+        one = _search(asked, counted, place, sizes)
+        starts.append(Start(problem.values(place), problem.values(one.x), float(one.cost), str(one.message)))
+        best = min(best, one, key=lambda each: each.cost)
         if told is not None:
             told(f"from the fit of {law}, which this law contains: loss {one.cost:.6g}")
     return best, starts
@@ -130,7 +130,8 @@ def _best_place(asked: Asked, counted: Counted, also: Places) -> tuple[float, st
         begin = _inside(place, counted.problem.bounds)
         residuals = counted(begin)
         if not (residuals == FAR).any():
-            least = min(least, (loss_sum(asked.given.loss.kind, asked.given.loss.scale, residuals), law, begin), key=lambda one: one[0])
+            here = loss_sum(asked.given.loss.kind, asked.given.loss.scale, residuals), law, begin
+            least = min(least, here, key=lambda one: one[0])
     return least
 
 
