@@ -1,10 +1,12 @@
 """Throughput of a sweep beside a bare loop that runs on all cores at once, and whether memory stays flat.
 
-    python -m benchmarks.sweeps [--belt 10000] [--bend 300] [--processes 2]
+    python -m benchmarks.sweeps [--belt 10000] [--bend 300] [--processes 2] [--slices 10]
 
-The bare loop is `Cases.row` over the same cases, in as many processes, without pipes and table. Time counts from the
-first row of each process on. CPU is that of all processes in the same stretch, for machines that others share. Memory
-is what the processes hold (RSS) after a fifth of the cases and at the end.
+The bare loop is `Cases.row` over the same cases in as many processes of its own, without pipes and table. Both go by
+turns, a slice of the cases each, so that what else the machine does meets both alike; whoever waits for its turn
+sleeps. A slice of the sweep ends when all its processes are at rest. CPU is that of all processes of either, the first
+one of the sweep included. Memory is what the processes of the sweep hold (RSS) after a fifth of the cases and at the
+end. The first cases, on which every process makes its code ready, count for neither.
 """
 
 import argparse
@@ -12,7 +14,9 @@ import multiprocessing
 import os
 import tempfile
 import time
+from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
 
 import fairlead
 from fairlead.cases import Cases
@@ -22,83 +26,161 @@ from fairlead.studies.sweeps.sweep import sweep
 
 PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 TICK = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
+AT_REST, LOOK = 0.05, 0.002  # s: so long nobody runs; time between two looks
+COLUMNS = ("scene", "cases", "cases a second: bare loop", "sweep", "ratio (slices)", "CPU of a case [ms]: bare loop",
+           "sweep", "ratio", "memory [MB] after a fifth", "at the end", "ratio")  # fmt: skip
 
 
-def resident() -> float:
-    """MB that this process and its children hold."""
-    return sum(int(Path(f"/proc/{pid}/statm").read_text().split()[1]) for pid in _family()) * PAGE / 1e6
+@dataclass
+class Slices:
+    """Cases, seconds and seconds of processor of every slice."""
+
+    cases: list[int] = field(default_factory=list)
+    wall: list[float] = field(default_factory=list)
+    cpu: list[float] = field(default_factory=list)
+
+    def add(self, cases: int, wall: float, used: float) -> None:
+        """Take one more."""
+        self.cases.append(cases)
+        self.wall.append(wall)
+        self.cpu.append(used)
+
+    @property
+    def rate(self) -> float:
+        """Cases in a second."""
+        return sum(self.cases) / sum(self.wall)
+
+    @property
+    def cost(self) -> float:
+        """Seconds of processor of a case."""
+        return sum(self.cpu) / sum(self.cases)
 
 
-def cpu() -> float:
-    """Seconds of processor of this process and its children."""
-    fields = (Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split() for pid in _family())
-    return sum(int(each[11]) + int(each[12]) for each in fields) / TICK
+def stat(pid: int) -> list[str]:
+    """What the system tells of a process from its state on."""
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
 
 
-def _family() -> list[int]:
-    return [os.getpid(), *(one.pid for one in multiprocessing.active_children())]
+def cpu(pids: list[int]) -> float:
+    """Seconds of processor of some processes."""
+    return sum(int(each[11]) + int(each[12]) for each in map(stat, pids)) / TICK
 
 
-def bare(cases, mine, begin, results) -> None:
-    cases.row(mine[0])
-    begin.wait()
-    wall, used = time.perf_counter(), time.process_time()
-    for values in mine[1:]:
-        cases.row(values)
-    results.put((len(mine) - 1, time.perf_counter() - wall, time.process_time() - used))
+def resident(pids: list[int]) -> float:
+    """MB that some processes hold."""
+    return sum(int(Path(f"/proc/{pid}/statm").read_text().split()[1]) for pid in pids) * PAGE / 1e6
 
 
-def bare_loop(cases, design, processes) -> tuple[float, float]:
-    """(cases per second, CPU seconds per case)."""
-    context = multiprocessing.get_context("spawn")
-    begin, results, every = context.Barrier(processes), context.Queue(), list(design.cases())
-    crew = [context.Process(target=bare, args=(cases, every[k::processes], begin, results)) for k in range(processes)]
-    for one in crew:
-        one.start()
-    told = [results.get(timeout=3600) for _ in crew]
-    for one in crew:
-        one.join()
-    count = sum(one[0] for one in told)
-    return count / max(one[1] for one in told), sum(one[2] for one in told) / count
+def rest(pids: list[int]) -> float:
+    """Wait until none of some processes runs; returns since when."""
+    since = time.perf_counter()
+    while time.perf_counter() - since < AT_REST:
+        if any(stat(pid)[0] != "S" for pid in pids):
+            since = time.perf_counter() + LOOK
+        time.sleep(LOOK)
+    return since
 
 
-def swept(cases, design, processes) -> tuple[float, float, float, float]:
-    """(cases per second, CPU seconds per case, MB after a fifth, MB at the end)."""
-    marks = {}
+def bare(cases: Cases, pipe) -> None:
+    """One process of the bare loop: a list of values in, wall and CPU seconds out."""
+    while True:
+        every = pipe.recv()
+        used = time.process_time()
+        for values in every:
+            cases.row(values)
+        pipe.send((time.perf_counter(), time.process_time() - used))
 
-    def watch(now) -> None:
-        for name, count in (("first", processes), ("fifth", design.count // 5), ("last", design.count - processes)):
-            if now.done == count:
-                marks[name] = (now.done, time.perf_counter(), cpu(), resident())
 
+class BareLoop:
+    """The processes of the bare loop."""
+
+    def __init__(self, cases: Cases, processes: int) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.pipes, self.crew = [], []
+        for _ in range(processes):
+            here, there = context.Pipe()
+            self.pipes.append(here)
+            self.crew.append(context.Process(target=bare, args=(cases, there), daemon=True))
+            self.crew[-1].start()
+
+    def run(self, every: list) -> tuple[float, float]:
+        """Wall and CPU seconds of some cases."""
+        begun = time.perf_counter()
+        for k, pipe in enumerate(self.pipes):
+            pipe.send(every[k :: len(self.pipes)])
+        told = [pipe.recv() for pipe in self.pipes]
+        return max(one[0] for one in told) - begun, sum(one[1] for one in told)
+
+    def end(self) -> None:
+        """End the processes."""
+        for one in self.crew:
+            one.terminate()
+            one.join()
+
+
+class Turns:
+    """Watches a sweep; holds it at the end of every slice, where the bare loop has its turn."""
+
+    def __init__(self, loop: BareLoop, every: list, first: int, slices: int) -> None:
+        self.loop, self.every = loop, every
+        self.sweep, self.bare, self.memory = Slices(), Slices(), {}
+        marks = [first + round(k * (len(every) - first) / slices) for k in range(slices + 1)]
+        self.ends = dict(zip(marks, [0, *marks], strict=False))
+        self.others = {one.pid for one in loop.crew}
+        self.begun, self.used = 0.0, 0.0
+
+    def __call__(self, now) -> None:
+        """Let the bare loop do the cases that the sweep has just done."""
+        if now.done not in self.ends:
+            return
+        mine = [one.pid for one in multiprocessing.active_children() if one.pid not in self.others]
+        over, begin = rest(mine), self.ends[now.done]
+        used = cpu([os.getpid(), *mine])
+        if begin:
+            self.sweep.add(now.done - begin, over - self.begun, used - self.used)
+            self.bare.add(now.done - begin, *self.loop.run(self.every[begin : now.done]))
+        else:
+            self.loop.run(self.every[: now.done])
+        for share in (0.2, 1.0):
+            if now.done >= share * now.total and share not in self.memory:
+                self.memory[share] = resident([os.getpid(), *mine])
+        self.used, self.begun = cpu([os.getpid(), *mine]), time.perf_counter()
+
+
+def row(name: str, cases: Cases, design: Design, processes: int, slices: int) -> str:
+    every, loop = list(design.cases()), BareLoop(cases, processes)
+    turns = Turns(loop, every, 4 * processes, slices)
     with tempfile.TemporaryDirectory() as folder:
-        sweep(cases, design, Path(folder), processes=processes, watch=watch)
-    first, fifth, last = marks["first"], marks["fifth"], marks["last"]
-    count = last[0] - first[0]
-    return count / (last[1] - first[1]), (last[2] - first[2]) / count, fifth[3], last[3]
+        sweep(cases, design, Path(folder), processes=processes, watch=turns)
+    loop.end()
+    ours, theirs = turns.sweep, turns.bare
+    each = sorted(
+        (n / w) / (m / v) for n, w, m, v in zip(ours.cases, ours.wall, theirs.cases, theirs.wall, strict=True)
+    )
+    fifth, last = turns.memory[0.2], turns.memory[1.0]
+    ratios = f"{ours.rate / theirs.rate:.3f} ({each[0]:.2f} to {each[-1]:.2f}, median {median(each):.3f})"
+    return (
+        f"| `{name}` | {design.count} | {theirs.rate:.3g} | {ours.rate:.3g} | {ratios} | {1e3 * theirs.cost:.3g} | "
+        f"{1e3 * ours.cost:.3g} | {ours.cost / theirs.cost:.3f} | {fifth:.0f} | {last:.0f} | {last / fifth:.3f} |"
+    )
 
 
 def main() -> None:
     parser = argparse.ArgumentParser()
-    for name, count in (("belt", 10_000), ("bend", 300), ("processes", 2)):
+    for name, count in (("belt", 10_000), ("bend", 300), ("processes", 2), ("slices", 10)):
         parser.add_argument(f"--{name}", type=int, default=count)
     asked = parser.parse_args()
     belt = Cases(fairlead.load("belt"), {"end": "end(block.x)", "switches of the pad": "switches(pad)"})
     bend = Cases(fairlead.load("single_bend"), {"peak": "peak(haul.force)"})
     rows = (
-        ("belt", belt, {"pad.normal_force": read_range(f"lin(8 N, 12 N, {asked.belt})")}, asked.belt),
-        ("single_bend", bend, {"mu": read_range(f"lin(0.2, 0.7, {asked.bend})")}, asked.bend),
+        ("belt", belt, "pad.normal_force", "8 N, 12 N", asked.belt),
+        ("single_bend", bend, "mu", "0.2, 0.7", asked.bend),
     )
-    for name, cases, grid, count in rows:
-        if count < 10:
-            continue
-        loop = bare_loop(cases, Design(grid=grid), asked.processes)
-        found = swept(cases, Design(grid=grid), asked.processes)
-        print(f"{name}, {count} cases, {asked.processes} processes")
-        print(f"    cases a second: bare loop {loop[0]:.3g}, sweep {found[0]:.3g}: {found[0] / loop[0]:.2f} times")
-        print(f"    CPU of a case [ms]: {1e3 * loop[1]:.3g}, {1e3 * found[1]:.3g}: {found[1] / loop[1]:.2f} times")
-        memory = f"{found[2]:.0f} after a fifth, {found[3]:.0f} at the end: {found[3] / found[2]:.3f} times"
-        print(f"    memory [MB]: {memory}")
+    print(f"| {' | '.join(COLUMNS)} |\n{'|---' * len(COLUMNS)}|")
+    for name, cases, parameter, ends, count in rows:
+        if count >= 10 * asked.processes:
+            design = Design(grid={parameter: read_range(f"lin({ends}, {count})")})
+            print(row(name, cases, design, asked.processes, asked.slices), flush=True)
 
 
 if __name__ == "__main__":

@@ -147,7 +147,7 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
 ROOMS_OF = {
     "system": ("numbering", "arrays", "assembly", "callbacks", "compiled", "start", "active", "compile", "refresh"),
     "analysis": ("characteristic", "treatments", "record", "statics", "margins", "remarks", "cost", "effects"),
-    "studies": ("differences", "sweeps", "pictures", "sensitivities", "fits", "modes"),
+    "studies": ("differences", "sweeps", "pictures", "fits", "sensitivities", "modes"),
 }
 """Stage -> its rooms and the files beside them; each imports only those before it."""
 

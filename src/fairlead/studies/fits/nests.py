@@ -18,10 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.numbers import numbers
 from fairlead.errors import ModelError
 from fairlead.simulate import Model
 from fairlead.studies.fits.problem import FAR, Problem
-from fairlead.studies.sensitivities.parameters import numbers
 
 Floats = NDArray[np.float64]
 TURNS = 50
@@ -43,7 +43,8 @@ class Contained:
 
 
 def _numbers(model: Model, values: Mapping[str, float]) -> dict[str, float]:
-    return {name: value for name, (value, _) in numbers(model.beside(values)).items()}
+    made = model.beside(values)
+    return {name: value for name, (value, _) in numbers(made.netlist, made.assembly.entries).items()}
 
 
 def places(problem: Problem, model: Model, like: Contained) -> list[Floats]:
