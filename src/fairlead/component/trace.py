@@ -16,11 +16,11 @@ from typing import Any
 
 import sympy
 
+from fairlead.component.author import called_with
 from fairlead.component.base import LEDGER, source_place, terms_of
 from fairlead.component.declaration import Declaration
-from fairlead.component.declare import Law, Port
+from fairlead.component.declare import Law
 from fairlead.component.dimensions import line_of, misfits
-from fairlead.component.given import Choice, Count, Part, Table, Waveform
 from fairlead.component.hold_rows import (
     HoldRow,
     check_everywhere,
@@ -32,17 +32,12 @@ from fairlead.component.hold_rows import (
 )
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
-from fairlead.component.piecewise import DEGREE
-from fairlead.component.quantity import tracing
-from fairlead.component.replies import AnswerError, helper, is_bundled
-from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
+from fairlead.component.replies import is_bundled
+from fairlead.component.symbols import TraceError, symbol
+from fairlead.component.trace_readers import PortReader, Recorder
 from fairlead.component.values import Variant
-from fairlead.errors import did_you_mean
 
-BRANCHES = "a law must not branch on values; write one law per zone"
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
-AUTHORS = ("fairlead.components.", "fairlead_library_")
-"""How the modules begin in which laws and parts of laws are written."""
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
 
 
@@ -86,88 +81,6 @@ class Traced:
     tables: list[str]
     time_tables: list[str]
     sample: dict[str, sympy.Expr] = field(default_factory=dict)  # discrete variable -> its next value
-
-
-class _Recorder:
-    """The symbolic `p`: hands out symbols by name and notes which tables are read where."""
-
-    def __init__(self, variant: Variant, prefix: str, reads: dict[str, sympy.Expr]) -> None:
-        self._variant, self._prefix, self._reads = variant, prefix, reads
-        self.type = variant.type
-
-    def __getattr__(self, name: str) -> Any:
-        variant, has = self._variant, self._variant.type.declaration
-        path = self._prefix + name
-        words, parts = dict(variant.words), dict(variant.parts)
-        if name in variant.absent:
-            return None
-        if name in words:
-            return words[name]
-        if name in parts:
-            return _Recorder(parts[name], path + ".", self._reads)
-        declared = has.parameters.get(name)
-        if isinstance(declared, Table | Waveform) or (name in has.derived and has.derived[name].wave):
-            return _TableReader(path, self._reads)
-        if isinstance(declared, Choice | Count | Part):
-            raise TraceError(f"{name!r} shapes the component and is not a number in its law")
-        if declared is not None or name in has.derived:
-            return symbol(f"p:{path}")
-        function = getattr(variant.type, name, None)
-        if callable(function):
-            return helper(variant.type, name, function, self, traced=True)
-        known = [*has.parameters, *has.derived]
-        raise TraceError(f"{variant.type.__name__} has no parameter {name!r}; it has {known}")
-
-
-class _TableReader:
-    """A table or a waveform inside a law: the polynomial of the interval in force."""
-
-    def __init__(self, path: str, reads: dict[str, sympy.Expr]) -> None:
-        self._path, self._reads = path, reads
-
-    def __call__(self, x: Any) -> sympy.Expr:
-        """Value at x."""
-        return self._derivative(x, 0)
-
-    def rate(self, x: Any) -> sympy.Expr:
-        """First derivative at x."""
-        return self._derivative(x, 1)
-
-    def second(self, x: Any) -> sympy.Expr:
-        """Second derivative at x."""
-        return self._derivative(x, 2)
-
-    def _derivative(self, x: Any, order: int) -> sympy.Expr:
-        read = self._reads.setdefault(self._path, sympy.sympify(x))
-        if read != x:
-            raise TraceError(f"table {self._path!r} is read at two places in one zone: {read} and {x}")
-        at, s = sympy.Dummy("x"), symbol(f"T:{self._path}:0")
-        value = sum(symbol(f"T:{self._path}:{k + 1}") * (at - s) ** k for k in range(DEGREE + 1))
-        if x == symbol("t"):
-            amplitude, omega, phase = (symbol(sine(self._path, part)) for part in ("amplitude", "omega", "phase"))
-            value += amplitude * sympy.sin(omega * at + phase)
-        return sympy.diff(value, at, order).subs(at, x)
-
-
-class _PortReader:
-    """The symbolic view of a port: across variables, acceleration (guards, outputs), reaction, mass."""
-
-    def __init__(self, name: str, declared: Port) -> None:
-        domain = declared.domain
-        self.port, self.such_as = name, f"{name}.{domain.across[0][0]}" if domain.across else name
-        for (attribute, _), kind in zip(domain.across, ("x", "v"), strict=False):
-            setattr(self, attribute, symbol(f"port:{name}:{kind}"))
-        if domain.acceleration:
-            setattr(self, domain.acceleration, symbol(f"port:{name}:a"))
-        setattr(self, domain.through[0] or "_", symbol(f"port:{name}:R"))
-        self.inverse_mass = symbol(inverse_mass(name))
-        self._has = [*(one for one, _ in domain.across), domain.acceleration, domain.through[0]]
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        has = ", ".join(filter(None, self._has))
-        raise TraceError(f"the port {self.port!r} has {has}, and no {name!r}. {did_you_mean(name, self._has)}".rstrip())
 
 
 def trace(variant: Variant) -> Traced:
@@ -219,7 +132,7 @@ def _trace_sample(variant: Variant, has: Declaration) -> dict[str, sympy.Expr]:
     """The next values of discrete variables; they are set at sample times, so they need not be smooth."""
     for sample in has.samples.values():
         reads: dict[str, sympy.Expr] = {}
-        said = _run(sample.law, _arguments(variant, has, has.zones[0], reads))
+        said = called_with(sample.law, _arguments(variant, has, has.zones[0], reads))
         terms = said.terms if isinstance(said, Law) else {}
         if set(terms) != set(has.discrete) or reads:
             raise TraceError(
@@ -236,7 +149,7 @@ def trace_function(
     reads: dict[str, sympy.Expr] = {}
     function = inspect.unwrap(function)
     names = function.__code__.co_varnames
-    return _run(function, dict(zip(names, (_Recorder(variant, "", reads), *arguments), strict=False))), reads
+    return called_with(function, dict(zip(names, (Recorder(variant, "", reads), *arguments), strict=False))), reads
 
 
 def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
@@ -260,10 +173,10 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     for line in LEDGER:
         method = getattr(variant.type.answers, line)
         if method is not None and line not in zone.ledger:
-            zone.ledger[line] = _power(_run(method, arguments), method)
+            zone.ledger[line] = _power(called_with(method, arguments), method)
     for label, mark in has.guards.items():
         if name in mark.zones:
-            said = _run(mark.function, arguments | ({"direction": mark.direction} if mark.direction else {}))
+            said = called_with(mark.function, arguments | ({"direction": mark.direction} if mark.direction else {}))
             if said is None:
                 continue  # an effect that is off takes the guard with it
             values = [_expression(v, mark.function) for v in (said if isinstance(said, tuple) else (said,))]
@@ -273,90 +186,30 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
 
 def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, sympy.Expr]) -> dict[str, Any]:
     given = {
-        "p": _Recorder(variant, "", reads),
+        "p": Recorder(variant, "", reads),
         "t": symbol("t"),
         "zone": zone,
         "direction": has.zones.direction(zone),
-        **{name: _PortReader(name, port) for name, port in has.ports.items()},
+        **{name: PortReader(name, port) for name, port in has.ports.items()},
         **{name: symbol(f"in:{name}") for name in has.inputs},
         **{name: symbol(f"own:{name}") for name in (*has.states, *has.unknowns)},
         **{name: symbol(f"p:#{name}") for name in has.discrete},
     }
-    return given | {name: _run(shared.function, given) for name, shared in has.shared.items()}
+    return given | {name: called_with(shared.function, given) for name, shared in has.shared.items()}
 
 
 def _terms(variant: Variant, law: Callable[..., Any], arguments: dict[str, Any]) -> Iterator[tuple[str, Any]]:
-    said = _run(law, arguments)
+    said = called_with(law, arguments)
     try:
         yield from terms_of(variant.type, said).items()
     except TypeError as error:
         raise TraceError(f"{source_place(law)}: {variant.type.__name__}: {error}") from error
 
 
-def _run(function: Callable[..., Any], arguments: dict[str, Any]) -> Any:
-    """Call an author's function; any failure becomes a TraceError at the author's own line."""
-    code = function.__code__
-    wanted = code.co_varnames[: code.co_argcount]
-    try:
-        with tracing() as asked:
-            said = function(**{name: arguments[name] for name in wanted})
-    except Exception as error:
-        if asked:
-            raise _branches(asked[0], function) from error
-        if isinstance(error, AnswerError):  # of a part, with its own place
-            raise TraceError(" ".join(str(error).split())) from error
-        place, name = _deepest(error, function)
-        raise TraceError(f"{place}: {name}: {_explained(error)}") from error
-    if asked:
-        raise _branches(asked[0], function)
-    return said
-
-
-def _deepest(error: Exception, function: Callable[..., Any]) -> tuple[str, str]:
-    """file:line and name of the function of an author's in which it fails: the law, or one of a part that it asks."""
-    code, module = function.__code__, str(function.__globals__.get("__name__"))
-    place, name = f"{code.co_filename}:{code.co_firstlineno}", function.__qualname__
-    step = error.__traceback__
-    while step is not None:
-        frame, where = step.tb_frame, str(step.tb_frame.f_globals.get("__name__", ""))
-        if where == module or where.startswith(AUTHORS):
-            place = f"{frame.f_code.co_filename}:{step.tb_lineno}"
-            name = function.__qualname__ if frame.f_code is code else getattr(frame.f_code, "co_qualname", name)
-        step = step.tb_next
-    return place, name
-
-
-def author_of(error: BaseException, kind: type) -> tuple[str, str]:
-    """file:line and name of the method of a class, or of a part of one, in which something fails."""
-    place, name, step = source_place(kind), kind.__name__, error.__traceback__
-    while step is not None:
-        frame, where = step.tb_frame, str(step.tb_frame.f_globals.get("__name__", ""))
-        if where == kind.__module__ or where.startswith(AUTHORS):
-            place, name = f"{frame.f_code.co_filename}:{step.tb_lineno}", frame.f_code.co_name
-        step = step.tb_next
-    return place, name
-
-
-def _branches(place: str, function: Callable[..., Any]) -> TraceError:
-    """Of a law that asks a symbol for its value, by `==`, `in`, `if` or `not`."""
-    return TraceError(f"{place}: {function.__qualname__}: {BRANCHES}")
-
-
-def _explained(error: Exception) -> str:
-    """What an author did to a symbol that only a number can bear."""
-    if isinstance(error, TraceError):
-        return str(error)
-    if "truth value" in str(error):
-        return BRANCHES
-    if "convert expression to float" in str(error) or "ufunc" in str(error):
-        return "functions of math and numpy want numbers; import sqrt, exp, sin, ... from fairlead.component"
-    return f"{type(error).__name__}: {error}"
-
-
 def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     """What an author's function gave, when a kernel can compute it."""
     place = source_place(function)
-    if isinstance(value, _PortReader):
+    if isinstance(value, PortReader):
         one = f"the port {value.port!r}, which is not a number; take one of its variables, such as {value.such_as}"
         raise TraceError(f"{place}: {function.__name__} gives {one}")
     if isinstance(value, str | bool) or not (

@@ -11,7 +11,8 @@ from fairlead.component.answers import METHODS
 from fairlead.component.base import Declared
 from fairlead.component.declare import Guard
 from fairlead.component.given import Choice
-from fairlead.component.trace import Traced, TraceError, inverse_mass, symbol, trace_function
+from fairlead.component.symbols import TraceError, inverse_mass, symbol
+from fairlead.component.trace import Traced, trace_function
 from fairlead.describe.columns import columns, heading, wrapped
 from fairlead.describe.equations import NEVER, Writing, condition, equations, tables_as_functions, writing_of
 from fairlead.describe.formula import formula

@@ -11,17 +11,8 @@ from typing import Any
 import sympy
 
 from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, RATE, TIME, key
-from fairlead.component.trace import (
-    HoldRow,
-    Traced,
-    TracedGuard,
-    TracedZone,
-    inverse_mass,
-    is_kinked,
-    read_in_python,
-    sine,
-    symbol,
-)
+from fairlead.component.symbols import inverse_mass, sine, symbol
+from fairlead.component.trace import HoldRow, Traced, TracedGuard, TracedZone, is_kinked, read_in_python
 from fairlead.kernels import layout
 from fairlead.kernels.break_away import parameters_as_text, shares_left
 from fairlead.kernels.dependence import carried_ratio, reads

@@ -85,7 +85,7 @@ def contract(kind: type[Declared], **given: Any) -> None:
 
 def _odd(check: Check, error: Exception) -> str:
     """What a property could not be asked for."""
-    from fairlead.component.trace import author_of
+    from fairlead.component.author import author_of
 
     place, name = author_of(error, check.kind)
     said = f"{type(error).__name__}: {error}"
