@@ -22,11 +22,14 @@ exclude_patterns = [
 ]  # fmt: skip
 html_theme = "furo"
 html_title = "fairlead"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_copyright = False
 html_show_sourcelink = False
 html_show_search_summary = False  # it fetches pages, which a browser refuses from disk
 templates_path: list[str] = []
 myst_heading_anchors = 3
+smartquotes = False  # "--all" is an option, not a dash
 myst_enable_extensions = ["colon_fence"]
 default_role = "code"  # docstrings say `name`, and mean code
 autodoc_member_order = "bysource"

@@ -11,9 +11,11 @@ from fairlead.component.registry import known_types
 from fairlead.component.scene import is_head
 from fairlead.describe.behaviour import behaviour
 from fairlead.describe.catalogue import innards, record, sentence
-from fairlead.describe.interface import parameter_rows, shared
+from fairlead.describe.interface import about_waveforms, parameter_cells, shared
+from generate.made_of import made_of
 from generate.runs import picture, wiring
 from generate.tables import fence, table
+from generate.text import flowing
 from generate.zone_diagram import zone_diagram
 
 MOST_ZONES = 9  # in a diagram; of more, the list of transitions says it better
@@ -28,7 +30,12 @@ def pages(docs: Path, folder: Path) -> dict[str, str]:
     families: dict[str, list[str]] = {}
     for name, kind in shown.items():
         families.setdefault(record(name, kind)["family"].partition(".")[0], []).append(name)
-    found = {f"components/{n}.md": "\n".join(_page(n, k, examples.get(n), folder)) for n, k in shown.items()}
+    shown_in = {n: block for n in shown if n not in examples if (block := _block_of(docs, n))}
+    methods = {kind: word for word, kind in types["Contact"].members.items()}  # type: ignore[attr-defined]
+    found = {}
+    for n, k in shown.items():
+        lines = _page(n, k, examples.get(n), folder, shown, methods)
+        found[f"components/{n}.md"] = "\n".join([*lines, *shown_in.get(n, [])])
     return {"components/index.md": "\n".join(_index(families, shown)), **found}
 
 
@@ -44,6 +51,17 @@ def examples_of(docs: Path, names: Iterable[str]) -> dict[str, Path]:
         if has:
             found[name] = min(has, key=lambda file: (file.parent == bundled, len(texts[file]), file.name))
     return found
+
+
+def _block_of(docs: Path, name: str) -> list[str]:
+    """An example for a type that no netlist here can run: the first block of YAML on a page that has it."""
+    for page in sorted(docs.glob("howto/*.md")):
+        text = page.read_text(encoding="utf-8")
+        for block in re.findall(r"^```yaml\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE):
+            if re.search(rf"\btype: {name}\b", block):
+                title = text.partition("\n")[0].removeprefix("# ")
+                return ["## Example", "", f"From [{title}](../../howto/{page.name}):", "", *fence("yaml", block)]
+    return []
 
 
 def _with_includes(file: Path) -> str:
@@ -69,23 +87,37 @@ def _methods(contact: Any) -> list[str]:
     return [word for word, member in contact.members.items() if member.__module__.startswith("fairlead.")]
 
 
-def _page(name: str, kind: Any, example: Path | None, folder: Path) -> Iterator[str]:
+def _page(
+    name: str, kind: Any, example: Path | None, folder: Path, shown: Mapping[str, Any], methods: Mapping[Any, str]
+) -> Iterator[str]:
     has = record(name, kind)
-    yield from (f"# {name}", "", *fence("text", has["doc"]))
-    yield from _section("Ports", table(("port", "domain", "what"), (
+    yield from (f"# {name}", "", *flowing(has["doc"]))
+    ports = table(("port", "domain", "what"), (
         (f"`{one['name']}`", one["domain"] + (", may be left open" if one["optional"] else ""), one["doc"])
-        for one in has["ports"])))  # fmt: skip
+        for one in has["ports"]))  # fmt: skip
+    yield from _section("Ports", ports)
+    if not (ports or has["inputs"] or has["outputs"]):
+        yield from _section("Ports", ["It has none that are always there: what it is given decides them.", ""])
     declared = shared(member.declaration for member in kind.members.values()) if is_head(kind) else kind.declaration
-    if declared.parameters:
-        yield from ("## Parameters", "", *fence("text", "\n".join(parameter_rows(declared.parameters, 0))))
+    yield from _parameters(declared.parameters)
     yield from _section("Inputs", table(("input", "unit", "what", "when nothing is connected"), (
         (f"`{one['name']}`", one["unit"], one["doc"], _unconnected(one["default"]))
         for one in has["inputs"])))  # fmt: skip
     yield from _section("Outputs", table(("output", "unit", "what"), (
         (f"`{one['name']}`", one["unit"], one["doc"]) for one in has["outputs"])))  # fmt: skip
     yield from _kinds(has["families"])
-    yield from _law(name, kind, folder)
+    if is_head(kind) or kind.declaration.laws:
+        yield from _law(name, kind, folder)
+    else:
+        yield from made_of(name, example, shown, methods, lambda part, law: _zones(part, law, folder))
     yield from _example(name, example, folder)
+
+
+def _parameters(parameters: Mapping[str, Any]) -> Iterator[str]:
+    rows = ((f"`{n}`", allowed, default.removeprefix("= "), said)
+            for n, allowed, default, said in parameter_cells(parameters, nested="... "))  # fmt: skip
+    yield from _section("Parameters", table(("parameter", "unit, range", "default", "what"), rows))
+    yield from flowing(about_waveforms(parameters)) if about_waveforms(parameters) else ()
 
 
 def _unconnected(default: Any) -> str:

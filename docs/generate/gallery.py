@@ -10,6 +10,7 @@ import fairlead.models
 
 from generate.runs import picture, wiring
 from generate.tables import fence
+from generate.text import flowing
 
 TAKEN = {"single_bend": "page_light.png", "guidance_route": "page_dark.png"}
 """Models with a picture of their page in docs/figures, which a browser takes."""
@@ -64,7 +65,7 @@ def _entry(model: Path, folder: Path) -> Iterator[str]:
         picture(model, folder)
         yield from (f"![Signals of {model.stem}](gallery/{model.stem}.png)", "")
     yield from (f"![Wiring of {model.stem}](gallery/{model.stem}_wiring.svg)", "")
-    yield from ("What to know and to look at:", "", *fence("text", told)) if told else ()
+    yield from ("What to know and to look at:", "", *flowing(told, "../")) if told else ()
 
 
 def comment(model: Path) -> tuple[str, str]:

@@ -5,6 +5,7 @@ The build itself takes half a minute and is slow. It runs the notebook, so a cel
 
 import ast
 import html.parser
+import importlib
 import importlib.util
 import json
 import os
@@ -15,6 +16,7 @@ import signal
 import subprocess
 import sys
 import urllib.parse
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -207,16 +209,46 @@ def test_links_of_the_site_lead_somewhere_and_nothing_is_loaded_from_outside(sit
 @pytest.mark.slow
 def test_every_component_and_every_command_has_its_page_and_search_finds_it(site: pathlib.Path) -> None:
     hidden = innards(known_types())
-    binary = {"Fmu"}  # a netlist of it needs a binary of the machine
     index = (site / "searchindex.js").read_text(encoding="utf-8")
     for name, kind in known_types().items():
         if name not in hidden and kind.__module__.startswith("fairlead."):
             page = (site / "generated" / "components" / f"{name}.html").read_text(encoding="utf-8")
-            assert "<h2>Example" in page or name in binary, name
+            for title in ("Example", "Zones and equations"):
+                assert f"<h2>{title}" in page, (name, title)
+            assert re.search("<h2>(Ports|Inputs|Outputs)", page), name
             assert f"generated/components/{name}" in index
     commands = (site / "generated" / "commands.html").read_text(encoding="utf-8")
     for verb in app.registered_commands:
         assert f"fairlead {verb.callback.__name__}" in commands
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["ServoValve", "ServoMotorDrive", "Cylinder", "HydraulicLine", "Gearbox"])
+def test_a_part_made_of_others_names_them_and_shows_the_laws_of_those_without_a_page(site: pathlib.Path, name) -> None:
+    page = (site / "generated" / "components" / f"{name}.html").read_text(encoding="utf-8")
+    assert f"{name}</span></code> has no zones and equations of its own. In the example below" in page
+    linked = re.findall(r'<td><p><code.*?<a class="reference internal" href="(?:\w+|[./]+treatments/\w+)\.html', page)
+    told = re.findall(r'<span class="pre">(\w+)</span></code>, below', page)
+    assert linked or told
+    for part in told:
+        assert re.search(rf"<h3><code.*?>{part}<", page), part
+
+
+def generated() -> Any:
+    """Where the pages are written from plain text."""
+    sys.path.insert(0, str(DOCS))
+    try:
+        return importlib.import_module("generate.text")
+    finally:
+        sys.path.remove(str(DOCS))
+
+
+def test_docstrings_flow_and_their_equations_keep_their_lines() -> None:
+    text = "A part: `a*b` and a*b, [N] < 3 _x.\nSee docs/routes.md.\n\n    F = k x\n    x = 1\n\n- 3 is less"
+    assert generated().flowing(text) == [
+        "A part: `a*b` and a\\*b, \\[N\\] \\< 3 \\_x.\nSee [docs/routes.md](../../routes.md).", "",
+        "```text", "    F = k x", "    x = 1", "```", "", "\\- 3 is less", "",
+    ]  # fmt: skip
 
 
 @pytest.mark.slow

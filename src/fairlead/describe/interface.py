@@ -87,16 +87,26 @@ def first_line(thing: Any) -> str:
 
 def parameter_rows(parameters: Mapping[str, Any], indent: int = 2) -> list[str]:
     """A line for every parameter, and for those of blocks below them."""
+    lines = columns(parameter_cells(parameters), indent)
+    said = about_waveforms(parameters)
+    return [*lines, "", *wrapped(" " * indent + said, indent)] if said else lines
+
+
+def parameter_cells(parameters: Mapping[str, Any], nested: str = "  ") -> list[tuple[str, str, str, str]]:
+    """Name, what is allowed, default and sentence of every parameter; those of a block begin with `nested`."""
     rows = []
     for name, declared in parameters.items():
         rows.append((name, _allowed(declared), _default(declared), declared.doc))
         if isinstance(declared, Block):
-            rows += [(f"  {n}", _allowed(d), _default(d), d.doc) for n, d in declared.parameters.items()]
-    lines = columns(rows, indent)
-    if any(isinstance(declared, Waveform) for declared in parameters.values()):
-        said = f"In time: a number, or a map of terms that add up: {listing(TERMS)} (docs/netlist.md)."
-        lines += ["", *wrapped(" " * indent + said, indent)]
-    return lines
+            rows += [(f"{nested}{n}", _allowed(d), _default(d), d.doc) for n, d in declared.parameters.items()]
+    return rows
+
+
+def about_waveforms(parameters: Mapping[str, Any]) -> str:
+    """What may stand for a parameter that varies in time; empty where there is none."""
+    if not any(isinstance(declared, Waveform) for declared in parameters.values()):
+        return ""
+    return f"In time: a number, or a map of terms that add up: {listing(TERMS)} (docs/netlist.md)."
 
 
 def derived_rows(has: Declaration, indent: int = 2) -> list[str]:

@@ -42,6 +42,7 @@ def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
     if single:
         # Above the axes: inside, it would sooner or later hide what the reader looks for.
         ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0.2, handlelength=1.4)
+    ax.yaxis.get_offset_text().set_horizontalalignment("right")  # 1e6 stands beside the legend, not in it
     ax.set_ylabel(_label(signals), parse_math=False)
     if len(result.t) > 1 and result.t[-1] > result.t[0]:
         ax.set_xlim(result.t[0], result.t[-1])
