@@ -398,3 +398,36 @@ def test_single_parts_keep_a_row_each(browser, tmp_path):
     assert settled(browser) is None
     assert browser.find_elements("css selector", "#zone-chart b") == []
     assert browser.find_element("id", "zone-note").text.startswith("2 rows")
+
+
+def chained(parts: int) -> str:
+    """A netlist of bodies in a row, each held to the next by a spring."""
+    lines = ["schema: 1", "name: chain", "components:", "  wall: {type: Ground}"]
+    for k in range(parts):
+        lines += [f"  spring_{k}: {{type: Spring, stiffness: 1 kN/m}}",
+                  f"  body_{k}: {{type: Mass, mass: 1 kg, velocity: {k} mm/s}}"]  # fmt: skip
+    lines += ["connections:", "  - [wall.flange, spring_0.a]"]
+    for k in range(parts):
+        more = f", spring_{k + 1}.a" if k + 1 < parts else ""
+        lines.append(f"  - [spring_{k}.b, body_{k}.flange{more}]")
+    return "\n".join([*lines, "run: {stop: 100 ms}", ""])
+
+
+@pytest.mark.parametrize("width", [400, 1440])
+def test_a_long_chain_of_parts_is_broken_into_rows_that_can_be_read(browser, tmp_path, width):
+    (tmp_path / "chain.yaml").write_text(chained(20), encoding="utf-8")
+    model = fairlead.load(tmp_path / "chain.yaml")
+    shown_besides(model)
+    show(browser, page.write(model.run(out=tmp_path / "run")), width)
+    larger, apart, inside = browser.execute_script(
+        "const v = fairlead.page.view, all = v.m.boxes, at = all.map(b => v.at(b.cx, b.cy)), z = v.zoom;"
+        "const near = (i, j, axis, size) =>"
+        "  Math.abs(at[i][axis] - at[j][axis]) < z * (all[i][size] + all[j][size]) / 2 - 1;"
+        "const over = all.some((_, i) => all.some((_, j) => j > i && near(i, j, 0, 'w') && near(i, j, 1, 'h')));"
+        "const out = at.some(([x, y]) => x < 0 || x > v.width || y < 0 || y > v.height), xs = all.map(b => b.cx);"
+        "return [z / ((v.width - 70) / (Math.max(...xs) - Math.min(...xs))), !over, !out]"
+    )
+    assert larger > 1.3  # than all in one row
+    assert apart
+    assert inside
+    assert complaints(browser) == []

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from fairlead.results import Result, Signal
 
 MOST_PANELS = 4
+MOST_DRAWN = 4
+"""Families in a panel that nobody asked for."""
 MOST_BUCKET = 2**20
 
 
@@ -74,11 +76,12 @@ def _by_unit(known: Mapping[str, list[Signal]]) -> list[dict[str, Any]]:
     for name, each in known.items():
         if not name.startswith("energy."):
             units.setdefault(each[0].unit, []).append(name)
-    return [{"title": _title(names), "families": names[:4]} for names in units.values()]
+    return [{"title": _title(names), "families": names[:MOST_DRAWN]} for names in units.values()]
 
 
 def _title(names: list[str]) -> str:
-    return ", ".join(dict.fromkeys(name.rpartition(".")[2].replace("_", " ") for name in names[:4]))
+    said = ", ".join(dict.fromkeys(name.rpartition(".")[2].replace("_", " ") for name in names[:MOST_DRAWN]))
+    return f"{said} ({MOST_DRAWN} of {len(names)}; add others above)" if len(names) > MOST_DRAWN else said
 
 
 def worst_rows(result: Result) -> list[dict[str, Any]]:

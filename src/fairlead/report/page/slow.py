@@ -60,7 +60,8 @@ def slowest(result: Result) -> str:
         return ""
     roles = _roles(result)
     (first, n), *others = kinds.most_common(2)
-    kind = f"By kind of part, {first}{roles.get(first, '')} changed zone most: {_percent(n, total)} of {total} changes"
+    changes = f"{total} change{'s' * (total > 1)}"
+    kind = f"By kind of part, {first}{roles.get(first, '')} changed zone most: {_percent(n, total)} of {changes}"
     kind += "".join(f", then {name}{roles.get(name, '')} with {_percent(m, total)}" for name, m in others)
     steps = f" All together: {result.run['steps']} steps." if result.run.get("steps") else ""
     return (

@@ -73,7 +73,7 @@ function player() {
 
 async function stage(run) {
   const line = run.lines[0], canvas = $("stage"), view = line ? new RouteView(run, line, canvas) : new MechanismView(run, canvas);
-  canvas.className = line ? "" : "mechanism"; await view.begin(); page.view = view;
+  canvas.className = line ? "" : view.m.boxes.length > 8 ? "mechanism tall" : "mechanism"; await view.begin(); page.view = view;
   if (line) {
     $("by-label").hidden = !line.along.length; $("fit-label").hidden = !view.x;
     options($("by"), line.along.map(n => [n, `${n} [${run.family.get(n).unit}]`]), view.by);

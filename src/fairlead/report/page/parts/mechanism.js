@@ -32,9 +32,22 @@ class MechanismView {
     const x0 = Math.min(...all.map(b => b.cx - b.w / 2)), x1 = Math.max(...all.map(b => b.cx + b.w / 2));
     const y0 = Math.min(...all.map(b => b.cy - b.h / 2)), y1 = Math.max(...all.map(b => b.cy + b.h / 2));
     const strip = this.m.strips.length ? Math.min(96 * this.m.strips.length, .62 * box.height) : 0;
-    this.zoom = Math.min((box.width - 70) / Math.max(x1 - x0, 1), (box.height - strip - 60) / Math.max(y1 - y0, 1), 2);
-    const ox = (box.width - this.zoom * (x1 - x0)) / 2 - this.zoom * x0, oy = (box.height - strip - this.zoom * (y1 - y0)) / 2 - this.zoom * y0;
-    this.at = (x, y) => [ox + this.zoom * x, oy + this.zoom * y]; this.stripTop = box.height - strip;
+    const wide = x1 - x0, high = y1 - y0, widest = Math.max(...this.m.boxes.map(b => b.w), 0), gap = 46;
+    const fits = n => Math.min((box.width - 70) / Math.max(wide / n + (n > 1 ? widest : 0), 1), (box.height - strip - 60) / Math.max(n * high + (n - 1) * gap, 1), 2);
+    let rows = 1; for (let n = 2; n <= 8; n++) if (fits(n) > 1.15 * fits(rows)) rows = n; // a long chain is broken into rows
+    const z = this.zoom = fits(rows), band = wide / rows, over = rows > 1 ? widest : 0;
+    const ox = (box.width - z * (band + over)) / 2 + z * over / 2, oy = (box.height - strip - z * (rows * high + (rows - 1) * gap)) / 2;
+    this.at = (x, y) => { const k = Math.min(rows - 1, Math.max(0, Math.floor((x - x0) / (band || 1)))); return [ox + z * (x - x0 - k * band), oy + z * (y - y0 + k * (high + gap))]; };
+    this.stripTop = box.height - strip; this.room();
+  }
+  /* How many values there is room for below each box. */
+  room() {
+    const z = this.zoom, at = this.m.boxes.map(b => this.at(b.cx, b.cy)), most = this.m.boxes.length > 12 ? 1 : 2;
+    this.m.boxes.forEach((b, k) => {
+      let free = this.stripTop - at[k][1] - b.h * z / 2 - (b.travels ? 8 : 0);
+      this.m.boxes.forEach((o, j) => { const below = at[j][1] - at[k][1] - (o.h + b.h) * z / 2; if (j !== k && below > 0 && Math.abs(at[j][0] - at[k][0]) < (o.w + b.w) * z / 2) free = Math.min(free, below); });
+      b.lines = z < .5 ? 0 : Math.max(0, Math.min(most, Math.floor((free - 5) / 13)));
+    });
   }
   value(v, t) { const [i, j, f] = this.run.between(t); return v[i] + f * (v[j] - v[i]); }
   /* How far each wire and each box is moved in the picture [px]: what is joined moves together. */
@@ -72,8 +85,10 @@ class MechanismView {
     if (b.angles) { const a = this.value(b.angles, t), r = Math.min(h / 2 - 3, 15); ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath(); ctx.arc(x - w / 2 + r + 4, y, r, 0, 7);
       for (const q of [0, 2.0944, 4.1888]) { ctx.moveTo(x - w / 2 + r + 4, y); ctx.lineTo(x - w / 2 + r + 4 + r * Math.cos(a + q), y + r * Math.sin(a + q)); } ctx.stroke(); }
     const size = Math.max(10, Math.min(12.5, 12 * z)), left = b.angles ? 14 * z : 0; ctx.textAlign = "center"; ctx.fillStyle = css("ink"); ctx.font = `600 ${size}px system-ui, sans-serif`;
-    ctx.fillText(b.name, x + left / 2, y - 2); ctx.font = `${size - 1.5}px system-ui, sans-serif`; ctx.fillStyle = css("soft"); ctx.fillText(zone === null ? b.type : this.run.zones.words[zone].name, x + left / 2, y + size);
-    b.values.slice(0, this.m.boxes.length > 12 ? 1 : 2).forEach((v, k) => { const text = `${v.name} ${shown(this.value(v.v, t), v.unit)}`; ctx.font = "11px system-ui, sans-serif"; ctx.lineWidth = 3; ctx.strokeStyle = css("card");
+    const small = h < 26, fitted = text => { let one = text; for (let n = text.length - 1; n > 2 && ctx.measureText(one).width > w - left + 12; n--) one = `${text.slice(0, Math.ceil(n / 2) - 1)}\u2026${text.slice(-Math.floor(n / 2))}`; return one; };
+    ctx.fillText(fitted(b.name), x + left / 2, small ? y + 4 : y - 2); ctx.font = `${size - 1.5}px system-ui, sans-serif`; ctx.fillStyle = css("soft");
+    if (!small) ctx.fillText(fitted(zone === null ? b.type : this.run.zones.words[zone].name), x + left / 2, y + size);
+    b.values.slice(0, b.lines).forEach((v, k) => { const text = `${v.name} ${shown(this.value(v.v, t), v.unit)}`; ctx.font = "11px system-ui, sans-serif"; ctx.lineWidth = 3; ctx.strokeStyle = css("card");
       ctx.strokeText(text, x, y + h / 2 + 14 + 13 * k + (b.travels ? 8 : 0)); ctx.fillText(text, x, y + h / 2 + 14 + 13 * k + (b.travels ? 8 : 0)); });
   }
   strip(ctx, s, k, t) {
