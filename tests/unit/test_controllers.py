@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from fairlead.component.base import DeclarationError
+from fairlead.component.class_checks import DeclarationError
 from fairlead.component.registry import load_library
 from fairlead.errors import ModelError
 

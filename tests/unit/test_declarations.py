@@ -7,7 +7,8 @@ from dataclasses import fields
 import pytest
 
 from fairlead.component.answers import Answers, rows
-from fairlead.component.base import LEDGER, DeclarationError
+from fairlead.component.class_checks import DeclarationError
+from fairlead.component.terms import LEDGER
 from fairlead.errors import ModelError
 
 LAW = "def law(p, a):\n    return (0,)"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairlead.component.base import DeclarationError
+from fairlead.component.class_checks import DeclarationError
 from fairlead.errors import ModelError
 
 PARTS = '''

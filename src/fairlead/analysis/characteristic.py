@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.base import terms_of
 from fairlead.component.declaration import Declaration
 from fairlead.component.holding import Hold
+from fairlead.component.terms import terms_of
 from fairlead.component.values import Values
 
 DRIVEN = 1.5  # applied force over stiction, for zones that steady slip never sees

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from fairlead.component.base import source_place
+from fairlead.component.class_checks import source_place
 from fairlead.component.quantity import tracing
 from fairlead.component.replies import AnswerError
 from fairlead.component.symbols import TraceError

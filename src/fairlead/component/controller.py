@@ -19,7 +19,8 @@ import inspect
 from dataclasses import replace
 from typing import Any
 
-from fairlead.component.base import Component, DeclarationError, source_place
+from fairlead.component.base import Component
+from fairlead.component.class_checks import DeclarationError, source_place
 from fairlead.component.declare import Discrete, Law
 from fairlead.component.given import Parameter
 

@@ -17,7 +17,7 @@ from typing import Any
 import sympy
 
 from fairlead.component.author import called_with
-from fairlead.component.base import LEDGER, source_place, terms_of
+from fairlead.component.class_checks import source_place
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import Law
 from fairlead.component.dimensions import line_of, misfits
@@ -34,6 +34,7 @@ from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
 from fairlead.component.replies import is_bundled
 from fairlead.component.symbols import TraceError, symbol
+from fairlead.component.terms import LEDGER, terms_of
 from fairlead.component.trace_readers import PortReader, Recorder
 from fairlead.component.values import Variant
 

@@ -15,11 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.base import terms_of
 from fairlead.component.declare import THERMAL
 from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import OWN, PORT, key
+from fairlead.component.terms import terms_of
 from fairlead.component.values import parameter
 from fairlead.kernels import layout
 from fairlead.testing.rig import Rig

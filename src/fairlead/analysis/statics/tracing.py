@@ -21,9 +21,10 @@ from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 from fairlead.analysis.statics.schedule import followed, scaled
-from fairlead.component.base import DeclarationError, terms_of
+from fairlead.component.class_checks import DeclarationError
 from fairlead.component.given import Waveform
 from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.terms import terms_of
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
 
