@@ -92,7 +92,8 @@ def find_tunable(
     given = netlist.interface.tunable | {name: Outer(of=name) for name in more}
     faults, found = list[Fault](), list[Variable]()
     for name, outer in given.items():
-        what, place = f"interface.tunable.{name}", _place(netlist, "tunable", name)
+        what = f"interface.tunable.{name}" if name in netlist.interface.tunable else f"tunable {name}"
+        place = _place(netlist, "tunable", name)
         if outer.of not in known:
             near = did_you_mean(outer.of, known)
             what = f"{what}: there is no parameter {shown(outer.of)} that is a number. {near}".rstrip()

@@ -5,7 +5,7 @@ import pytest
 import fairlead
 from fairlead.errors import UsageError
 from fairlead.fmu import export
-from tests.fmu.exported import fmpy, model, once, slave
+from tests.fmu.exported import fmpy, model, needs_compiler, once, slave
 
 H = 0.02  # s
 SCENE = """
@@ -176,3 +176,26 @@ def test_a_parameter_that_follows_no_law_is_refused_by_name(tmp_path, name):
         )
     assert REFUSED[name] in str(told.value)
     assert not (tmp_path / "no.fmu").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+def test_friction_and_load_of_a_line_are_tuned_as_in_fairlead_to_the_last_bit(tmp_path, engine):
+    fmpy()
+    needs_compiler()
+    loaded, out = fairlead.load("single_bend"), ["line.hose_node[9].x", "line.core_node[9].v"]
+    tunable, plan = ["mu", "tow.force"], {0: ("mu", 0.5), 20: ("tow.force", 900.0), 40: ("mu", 0.2)}
+    file = export(loaded, tmp_path / "line.fmu", engine=engine, outputs=out, tunable=tunable)
+    run, rows, own = loaded.start(engine=engine, tunable=tunable), [], []
+    run.get(out[0])
+    with slave(file, tmp_path / "unpacked") as one:
+        one.fmu.exitInitializationMode()
+        for k in range(60):
+            if k in plan:
+                one.set(*plan[k])
+                run.set(*plan[k])
+            one.step(0.05)
+            run.advance(one.t)
+            rows.append(one.get(*out))
+            own.append([run.get(name) for name in out])
+    assert rows == own

@@ -63,7 +63,7 @@ def refuse_names(system: System, inputs: Iterable[str], outputs: Iterable[str], 
     wrong += [
         _unknown("--out", name, signals, "signal", "Signals") for name in outputs if not picked(signals, name)
     ]  # fmt: skip
-    wrong += [f"--tunable: {fault.what}\n    {fault.way_out}" for fault in parameters]
+    wrong += [f"{fault.what}\n    {fault.way_out}" for fault in parameters]
     if wrong:
         raise UsageError("\n".join(wrong))
 
