@@ -15,9 +15,6 @@ import fairlead
 from fairlead.foreign import process
 from tests.fmu_import.build import COMPILER, NO_COMPILER, maker
 
-LONGEST = 60.0
-"""s that any call of a test FMU may take, on a machine under load; those that hang are given less."""
-
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:

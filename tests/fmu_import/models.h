@@ -51,6 +51,7 @@ static int run(Model *m, double t, double step) {
     if (t < 0.045) return 0;
     if (!strcmp(m->kind, "crash")) { volatile int *nowhere = 0; *nowhere = 1; }
     if (!strcmp(m->kind, "leave")) { fprintf(stderr, "no licence\n"); exit(3); }
+    if (!strcmp(m->kind, "scold")) { fprintf(stderr, "no licence\n"); return 3; }
     if (!strcmp(m->kind, "hang")) for (volatile int i = 0;; i = 1 - i) { }
     if (!strcmp(m->kind, "nan")) m->number[0] = sqrt(-1.0);
     if (!strcmp(m->kind, "error")) return 3;

@@ -2,11 +2,14 @@
 
 import math
 import re
+import time
 
 import numpy as np
 import pytest
 
 from fairlead.errors import RunError, UsageError
+from fairlead.foreign import process
+from fairlead.foreign.process import ForeignProcess
 from tests.fmu_import.build import ONE
 
 FEED3 = {"Float64": 0.1, "Float32": 0.1, "Int8": -128, "UInt8": 255, "Int16": -32768, "UInt16": 65535,
@@ -118,6 +121,17 @@ def test_a_loop_through_an_fmu_is_the_exact_recursion_of_a_held_force(make, load
     np.testing.assert_allclose(result.at("cart.v", 0.05 * np.arange(20)), 0.8 ** np.arange(20), rtol=1e-8)
 
 
+@pytest.fixture
+def patiently(monkeypatch):
+    """Calls that come back have the time that a busy machine takes; the one that hangs has its limit."""
+    ask = ForeignProcess.ask
+
+    def asked(self, question, limit):
+        return ask(self, question, limit if (question.get("from") or 0.0) > 0.045 else 120.0)
+
+    monkeypatch.setattr(ForeignProcess, "ask", asked)
+
+
 @pytest.mark.parametrize(
     ("kind", "told"),
     [
@@ -134,7 +148,9 @@ def test_a_loop_through_an_fmu_is_the_exact_recursion_of_a_held_force(make, load
         pytest.param("ends2", r"ends2.fmu: it asks to end the simulation at 0\.0\d s", marks=pytest.mark.slow),
     ],
 )
-def test_what_goes_wrong_in_an_fmu_is_told_with_its_time_and_results_are_kept(make, load, started, kind, told):
+def test_what_goes_wrong_in_an_fmu_is_told_with_its_time_and_results_are_kept(
+    make, load, started, patiently, kind, told
+):
     file = make(kind.rstrip("2"), 2 if kind.endswith("2") else 3).name
     limit = "2 s" if kind == "hang" else "60 s"
     scene = f"""
@@ -151,6 +167,18 @@ def test_what_goes_wrong_in_an_fmu_is_told_with_its_time_and_results_are_kept(ma
     assert result.status == "failed"
     assert result.t[-1] >= 0.05
     assert all(one.poll() is not None for one in started)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("kind", "told"), [("leave", "ended with exit code 3"), ("scold", "failed with status 3")])
+def test_what_was_printed_before_a_failure_is_told_however_late_it_is_read(make, load, monkeypatch, kind, told):
+    """On a busy machine the thread that reads it has its turn when the failure has been known for long."""
+    read = process._words
+    monkeypatch.setattr(process, "_words", lambda *given: (time.sleep(1.5), read(*given)))
+    make(kind, 3)
+    scene = f"components: {{fmu: {{type: Fmu, file: {kind}3.fmu, period: 10 ms}}}}\nrun: {{stop: 1 s}}"
+    with pytest.raises(RunError, match=f"{told}.*It printed: no licence"):
+        load(scene).run(out=None)
 
 
 def test_a_value_that_the_type_of_an_input_does_not_hold_is_refused(make, load):

@@ -26,9 +26,11 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from fairlead.errors import shown
-from fairlead.foreign.refusals import ForeignError
+from fairlead.foreign.refusals import FAILED, ForeignError
 
 START_LIMIT = 120.0  # s, for Python to start and import FMPy on a busy machine
+HEARD = 30.0
+"""s, for a process to end whose output has, and for what was printed to be read: long on busy machines only."""
 LAST_WORDS = 3  # lines of what the code printed that are told when it fails
 DOES = {"open": "its initialisation", "step": "doStep", "save": "getFMUState", "load": "setFMUState"}
 
@@ -49,13 +51,15 @@ class ForeignProcess:
         assert self._process.stderr is not None
         self._answers: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._words: collections.deque[str] = collections.deque(maxlen=LAST_WORDS)
-        self._listening = [
+        self._heard = threading.Semaphore(0)
+        words = (self._process.stderr, self._words, self._heard)
+        listening = [
             threading.Thread(target=_answers, args=(self._process.stdout, self._answers), daemon=True),
-            threading.Thread(target=_words, args=(self._process.stderr, self._words), daemon=True),
+            threading.Thread(target=_words, args=words, daemon=True),
         ]
-        for thread in self._listening:
+        for thread in listening:
             thread.start()
-        self.close = weakref.finalize(self, _close, self._process, self.folder)
+        self.close = weakref.finalize(self, _close, self._process, self.folder, listening)
         """End it, with all it has started; again does nothing. Also done when nobody knows it any more."""
         self._answer("its start", START_LIMIT)
 
@@ -95,7 +99,7 @@ class ForeignProcess:
     def _gone(self, doing: str) -> ForeignError:
         """The process has ended by itself."""
         try:
-            code = self._process.wait(timeout=5)
+            code = self._process.wait(HEARD)
         except subprocess.TimeoutExpired:
             code = 0
         self.close()
@@ -106,8 +110,8 @@ class ForeignProcess:
         return ForeignError(f"the process of {self.of} ended in {doing}.{self._said()}")
 
     def _said(self) -> str:
-        """The last that the code printed."""
-        self._listening[1].join(timeout=0.2)  # of a process that has ended, all of it is read then
+        """The last that the code printed before it failed or ended."""
+        self._heard.acquire(timeout=HEARD)
         words = " | ".join(line for line in self._words if line)
         return f" It printed: {shown(words)}" if words else ""
 
@@ -118,13 +122,18 @@ def _answers(stream: IO[bytes], to: queue.SimpleQueue[bytes]) -> None:
     to.put(b"")
 
 
-def _words(stream: IO[bytes], to: collections.deque[str]) -> None:
+def _words(stream: IO[bytes], to: collections.deque[str], heard: threading.Semaphore) -> None:
+    """Take in what is printed; `heard` counts how often all of it before an error was, and before the end."""
     for line in stream:
-        to.append(line[:2000].decode(errors="replace").strip())
+        if words := line.removesuffix(FAILED)[:2000].decode(errors="replace").strip():
+            to.append(words)
+        if line.endswith(FAILED):
+            heard.release()
+    heard.release()
 
 
-def _close(process: subprocess.Popen[bytes], folder: str) -> None:
-    """End a process with its group, wait for it, and remove what was unpacked for it."""
+def _close(process: subprocess.Popen[bytes], folder: str, listening: list[threading.Thread]) -> None:
+    """End a process with its group, wait for it and its last words, and remove what was unpacked for it."""
     if hasattr(os, "killpg"):
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, signal.SIGKILL)
@@ -132,8 +141,10 @@ def _close(process: subprocess.Popen[bytes], folder: str) -> None:
         process.kill()
     with contextlib.suppress(subprocess.TimeoutExpired):
         process.wait(timeout=10)
-    for stream in (process.stdin, process.stdout, process.stderr):
-        if stream is not None:
+    for thread, stream in zip([None, *listening], (process.stdin, process.stdout, process.stderr), strict=True):
+        if thread is not None and thread is not threading.current_thread():  # who collects garbage may be any
+            thread.join(HEARD)
+        if stream is not None and not (thread and thread.is_alive()):  # a child of another group may keep it open
             with contextlib.suppress(OSError):
                 stream.close()
     shutil.rmtree(folder, ignore_errors=True)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from fairlead.errors import NumericalError
 
+FAILED = b"\x1e\n"
+"""What the process of an FMU puts behind all that was printed before an error, on standard error."""
+
 
 class Refused(ValueError):
     """Something that cannot be used: what, as a sentence without its end, and a way out."""

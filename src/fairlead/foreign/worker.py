@@ -4,7 +4,8 @@
     {"do": "step", "from": t | null, "step": h, "inputs": [...]}    doStep(t, h) unless null, set, get
     {"do": "save"}  {"do": "load", "token": k}  {"do": "free", "token": k}
 
-What the code prints goes to standard error. The process ends as soon as its standard input does, even inside the FMU.
+What the code prints goes to standard error, and a mark behind it when a question ends in an error. The process ends as
+soon as its standard input does, even inside the FMU.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
+
+from fairlead.foreign.refusals import FAILED
 
 Named = list[list[Any]]  # [kind, value reference] of variables
 FLOATS = ("Real", "Float64", "Float32")
@@ -162,6 +165,8 @@ def main() -> None:
     instances: list[Instance] = []
     said: dict[str, Any] = {}
     while True:
+        if "error" in said:
+            os.write(2, FAILED)
         out.write(json.dumps(said).encode() + b"\n")
         out.flush()
         said = answer(json.loads(lines.get()), instances)
