@@ -9,6 +9,7 @@ import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -217,6 +218,56 @@ def test_of_a_run_on_another_machine_nobody_can_tell_and_force_replaces_it(tmp_p
         write(tmp_path, "new", 2.0, force=False)
     write(tmp_path, "new", 2.0)
     assert contents(Result.open(tmp_path)) == NEW
+
+
+def test_a_run_that_ends_while_it_is_opened_counts_as_finished(tmp_path: Path, monkeypatch) -> None:
+    """Its lock is free then, and what was read of run.json is from before."""
+    run = RunDirectory.create(tmp_path, SIGNALS, {"name": "old"})
+    run.append([0.0], [[1.0]], [0])
+    run.flush(at_once=True)
+    look = lock.held
+
+    def after_its_end(folder: Path) -> bool | None:
+        monkeypatch.setattr(lock, "held", look)
+        run.finish("finished", {})
+        return look(folder)
+
+    monkeypatch.setattr(lock, "held", after_its_end)
+    assert Result.open(tmp_path).status == "finished"
+
+
+def test_a_run_that_was_replaced_while_it_is_opened_is_said_to_have_been(tmp_path: Path, monkeypatch) -> None:
+    write(tmp_path, "old", 1.0)
+    old = run_file.load(tmp_path)
+    others = [RunDirectory.create(tmp_path, SIGNALS, {"name": "new"}, force=True)]  # no rows yet
+    with monkeypatch.context() as patched:
+        patched.setattr(run_file, "load_as_it_is", lambda _: (old, "finished"))
+        with pytest.raises(UsageError, match="was replaced by another one"):
+            Result.open(tmp_path)
+    others.pop().finish("finished", {})
+
+
+@pytest.mark.skipif(os.name == "nt", reason="locks of Windows know no readers")
+@pytest.mark.parametrize("writes", [False, True])
+def test_a_reader_that_looks_who_writes_may_take_its_time(tmp_path: Path, monkeypatch, writes: bool) -> None:
+    """Its look takes a second here, as on a machine with much else to do. One who writes is not waited for."""
+    handles, now = [lock._open(tmp_path, os.O_RDWR | os.O_CREAT)], [0.0]
+    assert lock._lock(handles[0], shared=not writes)
+
+    def sleep(seconds: float) -> None:
+        now[0] += seconds
+        if handles and now[0] > 1.0:
+            os.close(handles.pop())
+
+    monkeypatch.setattr(lock, "clock", SimpleNamespace(monotonic=lambda: now[0], sleep=sleep))
+    if writes:
+        with pytest.raises(lock.Held):
+            lock.Lock.take(tmp_path)
+        assert now[0] == 0.0
+        os.close(handles.pop())
+    else:
+        lock.Lock.take(tmp_path).release()
+        assert now[0] > 1.0
 
 
 @forks

@@ -16,7 +16,8 @@ import time as clock
 from pathlib import Path
 
 LOCK_FILE = ".writing"
-PATIENCE = 0.3  # s; a reader that looks whether somebody writes holds the lock for a moment
+PATIENCE = 30.0 if os.name != "nt" else 0.3
+"""s; a reader that looks whether somebody writes has the lock for a moment, which lasts where the machine is busy."""
 
 
 class Held(Exception):
@@ -48,8 +49,10 @@ class Lock:
                 return cls(folder, None)
             if taken and _is(handle, folder):
                 return cls(folder, handle)
+            late = clock.monotonic() > until
+            free = taken or (not late and _only_read(handle))
             os.close(handle)
-            if not taken and clock.monotonic() > until:
+            if not free:
                 raise Held
             clock.sleep(0.02)
 
@@ -93,6 +96,11 @@ def _open(folder: Path, how: int) -> int:
     if how & os.O_CREAT and file.is_symlink():
         file.unlink()
     return os.open(file, how | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_CLOEXEC", 0), 0o666)
+
+
+def _only_read(handle: int) -> bool:
+    """Return whether those that keep us from a lock may be readers; where they can be told from writers, are."""
+    return os.name == "nt" or _lock(handle, shared=True)
 
 
 def _is(handle: int, folder: Path) -> bool:

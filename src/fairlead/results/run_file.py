@@ -138,6 +138,21 @@ def status(directory: Path, record: Mapping[str, Any], ours: bool = False) -> st
     return RUNNING if _is_alive(directory, record, ours) else KILLED
 
 
+def load_as_it_is(directory: Path) -> tuple[dict[str, Any], str]:
+    """Return run.json and the status. Raises as `load`.
+
+    A process writes its last word before it gives back the lock. So a run whose lock was found free was killed only if
+    run.json says afterwards what it said before.
+    """
+    record = load(directory)
+    while (found := status(directory, record)) == KILLED != record.get("status"):
+        again = load(directory)
+        if again == record:
+            break
+        record = again
+    return record, found
+
+
 def is_here(record: Mapping[str, Any]) -> bool:
     """Return whether a run was begun on this machine, where one can tell whether it goes on."""
     return record.get("host") == platform.node() or bool(_boot() and record.get("boot") == _boot())

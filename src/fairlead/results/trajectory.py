@@ -107,9 +107,9 @@ class Result:
         if not isinstance(path, str | os.PathLike):
             raise UsageError(f"Result.open: path = {shown(path)} is not a path.\n    {run_file.GIVE}")
         path = Path(path)
-        run = run_file.load(path)
-        status = run_file.status(path, run)
+        run, status = run_file.load_as_it_is(path)
         if run["status"] == run_file.CLAIMED or not (path / SERIES_FILE).exists():
+            run_file.refuse_another(path, run)
             raise UsageError(_unreadable(path, status))
         try:
             require_intact(path / SERIES_FILE, run)
