@@ -1,6 +1,7 @@
 """A small sample of damaged netlists, always the same; any number by hand with `python -m tests.fuzz netlists`."""
 
 import random
+import signal
 
 import pytest
 
@@ -46,11 +47,12 @@ def test_what_does_not_end_is_told(tmp_path, monkeypatch):
     import fairlead
 
     def load(*_, **__):
+        signal.setitimer(signal.ITIMER_PROF, 0.01)  # it rings here, not in what is between; 30 s were too long to wait
         while True:
             pass
 
     monkeypatch.setattr(fairlead, "load", load)
-    assert "took more than 0.05 s" in judge(tmp_path / "any.yaml", patience=0.05).complaints[0]
+    assert "took more than 30 s" in judge(tmp_path / "any.yaml").complaints[0]
 
 
 def test_any_bytes_can_be_damaged():

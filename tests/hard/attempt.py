@@ -43,12 +43,13 @@ class Attempt:
         return asdict(self)
 
 
-def attempt(row: Row) -> Attempt:
-    """Play a row. What an engine throws counts as a crash; KeyboardInterrupt passes."""
+def attempt(row: Row, patience: float = 1.0) -> Attempt:
+    """Play a row, in `patience` times its budget. What an engine throws counts as a crash; KeyboardInterrupt passes."""
+    budget = patience * row.case.budget
     compiled_loop(STEPPING if row.engine == "stepping" else RODAS)  # not on the budget of the first row
     begun = time.perf_counter()
     with tempfile.TemporaryDirectory(prefix="fairlead-hard-") as folder:
-        play = Play(row.engine, row.treatment, Path(folder), row.case.budget)
+        play = Play(row.engine, row.treatment, Path(folder), budget)
         verdict: Verdict
         try:
             row.case.play(play)
@@ -58,8 +59,8 @@ def attempt(row: Row) -> Attempt:
         except Exception as error:  # noqa: BLE001  a row that throws is a row that failed, and is shown as such
             verdict, reason = "crashed", f"{type(error).__name__}: {error}"
     seconds = time.perf_counter() - begun
-    if verdict == "ok" and seconds > OVER * row.case.budget:
-        verdict, reason = "stuck", f"took {seconds:.0f} s of a budget of {row.case.budget:.0f} s"
+    if verdict == "ok" and seconds > OVER * budget:
+        verdict, reason = "stuck", f"took {seconds:.0f} s of a budget of {budget:.0f} s"
     return Attempt(
         row.case.name, row.engine, row.treatment, verdict, " ".join(reason.split()), play.auto, round(seconds, 3),
         round(play.solve_time, 4), play.steps, play.switches, play.closure,

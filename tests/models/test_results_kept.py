@@ -63,11 +63,13 @@ def test_a_rerun_that_is_killed_at_once_leaves_the_results_it_was_to_replace(tmp
     subprocess.run([*command, "--set", "run.stop=1 s"], check=True, timeout=300)
     with subprocess.Popen([*command, "--force", "--set", "run.stop=1e5 s"]) as process:
         deadline = time.monotonic() + 300
-        while not (tmp_path / "run" / "earlier").exists():
-            assert time.monotonic() < deadline
-            assert process.poll() is None
-            time.sleep(0.005)
-        process.send_signal(signal.SIGKILL)
+        try:
+            while not (tmp_path / "run" / "earlier").exists():
+                assert time.monotonic() < deadline
+                assert process.poll() is None
+                time.sleep(0.005)
+        finally:
+            process.send_signal(signal.SIGKILL)
     assert Result.open(tmp_path / "run" / "earlier").t[-1] == 1.0
     answer = CliRunner().invoke(app, ["margins", str(tmp_path / "run")])
     said = " ".join(answer.output.split())

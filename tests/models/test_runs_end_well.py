@@ -19,10 +19,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import fairlead
 from fairlead.errors import UsageError
 from fairlead.results import Result
 
-# A belt that runs for a day of simulated time: long enough to be stopped in the middle.
+# A belt that runs for hours on any machine: long enough to be stopped in the middle.
 ENDLESS = """
     schema: 1
     name: endless
@@ -35,7 +36,7 @@ ENDLESS = """
       pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: "{stiction}", coulomb: 0.6}}
     connections: [[wall.flange, spring.a], [spring.b, block.flange, pad.b], [belt.flange, pad.a]]
     friction: {method: hold}
-    run: {stop: 86400 s, accuracy: 1e-6}
+    run: {stop: 1e9 s, accuracy: 1e-6}
     record: {every: 20 ms}
 """
 
@@ -81,6 +82,9 @@ def start(tmp_path: Path) -> Iterator[Callable[..., subprocess.Popen[str]]]:
         process.communicate()
 
 
+FEW = 10  # zone changes
+
+
 def finish(process: subprocess.Popen[str]) -> tuple[int, str, str]:
     """Exit code and what was said."""
     out, err = process.communicate(timeout=300)
@@ -88,11 +92,13 @@ def finish(process: subprocess.Popen[str]) -> tuple[int, str, str]:
 
 
 def wait_until_recorded(process: subprocess.Popen[str], path: Path, rows: int) -> None:
-    """Until a reader finds so many rows in a directory that is still being written."""
-    for _ in range(3000):
+    """Until a reader finds so many rows, and zone changes, in a directory that is still being written."""
+    until = time.monotonic() + 600
+    while time.monotonic() < until:
         assert process.poll() is None, process.communicate()
         try:
-            if len(Result.open(path).t) >= rows:
+            result = Result.open(path)
+            if len(result.t) >= rows and len(result.events) > FEW:  # they reach the disk after the rows
                 return
         except UsageError:
             pass  # nothing there yet
@@ -106,7 +112,7 @@ def check_whole(result: Any, least: int) -> None:
     assert np.diff(result.t).min() >= 0
     assert np.isfinite(result.columns()).all()
     times = np.array([e.t for e in result.events])
-    assert len(times) > 10
+    assert len(times) > FEW
     assert (np.diff(times) >= 0).all()
 
 
@@ -118,7 +124,7 @@ def test_kill_9_leaves_a_directory_that_can_be_read(start, netlist, tmp_path) ->
     result = Result.open(tmp_path / "run")
     check_whole(result, 500)
     assert result.status == "killed"
-    assert result.t[-1] < 86400
+    assert result.t[-1] < 1e9
 
 
 def test_ctrl_c_keeps_what_was_computed_and_exits_with_130(start, netlist, tmp_path) -> None:
@@ -183,10 +189,18 @@ def test_a_budget_ends_the_run_and_keeps_it(start, netlist, tmp_path, budget: st
 
 
 def test_a_budget_of_wall_time_ends_the_run_and_keeps_it(start, netlist, tmp_path) -> None:
-    code, _, err = finish(start(netlist, "--set", "run.max_wall=1 s", "--set", "run.stop=30000 s"))
+    """How far it comes depends on the machine: those rows are the first ones of a run of just that length."""
+    code, _, err = finish(start(netlist, "--set", "run.max_wall=0.2 s", "--set", "run.stop=1e9 s"))
     assert code == 4
-    assert "1.0 s" in err
-    check_whole(Result.open(tmp_path / "run"), 500)
+    assert "0.2 s" in err
+    result = Result.open(tmp_path / "run")
+    assert result.status == "budget"
+    assert result.run["steps"] > 0
+    whole = fairlead.load(netlist).run(out=None, stop=result.run["end_time"] + 1.0)
+    rows = len(result.t)
+    assert rows > 0
+    assert result.columns().tolist() == whole.columns()[:rows].tolist()
+    assert list(result.events) == list(whole.events)[: len(result.events)]
 
 
 def test_a_broken_limit_is_named_and_exits_with_5(start, netlist, tmp_path) -> None:

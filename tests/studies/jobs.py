@@ -6,9 +6,17 @@ import time
 
 from fairlead.studies.sweeps.job import FunctionJob
 
+GATE = "FAIRLEAD_TESTS_GATE"
+"""In the environment: the first x that is not computed by `square` here, which waits there until it is ended."""
+LONG = 600.0  # s, after which nobody comes any more
+
 
 def square(values):
     time.sleep(float(values.get("wait", 0.0)))
+    begun = time.monotonic()
+    while values["x"] >= float(os.environ.get(GATE, "inf")):
+        assert time.monotonic() - begun < LONG
+        time.sleep(0.05)
     return {"y": values["x"] ** 2}
 
 

@@ -1,11 +1,12 @@
 """A scheduler on this machine: its table is that of processes, also when workers die or the scheduler does."""
 
+import json
 import os
 import shlex
 import signal
-import socket
 import subprocess
 import sys
+import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -20,34 +21,51 @@ from tests.studies.jobs import crash_at_three, job, square
 
 pytest.importorskip("pyarrow", reason="pyarrow is not installed; pip install 'fairlead[cluster]'")
 pytest.importorskip("distributed", reason="dask.distributed is not installed; pip install 'fairlead[cluster]'")
+from distributed import Client
+
 from fairlead.studies.sweeps.cluster import TRIES, Cluster
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")]
 ROOT = Path(__file__).parents[2]
 TIMES = ["seconds", "loop", "host"]
 PATIENCE = 15.0  # s, for a process to end before its group is killed
+LONG = 600.0  # s, for what takes seconds on a machine that has nothing else to do
 
 
 @contextmanager
-def scheduler(workers, *, again=False):
-    """A scheduler with so many worker processes: its address, and the processes. `again`: dead ones are replaced."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    address = f"tcp://127.0.0.1:{port}"
-    options = ["--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
+def scheduler(folder, workers, *, again=False):
+    """A scheduler with so many worker processes, all there: its address, and the processes; `again`: replaced if dead.
+
+    It chooses its port itself: one that was free a moment ago may be taken.
+    """
+    told = folder / "scheduler.json"
+    options = ["--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(told)]
     quiet = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "start_new_session": True}
     going = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", *options], **quiet)]
-    command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard"]
-    command.append("--no-nanny")
-    if again:  # not by a nanny, which gives up when its worker dies before it has started
-        command = ["sh", "-c", f"while true; do {shlex.join(command)}; done"]
-    going += [subprocess.Popen(command, **quiet) for _ in range(workers)]
     try:
+        address = written(told, going[0])
+        command = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard"]
+        command.append("--no-nanny")
+        if again:  # not by a nanny, which gives up when its worker dies before it has started
+            command = ["sh", "-c", f"while true; do {shlex.join(command)}; done"]
+        going += [subprocess.Popen(command, **quiet) for _ in range(workers)]
+        with Client(address, timeout=LONG, set_as_default=False) as client:
+            client.wait_for_workers(workers, timeout=LONG)
         yield address, going
     finally:
         for one in reversed(going):
             end(one)
+
+
+def written(file, by):
+    """The address in the file of a scheduler, when all of it is there."""
+    until = time.monotonic() + LONG
+    while time.monotonic() < until:
+        assert by.poll() is None, f"the scheduler has ended with {by.returncode}"
+        with suppress(FileNotFoundError, ValueError):
+            return json.loads(file.read_text())["address"]
+        time.sleep(0.02)
+    raise AssertionError(f"no scheduler within {LONG:g} s")
 
 
 def end(one: subprocess.Popen) -> None:
@@ -79,7 +97,7 @@ def at(count, do):
 def test_two_of_four_workers_are_killed_and_the_table_is_that_of_processes(tmp_path) -> None:
     design = Design(grid={"x": [str(k) for k in range(200)], "wait": ["0.02"]})
     expected = sweep(job(square), design, tmp_path / "here", processes=0)[0].frame()
-    with scheduler(4) as (address, going):
+    with scheduler(tmp_path, 4) as (address, going):
         kill = at(40, lambda: [one.send_signal(signal.SIGKILL) for one in going[1:3]])
         made = sweep(job(square), design, tmp_path / "there", computers=lambda one: Cluster(one, address), watch=kill)
         assert [one.wait(timeout=PATIENCE) for one in going[1:3]] == [-9, -9]
@@ -108,7 +126,7 @@ def test_a_model_travels_with_its_library_and_its_tables(tmp_path) -> None:
     model = fairlead.load(scene / "pushed.yaml", libraries=[str(scene / "parts.py")])
     cases = Cases(model, {"end": "end(block.x)"})
     design = Design(grid={"block.mass": ["1 kg", "2 kg", "3 kg"]})
-    with scheduler(1) as (address, _):
+    with scheduler(tmp_path, 1) as (address, _):
         made = sweep(cases, design, tmp_path / "there", computers=lambda one: Cluster(one, address))
     expected = [cases.row(values).figures["end"] for values in design.cases()]
     assert made[0].frame()["end"].tolist() == pytest.approx(expected, abs=1e-12)
@@ -116,7 +134,7 @@ def test_a_model_travels_with_its_library_and_its_tables(tmp_path) -> None:
 
 def test_a_lost_scheduler_is_a_sentence_and_the_rest_is_computed_later(tmp_path) -> None:
     design = Design(grid={"x": [str(k) for k in range(300)], "wait": ["0.02"]})
-    with scheduler(2) as (address, going):
+    with scheduler(tmp_path, 2) as (address, going):
         kill = at(40, lambda: going[0].send_signal(signal.SIGKILL))
         with pytest.raises(FairleadError, match="gone"):
             sweep(job(square), design, tmp_path, computers=lambda one: Cluster(one, address), watch=kill)
@@ -125,9 +143,10 @@ def test_a_lost_scheduler_is_a_sentence_and_the_rest_is_computed_later(tmp_path)
     assert len(table.frame()) == 300
 
 
-def test_a_case_that_kills_its_workers_is_a_row(tmp_path) -> None:
+def test_a_case_that_kills_its_workers_is_a_row(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("fairlead.studies.sweeps.cluster.NOBODY", LONG)  # new workers come when the machine has time
     design = Design(grid={"x": [str(k) for k in range(20)]})
-    with scheduler(2, again=True) as (address, _):
+    with scheduler(tmp_path, 2, again=True) as (address, _):
         made = sweep(job(crash_at_three), design, tmp_path, computers=lambda one: Cluster(one, address))
     frame = made[0].frame()
     assert frame["case"][frame["status"] == "killed"].tolist() == [3]
@@ -176,5 +195,5 @@ def test_nobody_who_answers_is_a_sentence(tmp_path, monkeypatch) -> None:
 
 def test_a_scheduler_without_workers_is_a_sentence_after_a_while(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("fairlead.studies.sweeps.cluster.NOBODY", 3.0)
-    with scheduler(0) as (address, _), pytest.raises(FairleadError, match="no worker for 3 s"):
+    with scheduler(tmp_path, 0) as (address, _), pytest.raises(FairleadError, match="no worker for 3 s"):
         sweep(job(square), Design(grid={"x": ["1"]}), tmp_path, computers=lambda one: Cluster(one, address))

@@ -23,7 +23,7 @@ from fairlead.studies.sweeps.distributions import read_distribution
 from fairlead.studies.sweeps.plan import is_sweep_file, read_plan
 from fairlead.studies.sweeps.ranges import RangeError, read_range
 from fairlead.studies.sweeps.sweep import sweep
-from tests.studies.jobs import crash_at_three, job, square
+from tests.studies.jobs import GATE, LONG, crash_at_three, job, square
 
 arrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed; pip install 'fairlead[sweep]'")
 from fairlead.studies.sweeps import table as tables  # noqa: E402
@@ -144,26 +144,37 @@ def test_a_sweep_that_is_killed_five_times_has_the_table_of_one_run(tmp_path) ->
 
 
 def _kill_and_resume(tmp_path, kills, count) -> None:
-    whole = Design(grid={"x": [str(k) for k in range(count)], "wait": ["0.02"]})
+    """Killed at any instant of what follows a row that is new; a gate keeps each sweep from ending before that."""
+    whole = Design(grid={"x": [str(k) for k in range(count)]})
     expected = sweep(job(square), whole, tmp_path / "whole", processes=0)[0].frame()
     folder, rows = tmp_path / "killed", 0
-    for _ in range(kills):
-        command = [sys.executable, "-m", "tests.studies.sweep_to_kill", str(folder), str(count), "0.02"]
-        quiet = subprocess.DEVNULL
-        going = subprocess.Popen(command, cwd=ROOT, stdout=quiet, stderr=quiet, start_new_session=True)
-        for _ in range(2000):
-            time.sleep(0.01)
-            if (folder / tables.FILE).exists() and (now := tables.read(folder)[0].num_rows) > rows:
-                rows = now
-                break
-        going.send_signal(signal.SIGKILL)
-        going.wait(timeout=60)
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(going.pid, signal.SIGKILL)  # its workers, which would end when they find nobody to answer
-        assert 0 < rows < count  # each time there is more, and never all
+    for turn in range(1, kills + 1):
+        command = [sys.executable, "-m", "tests.studies.sweep_to_kill", str(folder), str(count)]
+        gate = {GATE: str(turn * count // (kills + 1))}
+        going = subprocess.Popen(command, cwd=ROOT, env=os.environ | gate, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, start_new_session=True)  # fmt: skip
+        try:
+            rows = _when_longer(folder, rows, going)
+        finally:
+            going.send_signal(signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(going.pid, signal.SIGKILL)  # its workers, which would end when they find nobody to answer
+            going.communicate(timeout=LONG)
+        assert 0 < rows <= turn * count // (kills + 1)  # each time there is more, and never all
     table, standing = sweep(job(square), whole, folder, processes=2)
-    assert standing.reused >= rows
+    assert rows <= standing.reused < count
     assert plain(table.frame()).equals(plain(expected))
+
+
+def _when_longer(folder, rows, going) -> int:
+    """How many rows a table has, as soon as it has more than `rows`; a process writes it."""
+    until = time.monotonic() + LONG
+    while time.monotonic() < until:
+        assert going.poll() is None, going.stderr.read().decode()
+        if (folder / tables.FILE).exists() and (now := tables.read(folder)[0].num_rows) > rows:
+            return now
+        time.sleep(0.01)
+    raise AssertionError(f"no row came in {LONG:g} s")
 
 
 def test_a_table_that_is_replaced_while_it_is_read_is_one_of_the_two(tmp_path) -> None:
