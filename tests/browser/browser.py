@@ -6,7 +6,7 @@ Nothing is installed from here: `make browser` does that, and without a browser 
 import json
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ FLAGS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--disable-dev-shm-usage", "--hide-scrollbars",
 )  # fmt: skip
-PATIENCE = 60.0  # s
+PATIENCE = 100.0  # s; selenium itself gives up after 120
 
 
 def missing() -> str:
@@ -65,12 +65,27 @@ def show(driver: Any, page: Path, width: int = 1440, height: int = 1000, dark: b
 
 
 def settled(driver: Any) -> None:
-    """Draw every plot, also those that nobody has scrolled to, and wait until they stand."""
+    """Draw every plot, also those that nobody has scrolled to, and wait until they stand and nothing is left to do."""
     driver.execute_async_script(
-        "const done = arguments[0]; (async () => {"
-        "for (const make of fairlead.page.waiting) await make(); setTimeout(done, 400);"
+        "const done = arguments[0], idle = () => new Promise(then => requestIdleCallback(then));"
+        "(async () => { for (const make of fairlead.page.waiting) await make();"
+        "await new Promise(then => setTimeout(then, 400)); for (let k = 0; k < 3; k++) await idle(); done();"
         "})().catch(e => done(String(e)))"
     )
+
+
+def until(driver: Any, holds: Callable[[], Any], times: int = 1) -> None:
+    """Wait until something holds, looked at so many times one after the other. Raises TimeoutException."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    held = 0
+
+    def look(_: Any) -> bool:
+        nonlocal held
+        held = held + 1 if holds() else 0
+        return held >= times
+
+    WebDriverWait(driver, PATIENCE, poll_frequency=0.2).until(look)
 
 
 def complaints(driver: Any) -> list[str]:

@@ -11,7 +11,7 @@ import pytest
 import fairlead
 from fairlead.analysis.statics.to_show import shown_besides
 from fairlead.report import page
-from tests.browser.browser import complaints, missing, opened, requests, settled, show
+from tests.browser.browser import complaints, missing, opened, requests, settled, show, until
 
 pytestmark = [
     pytest.mark.slow,
@@ -62,10 +62,9 @@ def test_playing_moves_the_picture_and_the_time(browser, bend):
     browser.execute_script("fairlead.clock.set(0)")
     before = picture(browser)
     browser.execute_script("document.getElementById('play').click()")
-    browser.execute_async_script("setTimeout(arguments[0], 700)")
+    until(browser, lambda: browser.execute_script("return fairlead.clock.t") > 0)
     browser.execute_script("document.getElementById('play').click()")
-    assert browser.execute_script("return fairlead.clock.t") > 0
-    assert picture(browser) != before
+    until(browser, lambda: picture(browser) != before)
 
 
 def test_the_picture_of_a_scene_without_a_line_moves_as_well(browser, tmp_path):
@@ -85,18 +84,17 @@ def test_a_signal_is_picked_and_zoomed_into_by_dragging(browser, bend):
     panels = len(browser.find_elements(By.CLASS_NAME, "panel"))
     browser.find_element(By.ID, "pick").send_keys("line.hose_node[*].v")
     browser.find_element(By.ID, "add").click()
-    browser.execute_async_script("setTimeout(arguments[0], 800)")
-    assert len(browser.find_elements(By.CLASS_NAME, "panel")) == panels + 1
+    until(browser, lambda: len(browser.find_elements(By.CLASS_NAME, "panel")) == panels + 1)
+    settled(browser)
     plot = browser.find_element(By.CSS_SELECTOR, "#panels .panel > div:nth-child(2)")
     browser.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", plot)
     whole = browser.execute_script("return fairlead.span.end - fairlead.span.start")
     drag = ActionChains(browser).move_to_element_with_offset(plot, -200, 0).click_and_hold()
     drag.move_by_offset(150, 0).move_by_offset(50, 0).release().perform()
-    browser.execute_async_script("setTimeout(arguments[0], 400)")
-    zoomed = browser.execute_script("return fairlead.span.end - fairlead.span.start")
-    assert 0 < zoomed < whole / 2
+    span = "return fairlead.span.end - fairlead.span.start"
+    until(browser, lambda: 0 < browser.execute_script(span) < whole / 2)
     browser.find_element(By.ID, "whole").click()
-    assert browser.execute_script("return fairlead.span.end - fairlead.span.start") == pytest.approx(whole)
+    until(browser, lambda: browser.execute_script(span) == pytest.approx(whole))
 
 
 def test_the_keyboard_plays_and_steps(browser, bend):
@@ -128,9 +126,8 @@ def test_a_link_lands_on_its_section_the_first_time(browser, two_bends, section)
     show(browser, two_bends)
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
     browser.find_element("css selector", f"nav a[href='#{section}']").click()
-    browser.execute_async_script("setTimeout(arguments[0], 3000)")
     top = f"return document.getElementById('{section}').getBoundingClientRect().top"
-    assert abs(browser.execute_script(top)) < 40
+    until(browser, lambda: abs(browser.execute_script(top)) < 40, times=8)  # it comes there, and stays
 
 
 def test_names_that_are_markup_are_shown_as_text(browser, tmp_path):
@@ -162,6 +159,7 @@ def test_the_page_of_a_whole_route_stays_small_and_tells_how_soon_it_answers(bro
         "for (const tell of fairlead.span.heard) tell(); took.push(performance.now() - t); } return took"
     )
     print(f"ms after an input: {[round(one, 1) for one in took]}")
+    browser.execute_cdp_cmd("HeapProfiler.collectGarbage", {})
     memory = browser.execute_cdp_cmd("Runtime.getHeapUsage", {})
     print(f"heap: {memory['usedSize'] / 1e6:.0f} MB")
     assert memory["usedSize"] + memory.get("backingStorageSize", 0) < MOST_MEMORY
@@ -176,16 +174,16 @@ def test_zones_and_maps_of_several_runs_are_chosen_by_the_name_of_the_run(browse
     show(browser, page.write(runs, tmp_path / "both.html"))
     assert settled(browser) is None
     choose = (
-        "const list = document.getElementById(arguments[0]), done = arguments[2];"
-        "list.value = arguments[1]; list.dispatchEvent(new Event('change'));"
-        "setTimeout(() => done(list.options.length), 1500)"
+        "const list = document.getElementById(arguments[0]); list.value = arguments[1];"
+        "list.dispatchEvent(new Event('change')); return list.options.length"
     )
     for select, drawing in (("zone-run", "zone-chart"), ("map-run", "map-list")):
-        first = browser.find_element("id", drawing).screenshot_as_png
-        assert browser.execute_async_script(choose, select, "1") == 2
-        assert browser.find_element("id", drawing).screenshot_as_png != first
-        browser.execute_async_script(choose, select, "0")
-        assert browser.find_element("id", drawing).screenshot_as_png == first
+        drawn = browser.find_element("id", drawing)
+        first = drawn.screenshot_as_png
+        assert browser.execute_script(choose, select, "1") == 2
+        until(browser, lambda drawn=drawn, first=first: drawn.screenshot_as_png != first)
+        browser.execute_script(choose, select, "0")
+        until(browser, lambda drawn=drawn, first=first: drawn.screenshot_as_png == first)
     assert complaints(browser) == []
 
 
@@ -346,14 +344,14 @@ def test_of_many_elements_a_few_are_drawn_and_others_are_picked(browser, two_ben
     assert all("[0] first" in one.text and "all 60 lie in here" in one.text for one in legend[:2])
     assert len(legend) <= 5  # a line a run, then the marks
     choose = (
-        "const [panel, value, done] = arguments, list = panel.querySelector('select'); list.value = value;"
-        "list.dispatchEvent(new Event('change')); setTimeout(done, 600)"
+        "const [panel, value] = arguments, list = panel.querySelector('select'); list.value = value;"
+        "list.dispatchEvent(new Event('change'))"
     )
-    browser.execute_async_script(choose, panel, "17")
-    assert browser.execute_script(drawn)[hose] == few + 2  # of either run
-    assert panel.text.count("[17] picked") == 2
-    browser.execute_async_script(choose, panel, "all")
-    assert browser.execute_script(drawn)[hose] == 2 * 60
+    browser.execute_script(choose, panel, "17")
+    until(browser, lambda: browser.execute_script(drawn)[hose] == few + 2)  # of either run
+    until(browser, lambda: panel.text.count("[17] picked") == 2)
+    browser.execute_script(choose, panel, "all")
+    until(browser, lambda: browser.execute_script(drawn)[hose] == 2 * 60)
     assert complaints(browser) == []
 
 

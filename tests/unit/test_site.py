@@ -25,7 +25,7 @@ import fairlead
 from fairlead.cli import app
 from fairlead.component.registry import known_types
 from fairlead.describe.catalogue import innards
-from tests.browser.browser import complaints, missing, opened, requests
+from tests.browser.browser import complaints, missing, opened, requests, until
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -272,10 +272,8 @@ def test_read_from_disk_the_site_searches_fits_narrow_windows_and_complains_of_n
                 assert browser.execute_script("return document.documentElement.scrollWidth") <= width, (name, width)
                 assert requests(browser) == [], name
         browser.get((site / "search.html").as_uri() + "?q=ruck")
-        browser.execute_async_script("setTimeout(arguments[0], 1500)")
         links = "return [...document.querySelectorAll('ul.search a')].map(one => one.textContent)"
-        found = browser.execute_script(links)
-        assert "RuckTrip" in found
+        until(browser, lambda: "RuckTrip" in browser.execute_script(links))
         assert complaints(browser) == []
 
 
