@@ -16,6 +16,7 @@ FLAGS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--disable-dev-shm-usage", "--hide-scrollbars",
 )  # fmt: skip
+STARTS = 4
 PATIENCE = 100.0  # s; selenium itself gives up after 120
 
 
@@ -33,21 +34,36 @@ def missing() -> str:
 @contextmanager
 def opened() -> Iterator[Any]:
     """A browser with a profile of its own, which goes when it does."""
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        options = webdriver.ChromeOptions()
-        options.binary_location = str(shutil.which("chromium"))
-        for flag in (*FLAGS, f"--user-data-dir={profile}"):
-            options.add_argument(flag)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        driver = webdriver.Chrome(options, Service(str(shutil.which("chromedriver"))))
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        driver = _started(Path(folder))
         driver.set_script_timeout(PATIENCE)
         try:
             yield driver
         finally:
             driver.quit()
+
+
+def _started(folder: Path) -> Any:
+    """A browser. On a machine where much else starts, it may take longer than selenium waits for it; then another."""
+    from selenium import webdriver
+    from selenium.common.exceptions import WebDriverException
+    from selenium.webdriver.chrome.service import Service
+    from urllib3.exceptions import HTTPError
+
+    for turn in range(STARTS):
+        options = webdriver.ChromeOptions()
+        options.binary_location = str(shutil.which("chromium"))
+        for flag in (*FLAGS, f"--user-data-dir={folder / str(turn)}"):
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        service = Service(str(shutil.which("chromedriver")))
+        try:
+            return webdriver.Chrome(options, service)
+        except (WebDriverException, HTTPError):
+            service.stop()  # and what it has started
+            if turn + 1 == STARTS:
+                raise
+    raise AssertionError
 
 
 def show(driver: Any, page: Path, width: int = 1440, height: int = 1000, dark: bool = False) -> None:
