@@ -13,6 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import hypothesis
 import pytest
 
 import fairlead
@@ -20,6 +21,12 @@ from tests.compiling import compile_share
 from tests.slow import is_left
 
 Scene = Callable[..., Any]
+
+hypothesis.settings.register_profile(
+    "same", derandomize=True, deadline=None, database=None, suppress_health_check=list(hypothesis.HealthCheck)
+)
+hypothesis.settings.load_profile("same")
+"""The same examples everywhere, however slow the machine; others by hand: pytest --hypothesis-profile=default."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
