@@ -178,7 +178,9 @@ fairlead.load(sys.argv[1]).run(out=sys.argv[2])
     assert len(result.t) == 0
 
 
-@pytest.mark.parametrize(("budget", "word"), [("run.max_steps=20000", "20000 steps"), ("run.max_events=40", "40 events")])
+@pytest.mark.parametrize(
+    ("budget", "word"), [("run.max_steps=20000", "20000 steps"), ("run.max_events=40", "40 events")]
+)
 def test_a_budget_ends_the_run_and_keeps_it(start, netlist, tmp_path, budget: str, word: str) -> None:
     code, _, err = finish(start(netlist, "--set", budget))
     assert code == 4
