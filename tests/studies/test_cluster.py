@@ -49,8 +49,9 @@ def scheduler(folder, workers, *, again=False):
         if again:  # not by a nanny, which gives up when its worker dies before it has started
             command = ["sh", "-c", f"while true; do {shlex.join(command)}; done"]
         going += [subprocess.Popen(command, **quiet) for _ in range(workers)]
-        with Client(address, timeout=LONG, set_as_default=False) as client:
-            client.wait_for_workers(workers, timeout=LONG)
+        if workers:
+            with Client(address, timeout=LONG, set_as_default=False) as client:
+                client.wait_for_workers(workers, timeout=LONG)
         yield address, going
     finally:
         for one in reversed(going):
