@@ -25,7 +25,7 @@ def tell():
 def told_by(statement: str) -> tuple[dict[str, list[str]], list[str]]:
     """Members by the head of their family, and the modules of the library that are in memory, after `statement`."""
     script = f"import json, sys\n{TELL}\n{statement}\ntell()"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=600)
     heads, modules = json.loads(done.stdout.splitlines()[-1])
     return heads, modules
 

@@ -17,7 +17,7 @@ import pytest
 import fairlead
 from fairlead.fmu import export
 
-PATIENCE = 120.0  # s, for a process of a second on a machine that is busy
+PATIENCE = 600.0  # s, for a process of a second on a machine that is busy
 HERE = pathlib.Path(__file__).parent
 
 PUSHED = """

@@ -63,7 +63,7 @@ def compiled(folder: pathlib.Path, version: int) -> pathlib.Path:
     library = folder / f"own{version}{fmpy.sharedLibraryExtension}"
     command = [str(COMPILER), "-shared", "-fPIC", "-w", "-O1", f"-I{headers}", "-o", str(library),
                str(HERE / f"fmi{version}.c"), "-lm"]  # fmt: skip
-    subprocess.run(command, check=True, timeout=120, start_new_session=True)
+    subprocess.run(command, check=True, timeout=600, start_new_session=True)
     return library
 
 

@@ -60,9 +60,9 @@ def test_where_jumps_make_the_rows_the_signals_that_jump_are_named(tmp_path: Pat
 def test_a_rerun_that_is_killed_at_once_leaves_the_results_it_was_to_replace(tmp_path: Path) -> None:
     """At every single file operation: `test_results_claim.py`. Here the whole command, from the shell."""
     command = [sys.executable, "-m", "fairlead", "run", "belt", "-q", "--out", str(tmp_path / "run")]
-    subprocess.run([*command, "--set", "run.stop=1 s"], check=True, timeout=300)
+    subprocess.run([*command, "--set", "run.stop=1 s"], check=True, timeout=600)
     with subprocess.Popen([*command, "--force", "--set", "run.stop=1e5 s"]) as process:
-        deadline = time.monotonic() + 300
+        deadline = time.monotonic() + 600
         try:
             while not (tmp_path / "run" / "earlier").exists():
                 assert time.monotonic() < deadline

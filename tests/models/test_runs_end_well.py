@@ -87,7 +87,7 @@ FEW = 10  # zone changes
 
 def finish(process: subprocess.Popen[str]) -> tuple[int, str, str]:
     """Exit code and what was said."""
-    out, err = process.communicate(timeout=300)
+    out, err = process.communicate(timeout=600)
     return process.returncode, out, err
 
 
@@ -172,7 +172,7 @@ fairlead.run.integrate = terminated
 fairlead.load(sys.argv[1]).run(out=sys.argv[2])
 """
     command = [sys.executable, "-c", script, str(netlist), str(tmp_path / "run"), name]
-    assert subprocess.run(command, capture_output=True, timeout=300).returncode == -getattr(signal, name)
+    assert subprocess.run(command, capture_output=True, timeout=600).returncode == -getattr(signal, name)
     result = Result.open(tmp_path / "run")
     assert result.run["status"] == "interrupted"
     assert len(result.t) == 0

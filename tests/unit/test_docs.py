@@ -120,13 +120,13 @@ fairlead.load('scene.yaml', libraries=['linear.py']).check()
 assert 'stiction + slope*v' in fairlead.describe_type('Hold', ['linear.py'])
 assert 'stiction + slope*v' in fairlead.describe_type('Bend', ['linear.py'])
 """
-    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=300)
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=600)
 
 
 def test_python_shown_runs(tmp_path: pathlib.Path) -> None:
     files("components", tmp_path)
     script = "\n".join(text for name, language, text in blocks("components") if language == "python" and not name)
-    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=300)
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=600)
 
 
 def test_netlists_shown_fit_the_schema(tmp_path: pathlib.Path) -> None:

@@ -32,7 +32,7 @@ DOCS = ROOT / "docs"
 EXAMPLES = [*sorted((DOCS / "examples").glob("*.yaml")), *sorted((ROOT / "models" / "single_parts").glob("*.yaml"))]
 NOTEBOOK = DOCS / "tutorial" / "notebook.ipynb"
 BUILT = ("generated", "_site", "jupyter_execute")
-PATIENCE = 500  # s
+PATIENCE = 1500  # s
 FENCE = re.compile(r"^(?:<!-- file: (\S+) -->\n)?```(\w*)\n(.*?)^```$", flags=re.DOTALL | re.MULTILINE)
 
 
