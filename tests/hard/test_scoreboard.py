@@ -12,7 +12,7 @@ from tests.hard import page
 from tests.hard.attempt import Attempt
 from tests.hard.kept import Kept, commit, version
 from tests.hard.known import KNOWN, LEFT, MENDED, WORSE, disagreements, known_failure, left_out
-from tests.hard.peers import table
+from tests.hard.peers import played, table
 from tests.hard.peers.cases import cases
 from tests.hard.peers.played import TOOLS
 from tests.hard.registry import rows
@@ -109,8 +109,9 @@ def test_a_page_that_is_made_anew_keeps_the_part_of_other_tools(tmp_path):
     assert page.failures(text) == names([ROW])
 
 
-def test_each_statement_of_a_case_by_hand_is_right_with_scipy():
+def test_each_statement_of_a_case_by_hand_is_right_with_scipy(monkeypatch):
     """The zones, forces and order of release that scipy and PathSim are given meet the closed forms."""
+    monkeypatch.setattr(played, "CPU", 600.0)  # s; the page gives 20 on its machine
     few = [one for one in cases() if one.name.split()[0] in ("stack", "equal", "belt", "load")]
     assert len(few) == 5
     for one in few:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tomllib
 import venv
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -80,6 +81,15 @@ def build_wheel(folder: pathlib.Path) -> pathlib.Path:
     succeed(*pip_wheel, copy, cwd=folder)
     (wheel,) = folder.glob("fairlead-*.whl")
     return wheel
+
+
+@pytest.fixture(scope="module", autouse=True)
+def pip_is_patient() -> Iterator[None]:
+    """An index that does not answer at once is asked again."""
+    with pytest.MonkeyPatch.context() as settings:
+        settings.setenv("PIP_RETRIES", "20")
+        settings.setenv("PIP_DEFAULT_TIMEOUT", "60")
+        yield
 
 
 @pytest.fixture(scope="module")
