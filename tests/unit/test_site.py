@@ -18,6 +18,7 @@ import sys
 import urllib.parse
 from typing import Any
 
+import filelock
 import pytest
 from typer.testing import CliRunner
 
@@ -168,10 +169,21 @@ class Links(html.parser.HTMLParser):
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
-    """The site, built with every remark an error."""
+    """The site, built with every remark an error; once for all workers, since a build writes pages into docs."""
     for needed in ("sphinx", "myst_nb", "furo"):
         pytest.importorskip(needed, reason="the site wants the extra `docs`")
-    target = tmp_path_factory.mktemp("site")
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if os.environ.get("PYTEST_XDIST_WORKER") else own
+    target, done = shared / "site", shared / "site.done"
+    with filelock.FileLock(shared / "site.lock", timeout=2 * PATIENCE):
+        if not done.exists():
+            build(target)
+            done.touch()
+    return target
+
+
+def build(target: pathlib.Path) -> None:
+    """Have Sphinx write the site."""
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", str(DOCS), str(target)]
     environment = {**os.environ, "MPLBACKEND": "Agg"}
     building = subprocess.Popen(
@@ -184,7 +196,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
         os.killpg(building.pid, signal.SIGKILL)
         pytest.fail(f"the site was not built in {PATIENCE} s")
     assert building.returncode == 0, said
-    return target
 
 
 @pytest.mark.slow
