@@ -164,6 +164,7 @@ def test_sigterm_ends_the_process_when_run_json_says_so_and_all_is_kept(start, n
 def test_a_signal_before_the_first_block_leaves_a_run_that_is_said_to_have_been_ended(tmp_path, netlist, name) -> None:
     script = """
 import os, signal, sys, fairlead, fairlead.run
+signal.signal(getattr(signal, sys.argv[3]), signal.SIG_DFL)  # under nohup SIGHUP is ignored, in all that is started
 integrate = fairlead.run.integrate
 def terminated(*given):
     os.kill(os.getpid(), getattr(signal, sys.argv[3]))
