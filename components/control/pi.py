@@ -41,7 +41,7 @@ class Pi(Component, abstract=True):
     tracking_time = Parameter("s", "T_t of the anti-windup; half of T_i when not given.", default=None, above=0)
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
-    integral = Output("1", "I, which the controller has gathered.")
+    integral = Output("1", "I, which the controller has gathered.", role="integral")
 
     def check(p):
         """There is something between the limits."""

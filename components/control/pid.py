@@ -42,7 +42,7 @@ class PidLaw(Component, abstract=True):
     initial = Parameter("1", "Value measured before the start, for the derivative.", default=0.0, physics=False)
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
-    integral = Output("1", "I, what the integral has gathered.")
+    integral = Output("1", "I, what the integral has gathered.", role="integral")
     filtered = Output("1", "Value measured, filtered; the derivative is taken from what it lacks.")
 
     def check(p):

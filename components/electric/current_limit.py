@@ -11,6 +11,7 @@ class CurrentLimit(Component):
     most_current = Parameter("A", "Largest current.", above=0)
     current = Output("A", "Current that may flow.")
     zones = Zones("within", "upper", "lower", forward=["upper"], backward=["lower"])
+    saturates_in = ("upper", "lower")
 
     @zone("within")
     def within(p, torque):

@@ -27,6 +27,7 @@ class DcDrive(Component):
         "in_range", "upper", "lower", "forward", "backward",
         forward=["upper", "forward"], backward=["lower", "backward"],
     )  # fmt: skip
+    saturates_in = ("upper", "lower", "forward", "backward")
 
     @zone("in_range", "upper", "lower", "forward", "backward")
     def driving(p, shaft, command, flowing, zone):

@@ -25,6 +25,7 @@ class FollowingSpool(Component):
     command = Input("1", "Opening asked for, -1 to 1.", signed=True)
     opening = Output("1", "Opening; positive joins supply with a and b with tank.")
     zones = Zones("within", "open", "reversed", forward=["open"], backward=["reversed"])
+    saturates_in = ("open", "reversed")
 
     @zone("within")
     def within(p, command):
@@ -67,6 +68,7 @@ class Spool(Component):
     speed = State("1/s", "Rate of the opening.", nominal=10.0)
     opening = Output("1", "Opening; positive joins supply with a and b with tank.")
     zones = Zones("free", "upper_stop", "lower_stop", forward=["upper_stop"], backward=["lower_stop"])
+    saturates_in = ("upper_stop", "lower_stop")
 
     @derived
     def omega(p):

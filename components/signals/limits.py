@@ -12,6 +12,7 @@ class Limiter(Component):
     high = Parameter("1", "Largest value.")
     signal = Output("1", "The value within its limits.")
     zones = Zones("within", "above", "below")
+    saturates_in = ("above", "below")
 
     def check(p):
         """There is something between the limits."""

@@ -19,6 +19,7 @@ from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.remedy import remedies
 from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
+from fairlead.analysis.record.wind_up import WindUp
 from fairlead.analysis.remarks.remarks import remarks
 from fairlead.analysis.statics.route_record import route_records
 from fairlead.analysis.treatments.friction_record import friction_record
@@ -72,6 +73,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
+                      WindUp.of(system, recording.recorded if told else []),
                       together, progress, interruption, event_rows, settings.accuracy, peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
         for controller in outcome.problem.controllers:
@@ -84,7 +86,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.dwell
-        summary["remarks"] = [*header["remarks"], *watch.below.remarks()] if told else []
+        summary["remarks"] = [*header["remarks"], *watch.below.remarks(), *watch.wind_up.remarks()] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         sink.finish(_status(outcome), summary)

@@ -18,6 +18,7 @@ from fairlead.analysis.record.limits import Limits
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
 from fairlead.analysis.record.strains import Strains
+from fairlead.analysis.record.wind_up import WindUp
 from fairlead.integrate import Block, End
 from fairlead.interruption import Interruption
 from fairlead.results import Sink
@@ -44,6 +45,7 @@ class Watch:
     limits: Limits
     strains: Strains
     below: BelowWeight
+    wind_up: WindUp
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
@@ -100,6 +102,7 @@ class Watch:
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.strains.watch(block.t, block.values)
         self.below.watch(block.values)
+        self.wind_up.watch(block.t, block.values, block.events)
         if self.metered is not None:
             self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:

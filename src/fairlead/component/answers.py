@@ -126,6 +126,11 @@ def _parameters(value: Any, has: Declaration) -> str:
     return "" if fits else f"is {_shown(value)}; it names parameters of {sorted(has.parameters)}"
 
 
+def _zones(value: Any, has: Declaration) -> str:
+    fits = isinstance(value, tuple) and set(value) <= set(has.zones)
+    return "" if fits else f"is {_shown(value)}; it names zones of {sorted(has.zones)}"
+
+
 def _budget(value: Any, has: Declaration) -> str:
     fits = isinstance(value, dict) and all(key in BUDGETS and isinstance(n, int) for key, n in value.items())
     return "" if fits else f"is {value!r}; it gives whole numbers for {' and '.join(BUDGETS)}"
@@ -162,7 +167,7 @@ GIVEN = Kind("a map", _given)
 INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
 WAVE = Kind("a parameter", _wave)
 TWO_PORTS = Kind("two ports", _two_ports)
-PARAMETERS = Kind("parameters", _parameters)
+PARAMETERS, ZONES = Kind("parameters", _parameters), Kind("zones", _zones)
 PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
 SHARE = Kind("a share", _share)
 TWO_OPTIONS = Kind("a choice and two of its options", _options)
@@ -275,6 +280,10 @@ class Answers:
     compressible: float = _asked(
         SHARE, "with an output of role strain: the share of its length by which it may get shorter without a remark",
         default=0.5,
+    )
+    saturates_in: tuple[str, ...] = _asked(
+        ZONES, "zones in which a larger input gives no larger output; a run tells of a controller that winds up there",
+        default=(),
     )
     budget: Mapping[str, int] = _asked(
         BUDGET, "`max_steps` and `max_events` of its runs, where the netlist gives none", default=dict

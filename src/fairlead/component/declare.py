@@ -99,8 +99,8 @@ class Input:
     signed: bool = False  # what it means may be negative, such as a command; the contract suite asks with both signs
 
 
-CREEP, SHARE, STRAIN = "creep", "share", "strain"
-ROLES = (CREEP, SHARE, STRAIN)
+CREEP, SHARE, STRAIN, INTEGRAL = "creep", "share", "strain", "integral"
+ROLES = (CREEP, SHARE, STRAIN, INTEGRAL)
 
 
 @dataclass(frozen=True)
@@ -111,6 +111,7 @@ class Output:
     run tells the worst. SHARE is what an element or a node of a line takes in, which belongs to its length: with finer
     elements there are more and smaller ones, so two meshes are not compared by it. Creep is not compared either.
     STRAIN is that of an element, over its length without load; a run watches it, see `compressible` of a component.
+    INTEGRAL is what a controller has gathered; a run tells where it winds up, see `saturates_in`.
     `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
     """
 

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fairlead.component.declare import CREEP, STRAIN
+from fairlead.component.declare import CREEP, INTEGRAL, STRAIN
 from fairlead.kernels import layout
 from fairlead.patterns import picked
 from fairlead.system.arrays.blocks import Block, Integers
 from fairlead.system.arrays.shares import shares
 from fairlead.system.arrays.shown import what_to_ask
 
-WATCHED = (CREEP, STRAIN)
+WATCHED = (CREEP, STRAIN, INTEGRAL)
 """Roles of outputs that every run looks at, whatever is recorded."""
 
 
@@ -31,7 +31,7 @@ class OutputSignal:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """What was chosen by name; and all that is recorded: that, then the ledger, creeps and strains."""
+    """What was chosen by name; and all that is recorded: that, then the ledger, creeps, strains and integrals."""
 
     chosen: list[OutputSignal]
     recorded: list[OutputSignal]
