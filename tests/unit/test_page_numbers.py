@@ -13,9 +13,11 @@ states. Not replayed, for they take minutes to hours of processor time, or are t
 | routes.md | elements, line in the sea, idle line | `route_mesh.py`, `sea_forms.py`, `idle_line.py` of `benchmarks` |
 | routes.md | hose and core | `benchmarks/hose_estimates.py` |
 | stability.md | the page | `make hard` |
+| studies.md | the study of the route; laws of the servo | `benchmarks/route_study.py`; `fairlead fit` |
 | validation.md | independent engines, robustness list | `benchmarks/bend_table.py`, `benchmarks/bend_variants.py` |
 
-A row of each treatment of the sweep in validation.md is replayed by `tests/models/test_bend_sweep.py`.
+A row of each treatment of the sweep in validation.md is replayed by `tests/models/test_bend_sweep.py`; what
+studies.md says of the route, on fewer cases, by `tests/studies/test_route_study.py`.
 """
 
 from __future__ import annotations

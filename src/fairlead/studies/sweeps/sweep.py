@@ -10,10 +10,14 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from fairlead.cases.row import FINISHED, Row, Value
+from fairlead.errors import Location, ModelError
+from fairlead.netlist.overrides import PLACE as SET
 from fairlead.studies.sweeps.design import Design
 from fairlead.studies.sweeps.farm import Case, Farm, Here
 from fairlead.studies.sweeps.job import Job
 from fairlead.studies.sweeps.table import Heading, SweepTable, texts_among
+
+PLACE = Location("sweep")
 
 
 class Computers(Protocol):
@@ -64,7 +68,7 @@ def sweep(job: Job, design: Design, folder: Path, *, computers: Callable[[Job], 
     """
     design.refuse()
     for case in design.corners():
-        job.check(case)
+        _check(job, case)
     table = SweepTable(folder, heading_of(job, design), force=force)
     known = {key for key, _ in table.rows_by_key()}
     numbers = {(key, number) for key, number in table.rows_by_key()}
@@ -86,6 +90,14 @@ def sweep(job: Job, design: Design, folder: Path, *, computers: Callable[[Job], 
     finally:
         table.write()
     return table, standing
+
+
+def _check(job: Job, values: Mapping[str, Value]) -> None:
+    """Raise ModelError for values of a case that the model has not; they were not given by `--set`, as it says."""
+    try:
+        job.check(values)
+    except ModelError as error:
+        raise ModelError([replace(one, where=PLACE) if one.where == SET else one for one in error.faults]) from None
 
 
 def cores() -> int:
