@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import fairlead
+from tests.reference.servo_cylinder import servo_cylinder
 
 SCENES = pathlib.Path(__file__).parents[2] / "models" / "machines"
 G = 9.80665
@@ -106,3 +107,20 @@ def test_a_tensioner_has_the_tension_of_its_gas(volume):
     late = result.t > 2
     assert np.allclose(result["line.tension"][late], area * (level - tank)[late], rtol=0.01)
     assert np.ptp(result["line.tension"][late]) > 0.05 * 30e3
+
+
+@pytest.mark.parametrize("engine", ["rodas", "ida"])
+@pytest.mark.parametrize(("gain", "integral_time", "share"), [(15, 0.2, 0.6), (8, 0.3, 0.5)])
+def test_a_servo_cylinder_hunts_as_its_equations_integrated_by_scipy_do(engine, gain, integral_time, share):
+    """The rows of both lie at most 5 ms apart; 1 um is for what lies between them."""
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    control = {"control.gain": str(gain), "control.integral_time": f"{integral_time} s"}
+    settings = {"run.engine": engine, "run.stop": "4 s", "seals.curve.coulomb": str(share)}
+    result = run("servo_cylinder", **settings, **control)
+    t, x, switches = servo_cylinder(4, gain, integral_time, share)
+    assert sum(event.component == "seals" for event in result.events) == switches >= 60
+    assert np.abs(np.interp(result.t, t, x) - result["load.x"]).max() < 1e-6
+    late = result["load.x"][result.t > 2] - 0.15
+    assert late.min() < -3e-5
+    assert late.max() > 3e-5  # past the place wanted, both ways
