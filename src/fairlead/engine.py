@@ -13,6 +13,7 @@ from fairlead.errors import Fault, ModelError
 from fairlead.integrate import Run
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
+from fairlead.system.numbering.loops import loop_remarks
 
 if TYPE_CHECKING:
     from fairlead.system.compiled.system import System
@@ -36,7 +37,7 @@ def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
     """What the engine that `run.engine` asks for cannot do well in this model. Raises ModelError if it refuses."""
     if (fault := refused(settings, system)) is not None:
         raise ModelError([fault])
-    return list(remark(system, settings))
+    return [*loop_remarks(system.flat), *remark(system, settings)]
 
 
 def refused(settings: RunSettings, system: System) -> Fault | None:

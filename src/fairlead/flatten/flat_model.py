@@ -55,6 +55,14 @@ class Group:
 
 
 @dataclass(frozen=True)
+class SignalLoop:
+    """Signals that decide one another at once: behind which output they are cut, and the instances in their order."""
+
+    output: PortRef
+    through: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class FlatModel:
     """All that is needed to write equations; `str()` lists it."""
 
@@ -67,6 +75,7 @@ class FlatModel:
     node_of: dict[PortRef, int]
     group_of: dict[int, tuple[int, float, float]]  # node -> group, ratio, offset
     sources: dict[PortRef, PortRef] = field(default_factory=dict)  # input -> output that feeds it
+    loops: tuple[SignalLoop, ...] = ()  # of signals, cut when the model is compiled (system/numbering/loops.py)
 
     def place(self, port: PortRef) -> tuple[int, float, float]:
         """Group, ratio and offset of a port."""

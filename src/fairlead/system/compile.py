@@ -31,6 +31,7 @@ from fairlead.system.assembly.determinacy import undetermined
 from fairlead.system.compiled.build import HOLD_TIME, build
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.initial import starts
+from fairlead.system.numbering.loops import without_loops
 from fairlead.system.numbering.ranks import signal_ranks
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.unknowns import groups_with_rate_forces, number
@@ -41,7 +42,7 @@ from fairlead.system.start.speeds import started
 @collected_later
 def compile(flat: FlatModel) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
-    kernels = _kernels(flat)
+    flat, kernels = without_loops(flat, _kernels(flat))
     structures = {path: made.structure for path, made in kernels.items()}
     if faults := unfit(flat, structures):
         raise ModelError(faults)

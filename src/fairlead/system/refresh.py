@@ -33,6 +33,7 @@ from fairlead.system.compiled.build import HOLD_TIME, build
 from fairlead.system.compiled.context import ADDRESSES
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.initial import starts
+from fairlead.system.numbering.loops import cut
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.tolerances import scales
 from fairlead.system.numbering.unknowns import Numbering, nominal_given
@@ -43,6 +44,7 @@ from fairlead.system.start.speeds import started
 @collected_later
 def refreshed(old: System, flat: FlatModel) -> System:
     """The System of a flat model that differs from that of `old` by numbers. Raises ModelError for starts."""
+    flat = cut(flat, old.flat.loops)
     pairs = zip(old.flat.instances, flat.instances, strict=True)
     changed = {new.path: new for was, new in pairs if was.values is not new.values}
     moved = unlike(old.flat, flat)

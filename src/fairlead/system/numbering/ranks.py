@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, PORT, key
 from fairlead.errors import Fault, ModelError
@@ -12,33 +14,49 @@ from fairlead.kernels.structure import Structure
 
 
 def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
-    """Rank of every instance that gives a signal. Raises ModelError for a loop of signals without delay."""
-    followers: dict[str, dict[str, None]] = {}
-    needed = set(flat.sources.values())
-    for group in flat.groups:
-        if group.prescribed is not None and group.prescribed.outputs is not None:
-            needed |= {PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs}
-    _refuse_unfit(flat, kernels, needed)
-    deciding: dict[tuple[int, str], list[str]] = {}
-    for output in needed:
-        followers.setdefault(output.instance, {})
-        s = kernels[output.instance].structure
-        if (id(s), output.port) not in deciding:  # once a class: a long line has thousands of instances
-            deciding[id(s), output.port] = _deciding(s, output.port)
-        for source in _read_by(flat, output, deciding[id(s), output.port]):
-            followers.setdefault(source.instance, {})[output.instance] = None
+    """Rank of every instance that gives a signal. Raises ModelError for a loop that `loops.py` does not cut."""
+    followers = followed(flat, kernels)
+    _refuse_unfit(flat, kernels, _needed(flat))
     known = ranks(followers)
     if len(known) == len(followers):
         return known
-    import networkx as nx
-
-    loop = [a for a, _ in nx.find_cycle(nx.DiGraph((a, b) for a, found in followers.items() for b in found))]
+    loop = circle(followers)
     where = flat.assembly.instances[loop[0]].where
     what = f"signals run in a loop without delay: {' -> '.join([*loop, loop[0]])}."
     raise ModelError([Fault(where, what, "Break it with a State or a sampled component.")])
 
 
-def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: set[PortRef]) -> None:
+def followed(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, dict[str, dict[PortRef, None]]]:
+    """For every instance that gives a signal those whose signals its own decide at once, and by which outputs."""
+    followers: dict[str, dict[str, dict[PortRef, None]]] = {}
+    deciding: dict[tuple[int, str], list[str]] = {}
+    for output in _needed(flat):
+        followers.setdefault(output.instance, {})
+        s = kernels[output.instance].structure
+        if (id(s), output.port) not in deciding:  # once a class: a long line has thousands of instances
+            deciding[id(s), output.port] = _deciding(s, output.port)
+        for source in _read_by(flat, output, deciding[id(s), output.port]):
+            followers.setdefault(source.instance, {}).setdefault(output.instance, {})[source] = None
+    return followers
+
+
+def circle(followers: Mapping[str, Iterable[str]]) -> list[str]:
+    """A loop among instances that follow one another."""
+    import networkx as nx
+
+    return [a for a, *_ in nx.find_cycle(nx.DiGraph((a, b) for a, found in followers.items() for b in found))]
+
+
+def _needed(flat: FlatModel) -> dict[PortRef, None]:
+    """Outputs that feed an input or prescribe a motion."""
+    needed = dict.fromkeys(flat.sources.values())
+    for group in flat.groups:
+        if group.prescribed is not None and group.prescribed.outputs is not None:
+            needed |= dict.fromkeys(PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs)
+    return needed
+
+
+def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: Iterable[PortRef]) -> None:
     """Some outputs can be recorded but not fed to a law: they come too late, or their derivative jumps."""
     faults = []
     for output in sorted(needed, key=str):
@@ -65,9 +83,10 @@ def _read_by(flat: FlatModel, output: PortRef, keys: list[str]) -> list[PortRef]
         if one.kind == INPUT:
             source = flat.sources.get(PortRef(output.instance, one.name))
             found += [source] if source else []
-        elif one.kind == PORT:
-            found += _prescribing(flat, PortRef(output.instance, one.name))
-    return [source for source in found if source.instance != output.instance]
+        elif one.kind == PORT:  # a motion that an instance gives itself is no loop
+            given = _prescribing(flat, PortRef(output.instance, one.name))
+            found += [source for source in given if source.instance != output.instance]
+    return found
 
 
 def _prescribing(flat: FlatModel, port: PortRef) -> list[PortRef]:
