@@ -65,7 +65,7 @@ class RunSettings(Strict):
     step_floor: Duration | None = None
     """Steps shorter than this, several in a row, are chatter or a stop."""
     max_wall: Duration | None = None
-    """Wall time after which the run stops and keeps what it has."""
+    """Wall time, from when the engine is loaded, after which the run stops and keeps what it has."""
     max_steps: Count | None = None
     """Steps after which the run stops and keeps what it has."""
     max_events: Count | None = None
