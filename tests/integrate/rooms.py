@@ -78,14 +78,15 @@ def fields(at: Memory, n: int, **functions: tuple[Callable[..., Any], int]) -> l
 
     What is returned must be kept as long as the memory is in use.
     """
-    kind = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_double, ctypes.c_int64, ctypes.c_int64)
+    taken = [ctypes.c_int64, ctypes.c_double, ctypes.c_int64, ctypes.c_int64]
     kept = []
     for name, (function, length) in functions.items():
 
-        def called(_context: int, t: float, at_y: int, at_out: int, f: Any = function, size: int = length) -> None:
+        def called(_c: int, t: float, at_y: int, at_out: int, *_: int, f: Any = function, size: int = length) -> None:
             f(t, _doubles(at_y, n), _doubles(at_out, size))
 
-        kept.append(kind(called))
+        drift = [ctypes.c_int64] if name == "jacobian" else []  # where df/dt goes
+        kept.append(ctypes.CFUNCTYPE(None, *taken, *drift)(called))
         at.number[f"call_{name}"] = ctypes.cast(kept[-1], ctypes.c_void_p).value
     return kept
 

@@ -85,7 +85,8 @@ class Impact:
             out[:] = 0.0
 
         asked = (rest, 1) if guards is None else (lambda _t, y, out: guards(y[speeds], y[forces], out), len(may_hold))
-        self.kept = fields(at, n, slip=(slip, n), drift=(drift, n), rhs=(rest, n), guards=asked)
+        slopes = (lambda _t, _y, _out: None, len(problem.pattern.rows))  # as they are
+        self.kept = fields(at, n, slip=(slip, n), drift=(drift, n), rhs=(rest, n), guards=asked, jacobian=slopes)
         at.spread()
 
     def places(self):

@@ -38,6 +38,8 @@ HANDED_ON = 1e-6
 SETTLED_UPDATE = 1e-6
 """A Newton update of the algebraic unknowns below this, in units of their weights, is the last."""
 
+REFRESHED = 3
+"""Newton updates after which the weights are those of the forces found so far; most settle in two."""
 ROUNDED = 1e-3
 """An update below this that no longer halves is rounding: of a force of 3e5 N, 1e-11 N is."""
 
@@ -219,8 +221,9 @@ def solve_point(m, iterations):
             status = prepare_consistent(problem, point, linear)
             if status != DONE:
                 return status
-        if problem.n_moves > 0:
-            # The force that would keep the slider of a crank from passing its dead centre is huge.
+        if problem.n_moves > 0 or iteration >= REFRESHED:
+            # The force that would keep the slider of a crank from passing its dead centre is huge, as that is which
+            # would hold a wheel at full speed: it is known to rounding of itself, not of what was there before.
             weigh(point, point.at_y)
         residual_here(problem, point, matrices, point.at_x)
         if iteration == 0:

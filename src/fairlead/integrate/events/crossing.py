@@ -56,10 +56,12 @@ def first_crossing(m, h):
     guards_at(m, NEAR, h, guards.at_g_early)
     right_end = 1.0
     crossed = False
+    since = reals(guards.at_g_since, ng)
     for i in range(ng):
-        left[i] = g[i]
+        left[i], since[i] = g[i], 0.0
         if g[i] >= -ROUNDING * tolerance[i]:
             left[i] = early[i] if early[i] < -ROUNDING * tolerance[i] else max(g[i], 0.0)
+            since[i] = NEAR if left[i] < 0.0 else 0.0
     copy(end, right)
     bump = earliest_bump(m, h)
     if bump < 1.0:
@@ -100,12 +102,13 @@ def look_further(m, h, right_end):
     ng = guards.n_guards
     left, end = reals(guards.at_g_left, ng), reals(guards.at_g_end, ng)
     probe, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
+    since = reals(guards.at_g_since, ng)
     theta, found = 2.0 * NEAR, False
     while theta < right_end and not found:
         guards_at(m, theta, h, guards.at_g_probe)
         for i in range(ng):
             if left[i] >= 0.0 and end[i] > tolerance[i] and probe[i] < -ROUNDING * tolerance[i]:
-                left[i] = probe[i]
+                left[i], since[i] = probe[i], theta
                 found = True
         theta *= 2.0
     return found
@@ -118,7 +121,7 @@ def look_closer(m, h):
     ng = guards.n_guards
     left, right = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
     early, probe = reals(guards.at_g_early, ng), reals(guards.at_g_probe, ng)
-    tolerance = reals(guards.at_guard_tolerance, ng)
+    tolerance, since = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_since, ng)
     copy(early, reals(guards.at_g_late, ng))
     outer = NEAR
     while outer > 1e-13:
@@ -127,7 +130,7 @@ def look_closer(m, h):
         found = False
         for i in range(ng):
             if left[i] >= 0.0 and probe[i] < -ROUNDING * tolerance[i]:
-                left[i] = probe[i]
+                left[i], since[i] = probe[i], inner
                 found = True
         if found:
             copy(reals(guards.at_g_late, ng), right)
@@ -276,6 +279,7 @@ def locate(m, h, right_end):
     point, guards = m.point, m.events.guards
     ng = guards.n_guards
     left, right, probe = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng), reals(guards.at_g_probe, ng)
+    since = reals(guards.at_g_since, ng)
     a, b = 0.0, right_end
     bias_left, bias_right, last = 1.0, 1.0, 0
     closeness = max(4e-16 * max(abs(point.t), abs(point.t + h)) / h, 4e-16)
@@ -295,6 +299,8 @@ def locate(m, h, right_end):
         guards_at(m, x, h, guards.at_g_probe)
         crossed = False
         for i in range(ng):
+            if x < since[i]:
+                probe[i] = left[i]
             crossed = crossed or (left[i] < 0.0 and probe[i] >= 0.0)
         if crossed:
             b = x

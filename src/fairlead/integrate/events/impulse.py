@@ -9,9 +9,10 @@ force, and an impulse is a force beyond all limits for no time. So the guards of
 
 A contact whose normal force is finite lets go. One whose normal force is an impulse itself holds while |P_t| <= mu P_n,
 and slides with P_t = mu P_n beyond that, because C has the slopes of the law; it is caught if that would turn its slip
-round. A stop that would have to pull opens. One that touches at that instant, and that the speeds v + dV would close,
-closes: all impacts of an instant are one problem, whichever stop was found first. Who changes changes C, so all is
-asked again until nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
+round. Losses that follow a load have the slopes that they have under the impulse, not those of no load. A stop that
+would have to pull opens. One that touches at that instant, and that the speeds v + dV would close, closes: all impacts
+of an instant are one problem, whichever stop was found first. Who changes changes C, so all is asked again until
+nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
 What was let go slips, and is caught later as any contact is. Where stops rebound the speeds change by
 (1 + e) dV, and those that part again open (rebound.py).
 
@@ -31,11 +32,13 @@ from __future__ import annotations
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.least_index import keep_first
 from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, rebound
-from fairlead.integrate.linear.systems import DONE, solve_watched
-from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, slip_at
+from fairlead.integrate.linear.systems import DONE, factorise_consistent, solve_watched
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
 RELEASED, RUBBED = 6, 7
+CONTRADICTS = 3
+"""No impulse is that under which the laws have the slopes it follows from: as where no values are consistent."""
 LIMITED, UNLIMITED = 1, 2
 """What a row that may hold takes: an impulse as small as rounding leaves it, or any."""
 SHORT = 1e-12
@@ -44,6 +47,8 @@ ROUNDED = 1.0
 """Change of speed, in error weights, below which a slip is no impact."""
 LEAST_IMPULSE = 1e-10
 """Share of the largest impulse below which one is rounding: that row keeps the force it has."""
+SOLVES, SAME = 12, 1e-9
+"""How often it is solved with the slopes under the load at most, and the change of impulses that ends it."""
 LATER = 1e-6
 """Share of the span after which it is asked which stops come nearer: long enough to be more than rounding of places."""
 LEAST_APPROACH = 1e-8
@@ -62,6 +67,9 @@ def impact(m):
     weigh(point, point.at_y)
     if change_of_speed(problem, point) <= ROUNDED:
         return DONE
+    status = solve_under_load(m)
+    if status != DONE:
+        return status
     change_zones_for(m)
     if guards.n_fired > 0:
         return RELEASED
@@ -72,7 +80,66 @@ def impact(m):
     if back == REBOUND:
         throw_back(problem, m.run, point, guards)
     change_speeds(problem, point, matrices, back, supports)
-    return RELEASED if guards.n_fired > 0 else DONE
+    return RELEASED if guards.n_fired > 0 else factors_at(problem, point, m.linear, point.at_y, point.at_ft)
+
+
+@compiled
+def solve_under_load(m):
+    """Solve again with the slopes that laws have under the impulse, until it is that under which they are taken.
+
+    A loss that follows a load has a corner at no load, where it is rounded off: there it has no slope, and under an
+    impulse that of one side. Sets u = dV as well.
+    """
+    problem, point, linear = m.problem, m.point, m.linear
+    n = problem.n
+    b, r, before = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_x, n)
+    settled = False
+    for _ in range(SOLVES):
+        load(m)
+        status = factors_at(problem, point, linear, point.at_y_probe, point.at_x)
+        if status != DONE:
+            return status
+        copy(b, before)
+        copy(r, b)
+        status = solve_watched(linear, point.at_b)
+        if status != DONE:
+            return status
+        most = change = 0.0
+        for k in range(n):
+            if takes_any(problem, k):
+                most, change = max(most, abs(b[k])), max(change, abs(b[k] - before[k]))
+        if change <= SAME * most:
+            settled = True
+            break
+    change_of_speed(problem, point)
+    return DONE if settled else CONTRADICTS
+
+
+@compiled
+def factors_at(problem, point, linear, at_y, at_drift):
+    """The slopes at y and the factors of C with them."""
+    jacobian_at(problem.call_jacobian, (problem.context, point.t, at_y, linear.matrices.at_jacobian, at_drift))
+    problem.jacobians += 1
+    return factorise_consistent(linear)
+
+
+@compiled
+def takes_any(problem, k):
+    """True if row k may take an impulse."""
+    return indices(problem.at_takes_impulse, problem.n)[k] > 0
+
+
+@compiled
+def load(m):
+    """Set `y_probe` to the point under the impulses in b, as forces that act for no time; speeds are those before."""
+    problem, run, point = m.problem, m.run, m.point
+    n = problem.n
+    y, b, loaded = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_y_probe, n)
+    differential, least = indices(problem.at_differential, n), least_impulse(problem, point)
+    for k in range(n):
+        loaded[k] = y[k]
+        if differential[k] == 0 and takes_any(problem, k) and abs(b[k]) > least:
+            loaded[k] = b[k] / (SHORT * (run.stop - run.start))
 
 
 @compiled

@@ -12,8 +12,8 @@ GUARDS = Struct(
     reals={
         # at the point, at both ends of a bracket, at a probe
         "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
-        "g_ahead": "n_guards", "g_late": "n_guards", "g_end": "n_guards", "guard_tolerance": "n_guards",
-        "guard_inertia": "n_guards", "blocked_until": "n_zones",
+        "g_ahead": "n_guards", "g_late": "n_guards", "g_since": "n_guards", "g_end": "n_guards",
+        "guard_tolerance": "n_guards", "guard_inertia": "n_guards", "blocked_until": "n_zones",
     },
     indices={
         "fired": "n_guards",
