@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from fairlead.analysis.record.remedy import budget
+from fairlead.analysis.remarks.overlaps import overlaps
 from fairlead.analysis.treatments.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
 from fairlead.choice import choose
 from fairlead.errors import Fault, ModelError
@@ -34,10 +35,10 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
 
 
 def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
-    """What the engine that `run.engine` asks for cannot do well in this model. Raises ModelError if it refuses."""
+    """What the engine asked for cannot do well, and stops that begin passed. Raises ModelError if it refuses."""
     if (fault := refused(settings, system)) is not None:
         raise ModelError([fault])
-    return [*loop_remarks(system.flat), *remark(system, settings)]
+    return [*loop_remarks(system.flat), *remark(system, settings), *overlaps(system)]
 
 
 def refused(settings: RunSettings, system: System) -> Fault | None:

@@ -17,6 +17,7 @@ from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.remedy import remedies
+from fairlead.analysis.record.rounded_in_impacts import remark as rounded_in_impacts
 from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.wind_up import WindUp
@@ -86,7 +87,9 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.dwell
-        summary["remarks"] = [*header["remarks"], *watch.below.remarks(), *watch.wind_up.remarks()] if told else []
+        rounded = [said for said in (rounded_in_impacts(system, summary["lost"]),) if said]
+        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *rounded]
+        summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         sink.finish(_status(outcome), summary)

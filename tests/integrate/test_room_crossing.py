@@ -59,7 +59,7 @@ def step_of(*guards, tolerance=1e-9):
     """A trial step from t = 0 to 1 in which y = theta, with these guards of y; and what must be kept."""
     count = len(guards)
     given = {"g_left": [f(0.0) for f in guards], "g_right": [f(1.0) for f in guards], "g": [f(0.0) for f in guards]}
-    others = {name: np.zeros(count) for name in ("g_probe", "g_early", "g_late", "g_end", "g_ahead")}
+    others = {name: np.zeros(count) for name in ("g_probe", "g_early", "g_late", "g_since", "g_end", "g_ahead")}
     at = memory(
         {"n": 1, "n_guards": count, "h": 1.0, "t_release": np.inf}, y=[0.0], y_end=[1.0], D=np.zeros(3),
         y_probe=[0.0], guard_tolerance=[tolerance] * count, guard_machine=[-1] * count, fired=[0] * count,
@@ -120,6 +120,15 @@ def test_a_guard_that_leaves_zero_downwards_and_comes_back_fires_where_it_comes_
     at, _kept = step_of(lambda y: y * (y - 0.25))
     assert crossed()(at, 1.0) == CROSSING
     assert at.number["cut_at"] == pytest.approx(0.25, abs=1e-15)
+
+
+@pytest.mark.parametrize("end", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("start", [1e-6, 1e-4])
+def test_where_rounding_has_a_guard_above_zero_before_it_dips_is_not_where_it_comes_back(start, end):
+    """A place that a stop was met at, to the last digit: it shows 5e-17 for a while, and is below zero until 0.7."""
+    at, _kept = step_of(lambda y: 5e-17 if y < start else (-1e-9 if y < 0.7 else end), tolerance=1e-9)
+    assert crossed()(at, 1.0) == CROSSING
+    assert at.number["cut_at"] == pytest.approx(0.7, abs=1e-14)
 
 
 def test_a_guard_that_leaves_zero_upwards_says_that_the_zones_were_wrong():

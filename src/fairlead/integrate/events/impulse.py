@@ -88,12 +88,16 @@ def solve_under_load(m):
     """Solve again with the slopes that laws have under the impulse, until it is that under which they are taken.
 
     A loss that follows a load has a corner at no load, where it is rounded off: there it has no slope, and under an
-    impulse that of one side. Sets u = dV as well.
+    impulse that of one side. Sets u = dV as well. Not where contacts may close circles: how these share a load is
+    asked of the slopes too, and would be another under one that no time passes under.
     """
     problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
     b, r, before = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_x, n)
-    settled = False
+    settled, of_circle = False, indices(problem.at_in_circle, n)
+    for k in range(n):
+        if of_circle[k] == 1 and takes_any(problem, k) and b[k] != 0.0:
+            return DONE
     for _ in range(SOLVES):
         load(m)
         status = factors_at(problem, point, linear, point.at_y_probe, point.at_x)
