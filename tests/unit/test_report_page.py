@@ -19,6 +19,7 @@ from fairlead.report import page
 from fairlead.report.page import packing
 from fairlead.report.page.signals import signal_data
 from fairlead.report.page.slow import slowest
+from fairlead.report.page.verdict import verdict
 from fairlead.report.page.write import library
 from fairlead.report.page.zones import zone_data
 from fairlead.results import Result, RunDirectory, Signal
@@ -230,3 +231,19 @@ def test_zones_of_ones_own_are_no_words_of_friction(tmp_path: Path) -> None:
     said = slowest(changed(tmp_path, ("catch", "aloof", "engaged", 3)))
     assert "A zone change is a part that goes over to another branch of its law." in said
     assert "contact" not in said
+
+
+@pytest.mark.parametrize("status", ["killed", "failed", "budget"])
+def test_of_a_run_that_did_not_finish_that_comes_first_and_what_was_good_holds_so_far(tmp_path, status) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS[:1], {})
+    run.append(np.linspace(0, 1, 3), np.zeros((3, 1)), np.zeros(3))
+    near = ["haul.force", 4.0, 0.5]
+    limit = {"signal": "haul.force", "text": "below 5 N", "bound": 5.0, "unit": "N", "nearest": near}
+    kept = {"line": "line", "rucks": False, "margin": 9.0, "ruck_force": 160.0, "element": 3, "t": 1.0}
+    run.finish(status, {"limits": [limit], "ruck": [kept | {"compressed": 17.0}]})
+    first, *others = verdict(Result.open(tmp_path / "run"))
+    assert (first.about, first.mood) == ("Not finished", "bad")
+    told = {one.about: one.mood for one in others}
+    assert told["No ruck so far"] == "plain"
+    assert told["Limits kept so far"] == "plain"
+    assert "good" not in told.values()

@@ -40,10 +40,18 @@ class Sentence(NamedTuple):
 
 
 def verdict(result: Result) -> list[Sentence]:
-    """All that is known of how a run went: what broke first, then what it cost and what its numbers are worth."""
+    """All that is known of how a run went: what broke first, then what it cost and what its numbers are worth.
+
+    Of a run that did not finish, that comes first, and what was good holds so far.
+    """
     run = result.run
-    return [*_ruck(result), *_limits(run), *_finished(run), *_slow(result), *_statics(run), *_energy(run),
-            *_creep(run), *_accuracy(run), *_remarks(run)]  # fmt: skip
+    found, end = [*_ruck(result), *_limits(run)], list(_finished(run))
+    if run["status"] == "finished":
+        first = [*found, *end]
+    else:
+        first = [*end, *(one._replace(about=f"{one.about} so far", mood="plain") if one.mood == "good" else one
+                         for one in found)]  # fmt: skip
+    return [*first, *_slow(result), *_statics(run), *_energy(run), *_creep(run), *_accuracy(run), *_remarks(run)]
 
 
 def _finished(run: dict[str, Any]) -> Iterator[Sentence]:

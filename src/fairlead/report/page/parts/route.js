@@ -203,7 +203,8 @@ class RouteView {
       const p = this.path.at(here ? s : cut), [x, y] = this.screen(p), h = p[2] + this.tilt, off = -26 * this.side(here ? s : cut);
       if (here) { ctx.fillStyle = css("ink"); ctx.beginPath(); ctx.arc(x, y, 5.5, 0, 7); ctx.fill(); }
       const text = here ? `${word} end` : on < 0 ? `\u2190 ${word}` : `${word} \u2192`, far = off * (1 + ctx.measureText(text).width / 52 * Math.abs(Math.sin(h)));
-      this.label(ctx, text, x - far * Math.sin(h), y + far * Math.cos(h) + 4);
+      if (!here && on < 0 && this.drum) this.label(ctx, text, this.drum.cx, this.drum.cy + this.drum.r + 16); // what is wound up
+      else this.label(ctx, text, x - far * Math.sin(h), y + far * Math.cos(h) + 4);
     }
   }
   marks(ctx, nodes, t, inside) {
