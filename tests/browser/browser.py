@@ -66,7 +66,9 @@ def _started(folder: Path) -> Any:
     raise AssertionError
 
 
-def show(driver: Any, page: Path, width: int = 1440, height: int = 1000, dark: bool = False) -> None:
+def show(
+    driver: Any, page: Path, width: int = 1440, height: int = 1000, dark: bool = False, patience: float = PATIENCE
+) -> None:
     """Open a page from disk in a window of so many px, and wait until it is ready."""
     from selenium.webdriver.support.ui import WebDriverWait
 
@@ -77,7 +79,7 @@ def show(driver: Any, page: Path, width: int = 1440, height: int = 1000, dark: b
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
     driver.get_log("performance")  # what the browser did for itself before
     driver.get(page.resolve().as_uri())
-    WebDriverWait(driver, PATIENCE).until(lambda it: it.execute_script("return document.body.dataset.ready === 'yes'"))
+    WebDriverWait(driver, patience).until(lambda it: it.execute_script("return document.body.dataset.ready === 'yes'"))
 
 
 def settled(driver: Any) -> None:

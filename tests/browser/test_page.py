@@ -11,6 +11,7 @@ import pytest
 import fairlead
 from fairlead.analysis.statics.to_show import shown_besides
 from fairlead.report import page
+from tests.browser import __main__ as pictures
 from tests.browser.browser import complaints, missing, opened, requests, settled, show, until
 
 pytestmark = [
@@ -429,3 +430,16 @@ def test_a_long_chain_of_parts_is_broken_into_rows_that_can_be_read(browser, tmp
     assert apart
     assert inside
     assert complaints(browser) == []
+
+
+def test_a_picture_that_cannot_be_taken_is_told_and_the_others_are_taken(tmp_path, monkeypatch, capsys):
+    bad = pictures.Picture("bad.png", "belt", {"run.max_steps": 5}, 0.1, False, 500)
+    good = pictures.Picture("good.png", "belt", {"run.stop": "1 s"}, 0.5, True, 500)
+    monkeypatch.setattr(pictures, "PICTURES", (bad, good))
+    monkeypatch.setattr(pictures, "FIGURES", tmp_path)
+    assert pictures.main([]) == 1
+    told = capsys.readouterr()
+    assert "bad.png was not taken, the old one stays: belt: budget" in told.err
+    assert told.out.splitlines()[:2] == ["bad.png: running belt ...", "good.png: running belt ..."]
+    assert [file.name for file in tmp_path.iterdir()] == ["good.png"]
+    assert pictures.main(["good.png"]) == 0
