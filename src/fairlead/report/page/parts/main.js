@@ -136,8 +136,8 @@ function maps(runs) {
   $("maps").hidden = !with_maps.length;
   if (!with_maps.length) return;
   ofRun(with_maps, "map-run", (run, now) => {
-    const draw = async () => { const made = document.createElement("div"); $("map-list").replaceChildren(made); for (const name of mapped(run)) { await map(run, run.lines[0], name, made); await idle(); } };
-    if (now) draw(); else whenSeen($("maps"), draw);
+    const draw = async gently => { const made = document.createElement("div"); $("map-list").replaceChildren(made); for (const name of mapped(run)) { await map(run, run.lines[0], name, made); if (gently) await idle(); } };
+    if (now) draw(false); else whenSeen($("maps"), () => draw(true));
   });
 }
 function mapped(run) {
