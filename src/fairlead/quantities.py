@@ -238,11 +238,22 @@ def atom(name: str) -> tuple[float, Dimension]:
     return _from_pint(name)
 
 
+def _product(name: str) -> str:
+    """Two units that stand in one word, `kgm`, with a sign between them: `kg*m`; "" for what is none, as `KN`."""
+    known = {*METRIC, *PLAIN, *_PREFIXED}
+    if name.lower() in {one.lower() for one in known}:
+        return ""
+    halves = ((name[:k], name[k:]) for k in range(len(name) - 1, 0, -1))
+    return next((f"{one}*{other}" for one, other in halves if one in known and other in known), "")
+
+
 def _from_pint(name: str) -> tuple[float, Dimension]:
     """Look one word up with pint; temperatures with an offset, and units of nothing we know, are refused."""
     if name in _MISREAD:
         raise QuantityError(f"{name} is not a known unit", f"Did you mean {_MISREAD[name]}?")
-    unknown = QuantityError(f"{name} is not a known unit", did_you_mean(name, [*METRIC, *PLAIN, *_PREFIXED]))
+    product = _product(name)
+    near = f"Did you mean {product}?" if product else did_you_mean(name, [*METRIC, *PLAIN, *_PREFIXED])
+    unknown = QuantityError(f"{name} is not a known unit", near)
     import pint
 
     registry = pint.application_registry

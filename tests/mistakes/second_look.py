@@ -1,7 +1,7 @@
-"""Fifty more mistakes, written from the list of functions and the pages, by another than the first: 40 in Python calls.
+"""More than fifty mistakes, written from the list of functions and the pages, by another than the first.
 
 They try what the first hundred and seventy leave out: a call of the right kind with an argument of the wrong one,
-things that are asked for too early or of the wrong object, and studies that are started from Python.
+things that are asked for too early or of the wrong object, and what a newcomer typed in three scenes of his own.
 """
 
 from __future__ import annotations
@@ -168,6 +168,14 @@ NETLISTS = (
           cure=("above 0", "> 0", "greater than 0", "more than 0")),
     scene("stiction below the sliding friction", "drill", ("stiction: 0.8", "stiction: 0.3"),
           part=("stiction", "0.3"), cure=("coulomb", "raise")),
+    scene("a parameter without its braces", "puller", ('"{mu}"', "{curve: coulomb, coulomb: mu}"),
+          part=("pad", "mu"), cure='"{mu}"'),
+    scene("the end of a run without its braces", "puller", ("stop: 2 s", "stop: speed"), part=("run.stop", "speed"),
+          cure='"{speed}"'),
+    scene("a unit without a sign between its parts", "drill", ("moment: 5 kg*m^2", "moment: 5 kgm^2"),
+          part=("table", "kgm"), cure="kg*m"),
+    scene("the only end of a part by another name", "drill", ("flywheel.shaft, clutch", "flywheel.flange, clutch"),
+          part="flywheel.flange", cure="flywheel.shaft"),
 )  # fmt: skip
 
 COMMANDS = (
@@ -175,6 +183,10 @@ COMMANDS = (
             cure=("one", "Usage", "each")),
     command("an override behind two dashes", "run", "puller.yaml", "--mu", "0.4", place="--mu", part="--mu",
             cure=("--set", "mu=0.4")),
+    command("a setting of the run as an option", "run", "puller.yaml", "--max-step", "1e-3", place="--max-step",
+            part="--max-step", cure=("run.max_step", "run.max_step=VALUE")),
+    command("a quantity as two words", "effects", "puller.yaml", "--from", "3", "s", place=("s", "(s)"), part="s",
+            cure=("quotes", "'3 s'")),
 )  # fmt: skip
 
 PYTHON = LOADING + RUNNING + VALUES + READING + STEPPING + CLASSES

@@ -1,6 +1,7 @@
 """Quantities: one finite number, a space, one unit; SI inside."""
 
 import math
+import re
 import subprocess
 import sys
 
@@ -215,3 +216,9 @@ def test_a_quantity_of_any_dimension_can_be_read():
     assert quantity("3 km/h").dimension == parse_unit("m/s").dimension
     with pytest.raises(QuantityError):
         quantity("stribeck")
+
+
+@pytest.mark.parametrize(("typed", "meant"), [("kgm^2", "kg*m"), ("mms", "mm*s"), ("kNmm", "kN*mm")])
+def test_units_that_run_together_get_a_sign_between(typed, meant):
+    with pytest.raises(QuantityError, match=rf"Did you mean {re.escape(meant)}\?"):
+        si(f"4 {typed}", "N")

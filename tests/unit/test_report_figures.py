@@ -144,3 +144,52 @@ def test_a_map_whose_places_do_not_fit_is_told(result: Result) -> None:
     plot = {"signals": ["haul.force", "block.v"], "kind": "map", "along": "line.core[*].tension"}
     with pytest.raises(UsageError, match="a map of 1 signals needs 1 or 2 places, and `along` fits 12"):
         figures.draw(result, [plot])
+
+
+def said_of_limits(result: Result, bound: float) -> tuple[list[float], list[str]]:
+    """Where a limit on the tensions has a line, and what is written in the picture of two of them, 0 to 9 N."""
+    from matplotlib.figure import Figure
+
+    text = f"below {bound:g} N"
+    result.run["limits"] = [{"signal": "line.core[*].tension", "sense": "below", "bound": bound, "text": text}]
+    ax = Figure().subplots()
+    panel.draw_panel(ax, result, SIGNALS[3:5])
+    lines = [float(line.get_ydata()[0]) for line in ax.lines if line.get_linestyle() == "--"]
+    return lines, [text.get_text() for text in ax.texts]
+
+
+def test_a_limit_is_a_line_with_its_words(result: Result) -> None:
+    lines, said = said_of_limits(result, 6.0)
+    assert lines == [6.0]
+    assert "limit: below 6 N" in said
+
+
+def test_a_limit_far_from_its_signals_is_told_and_does_not_make_them_small(result: Result) -> None:
+    lines, said = said_of_limits(result, 800.0)
+    assert lines == []
+    assert "limit: below 800 N (above this picture)" in said
+
+
+def test_a_limit_of_another_signal_is_not_drawn(result: Result) -> None:
+    from matplotlib.figure import Figure
+
+    result.run["limits"] = [{"signal": "haul.force", "sense": "below", "bound": 3.0, "text": "below 3 N"}]
+    ax = Figure().subplots()
+    panel.draw_panel(ax, result, SIGNALS[3:5])
+    assert not [text for text in ax.texts if "limit" in text.get_text()]
+
+
+def test_few_zone_changes_are_labelled_and_many_are_counted(result: Result, tmp_path: Path) -> None:
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    panel.draw_panel(ax, result, SIGNALS[:1])
+    assert [text.get_text() for text in ax.texts] == ["line.bulkhead[2] forward"]
+    run = RunDirectory.create(tmp_path / "many", SIGNALS, {"name": "many"})
+    run.append(np.linspace(0, 1, 9), np.zeros((9, len(SIGNALS))), np.zeros(9))
+    for k in range(9):
+        run.event(k / 9, "pad", "stuck", "forward", "slides")
+    run.finish("finished", {})
+    ax = Figure().subplots()
+    panel.draw_panel(ax, Result.open(tmp_path / "many"), SIGNALS[:1])
+    assert [text.get_text() for text in ax.texts] == ["9 zone changes"]

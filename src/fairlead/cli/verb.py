@@ -51,7 +51,7 @@ def _told() -> Iterator[None]:
         raise typer.Exit(INTERRUPTED) from error
     except Exception as error:
         if isinstance(error, USAGE_ERRORS):
-            text = printable(f"{error.format_message()}{_meant_to_set(error)}")  # type: ignore[attr-defined]
+            text = printable(f"{error.format_message()}{_meant_to_set(error)}{_loose_unit(error)}")  # type: ignore[attr-defined]
             error.format_message = lambda: text  # type: ignore[attr-defined]
         raise
 
@@ -62,7 +62,24 @@ def _meant_to_set(error: Exception) -> str:
     near = [one for one in getattr(error, "possibilities", None) or () if one.startswith(name)]
     if near or not name.startswith("--") or not any("--set" in one.opts for one in getattr(command, "params", ())):
         return ""
-    return f"\nA value of the scene is given by --set {name[2:]}=VALUE."
+    from fairlead.netlist.settings import RunSettings
+
+    block = "run." if name[2:].replace("-", "_") in RunSettings.model_fields else ""
+    return f"\nA value of the scene is given by --set {block}{name[2:].replace('-', '_')}=VALUE."
+
+
+def _loose_unit(error: Exception) -> str:
+    """A hint for who types a quantity as two words, so that its unit is one too many."""
+    from fairlead.quantities import QuantityError, parse_unit
+
+    last = str(getattr(error, "message", "")).rpartition("(")[2].rstrip(")").split(" ")[0]
+    if "unexpected extra argument" not in str(getattr(error, "message", "")) or not last:
+        return ""
+    try:
+        parse_unit(last)
+    except QuantityError:
+        return ""
+    return f"\nA number and its unit are one value: put them in quotes, as in '3 {last}'."
 
 
 class Verb(typer.core.TyperCommand):

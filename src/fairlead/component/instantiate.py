@@ -25,9 +25,13 @@ from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_
 from fairlead.component.stand_in import stand_in
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
+from fairlead.netlist.braces import in_braces
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
 from fairlead.renamed import word_of_today
+
+ENDS = ("flange", "shaft", "port")
+"""Ports of many parts with one end, taken for one that is called otherwise."""
 
 
 @dataclass(frozen=True)
@@ -198,7 +202,7 @@ def read_entry(
         return None
     whole = scene.complete(kind, given)
     values, found = read(member, whole, name, where, scene.folder)
-    faults += found
+    faults += in_braces(found, assembly.netlist.parameters)
     if not found:
         return values
     assembly.stand_ins.add(name)
@@ -307,7 +311,10 @@ def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
     connectable = {**has.ports, **has.inputs, **has.outputs}
     if port not in connectable:
         what = f"{end.text}: {instance.type.__name__} has {_listing(connectable)}."
-        near = did_you_mean(port, connectable) or _only_free(assembly, owner, has.ports)
+        free = _only_free(assembly, owner, has.ports)
+        near = did_you_mean(port, connectable) or free
+        if port in ENDS and not any(f"mean {one}?" in near for one in has.ports):
+            near = free or near  # what joins bodies is meant, not a signal
         return Fault(end.where, f"{what} {near.replace('mean ', f'mean {owner}.')}".rstrip())
     return PortRef(owner, port)
 

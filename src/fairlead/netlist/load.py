@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fairlead.errors import Fault, ModelError, did_you_mean, listing, shown, without_echoes
+from fairlead.netlist.braces import in_braces
 from fairlead.netlist.files import find
 from fairlead.netlist.includes import Sources, gather
 from fairlead.netlist.interface import Interface
@@ -65,7 +66,7 @@ def worked_out(sources: Sources, overrides: Mapping[str, str]) -> tuple[Netlist 
     for part in sources.parts:
         wrong += validate(Part, part)[1]
     wrong += _loose_ends(tree)
-    faults += without_echoes(wrong, faults)
+    faults += in_braces(without_echoes(wrong, faults), _block(tree, "parameters"))
     netlist = _netlist(sources.top, tree, document, sources.digest(overrides))
     kept = replace(netlist, texts=dict(sources.texts), given=dict(overrides))
     return kept, tuple(sorted(dict.fromkeys(faults), key=_place))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.patterns import matcher
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -24,13 +25,15 @@ SCALES = ("viridis", "plasma", "cividis")
 MOST_POINTS = 8000  # some ten for each pixel column
 FEW_ROWS, PARTS = 1000, 6  # of so few rows the curve between two is drawn in so many straight lines
 FEW_LINES = 20  # of more elements in one colour scale no eye follows one between its rows
-MOST_TICKS = 1000
+MOST_TICKS, MOST_LABELLED = 1000, 8
+FAR = 1.0  # times the range of the signals; a limit farther away would make them small
+LIMIT = "#B00020"
 # Okabe and Ito (2008), Color Universal Design: told apart by colour-blind readers as well.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B")
 
 
 def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
-    """Draw `signals`, all of one unit, over time, and the run's zone changes as ticks at the top.
+    """Draw `signals`, all of one unit, over time, with their limits, and the run's zone changes as ticks at the top.
 
     A jump at an event is drawn as a vertical line: the event's time occurs twice in the record.
     """
@@ -46,7 +49,12 @@ def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
     ax.set_ylabel(_label(signals), parse_math=False)
     if len(result.t) > 1 and result.t[-1] > result.t[0]:
         ax.set_xlim(result.t[0], result.t[-1])
+    words = _draw_limits(ax, result, [signal.name for signal in signals])
     _draw_ticks(ax, np.array([event.t for event in result.events]))
+    words += _label_ticks(ax, result)
+    if words:
+        ax.text(1.0, 1.01, "; ".join(words), transform=ax.transAxes, ha="right", va="bottom", size=7, color="0.45",
+                parse_math=False)  # fmt: skip
 
 
 def smooth(result: Result, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -112,6 +120,33 @@ def _label(signals: Sequence[Signal]) -> str:
     words = quantities.pop().replace("_", " ") if len(quantities) == 1 else ""
     unit = signals[0].unit
     return f"{words} [{unit}]".strip() if unit not in ("", "1") else words
+
+
+def _draw_limits(ax: Axes, result: Result, names: Sequence[str]) -> list[str]:
+    """A line for each limit of the netlist on one of the signals; returns words for those that are far outside."""
+    (low, high), words = ax.get_ylim(), list[str]()
+    for limit in result.run.get("limits") or ():
+        fits, bound, said = matcher(str(limit["signal"])), float(limit["bound"]), f"limit: {limit['text']}"
+        if not any(map(fits, names)) or not np.isfinite(bound):
+            continue
+        if low - FAR * (high - low) <= bound <= high + FAR * (high - low):
+            ax.axhline(bound, color=LIMIT, linestyle="--", linewidth=0.9, zorder=2)
+            ax.text(1.0, bound, said, transform=ax.get_yaxis_transform(), ha="right", va="bottom", size=7, color=LIMIT,
+                    parse_math=False)  # fmt: skip
+        else:
+            words.append(f"{said} ({'above' if bound > high else 'below'} this picture)")
+    return words
+
+
+def _label_ticks(ax: Axes, result: Result) -> list[str]:
+    """Who changed zone, and to which, where there are few changes; else returns how many there are, in words."""
+    events = list(result.events)
+    if len(events) > MOST_LABELLED:
+        return [f"{len(events)} zone changes"]
+    for event in events:
+        ax.text(event.t, 0.95, f"{event.component} {event.zone_to}", transform=ax.get_xaxis_transform(), rotation=90,
+                ha="center", va="top", size=6, color="0.45", clip_on=True, parse_math=False)  # fmt: skip
+    return []
 
 
 def _draw_ticks(ax: Axes, times: NDArray[np.float64]) -> None:
