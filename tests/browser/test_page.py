@@ -308,10 +308,9 @@ def test_on_paper_every_plot_is_a_picture_in_light_colours_and_afterwards_all_is
     assert printed["ink"] == "#000"
     assert printed["open"] > before["open"]
     browser.execute_script("dispatchEvent(new Event('afterprint'))")
-    browser.execute_async_script("setTimeout(arguments[0], 300)")
-    assert browser.execute_script(look) == before
+    until(browser, lambda: browser.execute_script(look) == before)
     assert len(browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True})["data"]) > 100_000
-    assert browser.execute_script(look) == before
+    until(browser, lambda: browser.execute_script(look) == before)
     assert complaints(browser) == []
 
 
