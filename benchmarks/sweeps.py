@@ -21,6 +21,7 @@ from statistics import median
 import fairlead
 from fairlead.cases import Cases
 from fairlead.studies.sweeps.design import Design
+from fairlead.studies.sweeps.farm import AHEAD
 from fairlead.studies.sweeps.ranges import read_range
 from fairlead.studies.sweeps.sweep import sweep
 
@@ -124,6 +125,7 @@ class Turns:
     def __init__(self, loop: BareLoop, every: list, first: int, slices: int) -> None:
         self.loop, self.every = loop, every
         self.sweep, self.bare, self.memory = Slices(), Slices(), {}
+        self.ahead = AHEAD * len(loop.crew)  # cases that the sweep's processes have got, and do before they are at rest
         marks = [first + round(k * (len(every) - first) / slices) for k in range(slices + 1)]
         self.ends = dict(zip(marks, [0, *marks], strict=False))
         self.others = {one.pid for one in loop.crew}
@@ -136,11 +138,12 @@ class Turns:
         mine = [one.pid for one in multiprocessing.active_children() if one.pid not in self.others]
         over, begin = rest(mine), self.ends[now.done]
         used = cpu([os.getpid(), *mine])
+        just_done = self.every[begin + self.ahead if begin else 0 : now.done + self.ahead]
         if begin:
-            self.sweep.add(now.done - begin, over - self.begun, used - self.used)
-            self.bare.add(now.done - begin, *self.loop.run(self.every[begin : now.done]))
+            self.sweep.add(len(just_done), over - self.begun, used - self.used)
+            self.bare.add(len(just_done), *self.loop.run(just_done))
         else:
-            self.loop.run(self.every[: now.done])
+            self.loop.run(just_done)
         for share in (0.2, 1.0):
             if now.done >= share * now.total and share not in self.memory:
                 self.memory[share] = resident([os.getpid(), *mine])
