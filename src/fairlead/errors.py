@@ -11,7 +11,7 @@ from `FairleadError` and carries the exit code of the command line.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -134,6 +134,13 @@ def without_echoes(faults: Iterable[Fault], earlier: Iterable[Fault]) -> list[Fa
     """
     blamed = {fault.where for fault in earlier if fault.where and fault.where.line}
     return [fault for fault in faults if fault.where not in blamed]
+
+
+def no_attribute(owner: object, name: str, called: Mapping[str, str], more: str = "") -> AttributeError:
+    """What `__getattr__` raises: what was meant, by what others call it (`called`) or by its letters, else `more`."""
+    public = [one for one in dir(type(owner)) if not one.startswith("_")]
+    meant = f"Did you mean {called[name]}?" if name in called else did_you_mean(name, public) or more
+    return AttributeError(f"a {type(owner).__name__} has no {shown(name)}. {meant}".rstrip())
 
 
 def did_you_mean(word: str, allowed: Iterable[str]) -> str:

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import fairlead.results as results
 from fairlead.analysis.record.reported import remarks
+from fairlead.errors import no_attribute
 from fairlead.results.table import Table
 
 if TYPE_CHECKING:
@@ -24,12 +25,27 @@ if TYPE_CHECKING:
 
     from fairlead.report.page.inline import Animation
 
+CALLED = {"time": "t", "times": "t", "to_dataframe": "to_pandas()", "df": "to_pandas()", "data": "to_xarray()",
+          "names": "signals", "values": "columns()", "max": "extremes(name)", "min": "extremes(name)",
+          "save": "to_csv(path)", "success": "ok", "message": "run['sentence']"}  # fmt: skip
+"""What others call what a Result has."""
+
 
 class Result(results.Result):
     """One run: its signals, and what is worked out from them.
 
     `model.run()` gives it, `Result.open("results/belt")` opens that of an earlier run.
     """
+
+    if not TYPE_CHECKING:  # a type checker would take it for leave to ask for anything
+
+        def __getattr__(self, name: str) -> Any:
+            """What is not there is told with what was meant. Raises AttributeError."""
+            if name.startswith("_") or hasattr(type(self), name):
+                return object.__getattribute__(self, name)
+            mine = [one.name for one in self.signals if name in one.name.split(".")]
+            more = "Signals go by name: result[...], of which `signals` has a list."
+            raise no_attribute(self, name, CALLED, f'A signal is result["{mine[0]}"].' if mine else more)
 
     @classmethod
     def of(cls, recorded: results.Result) -> Result:

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
 from fairlead.arguments import Arguments
 from fairlead.brief import in_a_line
-from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError
+from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError, no_attribute
 
 if TYPE_CHECKING:
     from fairlead.component.instantiate import Assembly
@@ -85,6 +85,10 @@ def _fits_are_known_late(netlist: Netlist, given: Iterable[str]) -> bool:
     expressions = any(value.is_worked_out for block in blocks for value in block.values())
     return expressions or any(name.startswith(OF_SIGNALS) for name in given)
 
+CALLED = {"simulate": "run()", "solve": "run()", "parameters": "netlist.parameters", "set": "with_values(...)",
+          "replace": "with_values(...)", "components": "netlist.components", "step": "start()"}  # fmt: skip
+"""What others call what a Model has."""
+
 
 class Model:
     """A netlist and the stages it passes through; each stage is made when first asked for.
@@ -107,6 +111,14 @@ class Model:
         if netlist is None:
             raise ModelError(self._faults)
         self.netlist: Netlist = _shown_in_a_line(replace(netlist, foreign_code=allow_fmu))
+
+    if not TYPE_CHECKING:  # a type checker would take it for leave to ask for anything
+
+        def __getattr__(self, name: str) -> Any:
+            """What is not there is told with what was meant. Raises AttributeError."""
+            if name.startswith("_") or hasattr(type(self), name):
+                return object.__getattribute__(self, name)
+            raise no_attribute(self, name, CALLED)
 
     @functools.cached_property
     def assembly(self) -> Assembly:

@@ -136,6 +136,18 @@ READING = (
          "puller.yaml", ("folder", "run.json", "run")),
 )  # fmt: skip
 
+GUESSED = (
+    call("a signal as an attribute", lambda desk: desk.result.block.x, "Result", "block", 'result["block.x"]'),
+    call("the last word of a signal as an attribute", lambda desk: desk.result.slip, "Result", "slip",
+         'result["pad.slip"]'),
+    call("the times by another name", lambda desk: desk.result.time, "Result", "time", "Did you mean t?"),
+    call("a table by the name of another package", lambda desk: desk.result.to_dataframe(), "Result", "to_dataframe",
+         "to_pandas()"),
+    call("a misspelt method of a result", lambda desk: desk.result.swiches(), "Result", "swiches", "switches"),
+    call("a model is simulated", lambda desk: desk.puller.simulate(), "Model", "simulate", "run()"),
+    call("a parameter is set", lambda desk: desk.puller.set(mu=0.3), "Model", "set", "with_values(...)"),
+)  # fmt: skip
+
 STEPPING = (
     call("a run of no such input", stepped(inputs=["hands"]), ("inputs", "hands"), "hands", ("interface", "hand")),
     call("an input that a run has not", step(lambda going: going.set("mu", 0.4)), ("set", "mu"), "mu", ("tunable",
@@ -189,4 +201,4 @@ COMMANDS = (
             cure=("quotes", "'3 s'")),
 )  # fmt: skip
 
-PYTHON = LOADING + RUNNING + VALUES + READING + STEPPING + CLASSES
+PYTHON = LOADING + RUNNING + VALUES + READING + GUESSED + STEPPING + CLASSES
