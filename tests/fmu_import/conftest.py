@@ -46,13 +46,18 @@ def load(folder: pathlib.Path) -> Callable[..., Any]:
 
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Any]]:
-    """Processes that were started in the test; all have ended when it is over."""
+    """Processes of FMUs that were started in the test; all have ended when it is over.
+
+    The first test that wants an FMU also starts a compiler, whichever test that is.
+    """
     found: list[Any] = []
     start = process.subprocess.Popen
 
-    def noted(*given: Any, **more: Any) -> Any:
-        found.append(start(*given, **more))
-        return found[-1]
+    def noted(command: Any, *given: Any, **more: Any) -> Any:
+        made = start(command, *given, **more)
+        if process.__package__ + ".worker" in command:
+            found.append(made)
+        return made
 
     monkeypatch.setattr(process.subprocess, "Popen", noted)
     yield found
