@@ -152,6 +152,18 @@ def find_outputs(
     return found, tuple(seen), faults
 
 
+def set_already(inputs: Mapping[str, Found], parameters: Mapping[str, str]) -> list[Fault]:
+    """Parameters (outer name: inside) that are the start of an input: both would say what it is."""
+    starts = {
+        f"{free.rpartition('.')[0]}.start": name
+        for name, one in inputs.items() for free in one.free.names if free.endswith(".value")
+    }  # fmt: skip
+    return [
+        Fault(None, f"tunable {name}: {of} is what the input {starts[of]} is until it is set.", "Set the input.")
+        for name, of in parameters.items() if of in starts
+    ]  # fmt: skip
+
+
 def _variable(
     name: str, causality: Literal["input", "output", "parameter"], outer: Outer, inside: str, what: str,
     place: Location | None,

@@ -32,14 +32,14 @@ from fairlead.integrate.problem import Block, Status
 from fairlead.integrate.run import check
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Saved, Underway
-from fairlead.outer import Read, find_inputs, find_outputs
+from fairlead.outer import Read, find_inputs, find_outputs, set_already
 from fairlead.quantities import QuantityError, si
 from fairlead.renamed import now_called
 from fairlead.run import failed, failure_of, not_allowed
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
-from fairlead.tuning import Tunable, gone_on
+from fairlead.tuning import Tunable, differs, gone_on
 from fairlead.watch import named_change
 
 if TYPE_CHECKING:
@@ -88,7 +88,8 @@ class Stepping:
 
         What can be read: signals whose names fit a pattern in `record`.
         """
-        self.tunable = () if tunable is None else tunable.names
+        self._inside = {} if tunable is None else tunable.inside
+        self.tunable = tuple(self._inside)
         """Names of parameters that can be set."""
         self.changes: list[Change] = []
         """Zone changes in the last `advance`, in order."""
@@ -96,6 +97,7 @@ class Stepping:
         recorded = system.recording(record).recorded
         self._inputs, faults = find_inputs(netlist, system, inputs)
         self._columns, outputs, more = find_outputs(netlist, recorded)
+        more += set_already(self._inputs, {} if tunable is None else tunable.inside)
         if faults + more:
             raise ModelError(faults + more)
         self.outputs = tuple(one.name for one in outputs)
@@ -158,6 +160,9 @@ class Stepping:
         """Have the model with another value of a parameter; the run goes over to it as it goes on."""
         assert self._next.tunable is not None, "there are none to set"
         changed = self._next.tunable.with_value(name, value, begun=self._begun)
+        if self._begun and not differs(self._next.tunable.model.system, changed.model.system):
+            self._next = self._next._replace(tunable=changed)  # a value that stays is no event
+            return
         own = opened(changed.model.system, [one.free for one in self._inputs.values()])
         self._next = Standing(self._now.going, changed, own)
 
@@ -233,7 +238,8 @@ class Stepping:
         if state.now.own is not self._now.own:  # with other values of parameters
             self._now = state.now._replace(going=state.now.going.beside(self._take))
             self._told(self._memory)
-        self._next = state.next._replace(going=self._going)
+        tunable = state.next.tunable and state.next.tunable._replace(inside=self._inside)
+        self._next = state.next._replace(going=self._going, tunable=tunable)
         self._going.restore(state.saved)
 
     @property

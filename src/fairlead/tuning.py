@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from fairlead.component.keys import PARAMETER, key
+from fairlead.component.numbers import numbers
 from fairlead.errors import Fault, ModelError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.underway import Underway
 from fairlead.outer import Variable, find_tunable
@@ -122,17 +123,25 @@ def refuse(name: str, old: Model, new: Model, *, begun: bool) -> None:
         why = "its tables are of another length"
     if why:
         raise UsageError(f"set: {name} cannot change while a run goes on: {why}. Begin another run with it.")
-    if begun and not _differs(one, two) and _written(name, old) != _written(name, new):
+    if _written(name, old) == _written(name, new) or differs(one, two):
+        return
+    if np.array_equal(one.initial, two.initial):
+        raise UsageError(f"set: nothing follows {name}: another value stands where it is read. Set that.")
+    if begun:
         raise UsageError(f"set: {name} says how a run begins, and changes nothing now. Begin another run with it.")
 
 
-def _written(name: str, model: Model) -> str:
+def _written(name: str, model: Model) -> object:
+    """What a parameter is in a model: its number, or what stands there."""
+    known = numbers(model.netlist, model.assembly.entries)
+    if name in known:
+        return known[name]
     owner, _, rest = name.partition(".")
     entry = model.assembly.entries.get(owner)
-    return str(entry.given.get(rest)) if entry is not None else str(model.netlist.parameters.get(owner))
+    return str(entry.given.get(rest)) if entry is not None else str(model.netlist.parameters[owner].content)
 
 
-def _differs(one: System, two: System) -> bool:
+def differs(one: System, two: System) -> bool:
     """Whether any number of the equations is another one."""
     same = all(
         np.array_equal(a.parameters[:, ~discrete_columns(a)], b.parameters[:, ~discrete_columns(b)])

@@ -9,6 +9,7 @@ import sys
 import pytest
 
 import fairlead
+from fairlead.errors import UsageError
 from fairlead.fmu import export_library
 from fairlead.fmu.library import header_text, prefix
 from fairlead.outer import Variable
@@ -102,7 +103,7 @@ def test_a_parameter_is_tuned_from_c(tmp_path):
     one, other, refused = in_group([built(folder, folder / "tunes.c", "tuned")], env={}).splitlines()
     assert float.fromhex(one) == pytest.approx(0.35 + 0.1, abs=1e-7)
     assert float.fromhex(other) == pytest.approx(0.35 + 0.2, abs=1e-7)
-    assert refused == "is beyond its range (its min and max)"
+    assert refused == "tune: load = 1e+09 is beyond its range. It can be set from 1.25 to 80."
 
 
 def test_names_that_c_does_not_take_are_changed_and_stay_apart(tmp_path):
@@ -141,6 +142,34 @@ def test_the_program_on_the_page_is_compiled_as_shown_and_tells_the_speed(tmp_pa
     path = f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     said = in_group(["sh", "-e", "-c", commands], cwd=tmp_path, env={**os.environ, "PATH": path})
     assert said.splitlines()[-1] == "0.200000 m/s at 0.100000 s"
+
+
+NAMES = {
+    "printf": "model_printf",
+    "linux": "model_linux",
+    "run": "model_run",
+    "values": "model_values",
+    "hoist": "hoist",
+}
+
+
+@pytest.mark.parametrize(("name", "prefixed"), NAMES.items())
+def test_a_name_that_c_has_another_use_for_is_changed(name, prefixed):
+    needs_compiler()
+    assert prefix(name) == prefixed
+
+
+def test_a_compiler_that_makes_nothing_is_told(tmp_path, monkeypatch):
+    needs_compiler()
+    scene = model(tmp_path, "pushed", PUSHED)
+    for command, said in (
+        ("true", "true made no library"),
+        ("false", "failed with code 1"),
+        ("/none", "cannot be called"),
+    ):
+        monkeypatch.setenv("CC", command)
+        with pytest.raises(UsageError, match=rf"{said}[^\n]*\n[^\n]*\(CC\)"):
+            export_library(scene, tmp_path / "made")
 
 
 def test_two_libraries_of_a_model_have_the_same_bytes(pushed, tmp_path):

@@ -61,7 +61,7 @@ def test_the_engine_ida_is_refused(linked, pushed):
 
 def test_a_name_of_an_input_and_an_output_is_refused(linked, tmp_path):
     text = PUSHED.replace("speed: {of: block.v", "pull: {of: block.v")
-    assert "pull: an input and an output have this name" in refusal(model(tmp_path, "twice", text))
+    assert "pull: two of the inputs, outputs and parameters have this name" in refusal(model(tmp_path, "twice", text))
 
 
 def test_a_version_that_is_not_made_is_refused(linked, pushed):

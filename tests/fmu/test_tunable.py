@@ -5,6 +5,8 @@ import pytest
 import fairlead
 from fairlead.errors import UsageError
 from fairlead.fmu import export
+from fairlead.fmu.made import asked_of, made_of
+from fairlead.fmu.tuned import ALWAYS, BEFORE
 from tests.fmu.exported import fmpy, model, needs_compiler, once, slave
 
 H = 0.02  # s
@@ -136,7 +138,7 @@ def test_the_description_tells_range_start_and_when_a_parameter_can_be_set(scene
     assert (load.causality, load.variability, load.unit, load.start) == ("parameter", "tunable", "N", "10.0")
     assert (float(load.min), float(load.max), load.nominal) == (1.25, 80.0, "10.0")
     assert load.description == "What presses on the pad."
-    assert told["begin"].variability == "fixed"
+    assert [told[name].variability for name in ("begin", "mass")] == ["fixed", "tunable"]
     assert float(told["mu"].max) == 0.75  # not above stiction
 
 
@@ -157,6 +159,13 @@ def test_a_value_that_cannot_be_set_is_an_error_that_says_why(scene, tmp_path, c
         assert said in capsys.readouterr().out
         one.step(H)
         assert one.get("load") == [10.0]
+
+
+def test_a_speed_at_the_start_is_set_before_it_only():
+    """It is the size of its own error as well, which is that of the start."""
+    needs_compiler()
+    asked = asked_of(fairlead.load("belt"), [], ["block.x"], ["block.velocity", "block.mass"], {"engine": "rodas"})
+    assert [one.when for one in made_of(asked).tuned] == [BEFORE, ALWAYS]
 
 
 REFUSED = {

@@ -169,3 +169,42 @@ def test_what_cannot_be_set_is_told_with_what_can(tmp_path):
         run.set("block.velocity", 3)
     run.advance(0.2)  # what was refused has left nothing behind
     assert run.get("block.v") == pytest.approx(0.4, abs=1e-4)
+
+
+def test_a_value_that_stays_is_no_event_and_one_that_nothing_follows_is_told(tmp_path):
+    one, other = (load(tmp_path, PUSHED).start(tunable=["mu", "pad.curve.coulomb", "pad.curve.stiction"]) for _ in "ab")
+    one.advance(0.1)
+    one.set("mu", 0.5)
+    one.advance(0.2)
+    other.advance(0.1)
+    other.advance(0.2)
+    assert one.get("block.x") == other.get("block.x")
+    other.set("pad.curve.stiction", 0.6)
+    other.set("pad.curve.coulomb", 0.6)
+    with pytest.raises(UsageError, match="nothing follows mu: another value stands where it is read"):
+        other.set("mu", 0.7)
+
+
+def test_a_state_of_a_run_with_other_tunables_is_gone_on_from_with_those_of_this_one(tmp_path):
+    """9 N against 5 N, and from the state on against 7 N or 9 N, on 2 kg."""
+    model = load(tmp_path, PUSHED)
+    one, other = model.start(tunable=["weight"], engine="rodas"), model.start(tunable=["mu"], engine="rodas")
+    one.advance(0.1)
+    one.set("weight", 14)
+    other.restore(one.save())
+    other.advance(0.2)
+    assert other.get("block.v") == pytest.approx(0.2 + 0.1, abs=1e-7)
+    other.set("mu", 9 / 14)
+    other.advance(0.3)
+    assert other.get("block.v") == pytest.approx(0.3, abs=1e-7)
+    with pytest.raises(UsageError, match="Tunable are mu"):
+        other.set("weight", 3)
+
+
+def test_the_start_of_an_input_is_no_parameter_beside_it(tmp_path):
+    text = PUSHED.replace(
+        "push: {type: ForceSource, force: 9 N}", "push: {type: ForceActuator}\n  cmd: {type: SignalInput, start: 9}"
+    )
+    text = text.replace("run:", "  - [cmd.signal, push.force]\nrun:") + "interface: {inputs: {pull: cmd.value}}\n"
+    with pytest.raises(ModelError, match=r"cmd\.start is what the input pull is until it is set"):
+        load(tmp_path, text).start(tunable=["cmd.start"])

@@ -24,6 +24,7 @@ LINKED = ("-Wl,--build-id=none", "-Wl,--no-undefined", "-s", "-lm")
 PATIENCE = 300.0
 """Seconds that a compiler may take; the wrapper takes about one."""
 LAST_LINES = 20
+ANOTHER = "Name another one in the environment (CC), or none: then cc, gcc, clang or ziglang is taken."
 
 
 def compiler() -> list[str]:
@@ -49,7 +50,23 @@ def linked(files: Mapping[str, bytes]) -> bytes:
             (folder / name).write_bytes(content)
         given = sorted(name for name in files if name.endswith((".c", ".o")))
         _call([*command, *FLAGS, "-o", "library.so", *given, *LINKED], folder)
-        return (folder / "library.so").read_bytes()
+        made = folder / "library.so"
+        if not made.exists():
+            raise UsageError(f"The C compiler {command[0]} made no library.\n    {ANOTHER}")
+        return made.read_bytes()
+
+
+def compiles(files: Mapping[str, bytes], program: str) -> bool:
+    """Whether a program of these files is one in C."""
+    with tempfile.TemporaryDirectory(prefix="fairlead-") as scratch:
+        folder = pathlib.Path(scratch)
+        for name, content in files.items():
+            (folder / name).write_bytes(content)
+        try:
+            _call([*compiler(), "-std=gnu11", "-fsyntax-only", program], folder)
+        except UsageError:
+            return False
+    return True
 
 
 def _call(command: Sequence[str], folder: pathlib.Path) -> None:
@@ -58,7 +75,7 @@ def _call(command: Sequence[str], folder: pathlib.Path) -> None:
             command, cwd=folder, capture_output=True, text=True, errors="replace", timeout=PATIENCE, check=False
         )
     except (OSError, subprocess.TimeoutExpired) as error:
-        raise UsageError(f"The C compiler cannot be called: {error}.") from error
+        raise UsageError(f"The C compiler cannot be called: {error}.\n    {ANOTHER}") from error
     if done.returncode:
-        said = "\n    ".join(done.stderr.strip().splitlines()[-LAST_LINES:])
+        said = "\n    ".join(done.stderr.strip().splitlines()[-LAST_LINES:]) or ANOTHER
         raise UsageError(f"The C compiler {command[0]} failed with code {done.returncode}:\n    {said}")

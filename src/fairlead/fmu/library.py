@@ -9,22 +9,24 @@ import importlib.resources
 import os
 import pathlib
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Unpack
 
 from fairlead.arguments import Arguments
+from fairlead.errors import UsageError
 from fairlead.fmu.archive import write
-from fairlead.fmu.compiler import linked
+from fairlead.fmu.compiler import compiles, linked
 from fairlead.fmu.description import identifier
 from fairlead.fmu.made import asked_of, made_of, own_version, sources
+from fairlead.fmu.tuned import AFTER, ALWAYS, BEFORE, Tuned
 from fairlead.outer import Variable
 
 if TYPE_CHECKING:
     from fairlead.netlist.keywords import RunKeywords
-    from fairlead.netlist.settings import RunSettings
     from fairlead.simulate import Model
 
 EXAMPLE_STEPS = 20
+WHEN = {ALWAYS: "", BEFORE: ", before the start only", AFTER: ", after the start only"}
 _WORDS = (
     "alignas alignof and asm auto bitand bitor bool break case catch char class compl concept const constexpr continue "
     "default delete do double else enum explicit export extern false float for friend goto if inline int long main "
@@ -57,13 +59,15 @@ def export_library(
     given.texts("tunable", tunable, '"pad.normal_force"')
     given.refuse()
     asked = asked_of(model, inputs, outputs, tunable, settings)
-    name = prefix(model.netlist.name)
     made = made_of(asked)
+    name = prefix(model.netlist.name)
     target = pathlib.Path(name if folder is None else folder)
+    if target.is_file():
+        raise UsageError(f"{target} is a file, and a library is a folder.\n    Name another folder with -o.")
     library = linked(sources(made, name, ("library.c",)))
     texts = {
-        f"{name}.h": header_text(name, model.netlist.name, made.variables),
-        "example.c": _example(name, model.netlist.name, asked.settings),
+        f"{name}.h": header_text(name, model.netlist.name, made.variables, made.tuned),
+        "example.c": _example(name, model.netlist.name, asked.settings.start, asked.settings.stop),
     }
     for file, content in {f"lib{name}.so": library, **{file: text.encode() for file, text in texts.items()}}.items():
         write(target / file, content)
@@ -71,30 +75,42 @@ def export_library(
 
 
 def prefix(name: str) -> str:
-    """What functions of a library begin with: the name of the model, where that is a name in C."""
+    """What functions of a library begin with: the name of the model, where C has no other use for it.
+
+    A word of C, a name of its library or a macro of the compiler (`run`, `printf`, `linux`) is none that a program can
+    use beside them, and `c` and `m` are libraries.
+    """
     found = identifier(name)
-    return f"model_{found}" if found in RESERVED else found
+    if found in RESERVED or found in ("c", "m", "run"):
+        return f"model_{found}"
+    trial = {f"{found}.h": header_text(found, "", ()).encode(), "example.c": _example(found, "", 0.0, 1.0).encode()}
+    return found if compiles(trial, "example.c") else f"model_{found}"
 
 
-def header_text(name: str, title: str, variables: Sequence[Variable]) -> str:
+def header_text(name: str, title: str, variables: Sequence[Variable], tuned: Sequence[Tuned] = ()) -> str:
     """The header of a library."""
+    ranges = {one.name: one for one in tuned}
     return _filled("library.h", {"NAME": name, "MODEL": _comment(title), "VERSION": own_version(),
-                                 "VARIABLES": "\n\n".join(_numbers(name, variables))})  # fmt: skip
+                                 "VARIABLES": "\n\n".join(_numbers(name, variables, ranges))})  # fmt: skip
 
 
-def _numbers(name: str, variables: Sequence[Variable]) -> Iterator[str]:
+def _numbers(name: str, variables: Sequence[Variable], tuned: Mapping[str, Tuned]) -> Iterator[str]:
     """Enumerations with the numbers of inputs, outputs and parameters."""
     for causality, what in (("input", "INPUTS"), ("output", "OUTPUTS"), ("parameter", "PARAMETERS")):
         those = [one for one in variables if one.causality == causality]
         entries = [f"{name}_{causality.upper()}_{safe}" for safe in _distinct([one.name for one in those])]
-        lines = [f"    {entry}, /* {_told(one)} */" for entry, one in zip(entries, those, strict=True)]
+        lines = [
+            f"    {entry}, /* {_told(one, tuned.get(one.name))} */" for entry, one in zip(entries, those, strict=True)
+        ]
         yield "\n".join([f"/* {what.capitalize()}. */", "enum {", *lines, f"    {name}_{what} /* how many */", "};"])
 
 
-def _told(one: Variable) -> str:
-    """A variable in a comment: its name, unit, start and description."""
+def _told(one: Variable, own: Tuned | None) -> str:
+    """A variable in a comment: its name, unit, start, range and description."""
     unit = "" if one.unit == "1" else f" [{one.unit}]"
     start = "" if one.start is None else f"; {one.start:.9g} until it is set"
+    if own is not None:
+        start += f", from {own.low:.9g} to {own.high:.9g}{WHEN[own.when]}"
     said = f": {one.description}" if one.description else ""
     return _comment(f"{one.name}{unit}{start}{said}")
 
@@ -110,11 +126,11 @@ def _distinct(names: Sequence[str]) -> list[str]:
     return found
 
 
-def _example(name: str, title: str, settings: RunSettings) -> str:
-    span = settings.stop - settings.start
+def _example(name: str, title: str, start: float, stop: float) -> str:
+    span = stop - start
     return _filled("example.c", {
         "NAME": name, "MODEL": _comment(title), "STOP": f"{span:.9g}", "STEPS": str(EXAMPLE_STEPS),
-        "PERIOD * k": f"{settings.start!r} + {span / EXAMPLE_STEPS!r} * k", "PERIOD": f"{span / EXAMPLE_STEPS:.9g}",
+        "PERIOD * k": f"{start!r} + {span / EXAMPLE_STEPS!r} * k", "PERIOD": f"{span / EXAMPLE_STEPS:.9g}",
     })  # fmt: skip
 
 

@@ -26,7 +26,7 @@ from fairlead.fmu.refusals import (
 )
 from fairlead.fmu.tuned import Another, Tuned, with_parameters
 from fairlead.netlist.interface import Outer
-from fairlead.outer import Variable, find_tunable, gathered
+from fairlead.outer import Variable, find_inputs, find_tunable, gathered, set_already
 from fairlead.outside import LaidOpen, Stepping, laid_open
 from fairlead.patterns import picked
 
@@ -75,6 +75,8 @@ def asked_of(
     chosen = with_keywords(model.netlist.run, settings, model.netlist.parameters)
     refuse_engine(engine_of(chosen, model.system)[0])
     parameters, faults = find_tunable(model.netlist, model.assembly.entries, tunable)
+    given, _ = find_inputs(model.netlist, model.system, inputs)
+    faults += set_already(given, {one.name: one.of for one in parameters})
     refuse_names(model.system, inputs, outputs, faults)
     netlist = _with_outputs(model.netlist, model.system, outputs)
     return Asked(model, netlist, chosen, list(inputs), parameters)

@@ -92,4 +92,7 @@ def refuse_twice(names: Collection[str]) -> None:
     """Raise UsageError for names that an input and an output have."""
     twice = sorted({name for name in names if list(names).count(name) > 1})
     if twice:
-        raise UsageError(f"{listing(twice)}: an input and an output have this name.\n    Give one of them another.")
+        raise UsageError(
+            f"{listing(twice)}: two of the inputs, outputs and parameters have this name.\n"
+            "    Name one of them otherwise in the block `interface`, or leave it out."
+        )

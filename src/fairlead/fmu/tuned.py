@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.errors import FairleadError, ModelError, UsageError, listing
-from fairlead.fmu.image import Laid
+from fairlead.fmu.image import OF_BLOCK, Laid
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.memory.layout import PLACES
 from fairlead.outer import Variable
@@ -106,7 +106,8 @@ def with_parameters(parameters: Sequence[Variable], lay: Lay, opened: LaidOpen) 
         rows[one.name] = row_of(one.start or 0.0, functools.partial(_laid_at, lay, one.of), one.of)
         moved |= followers(rows[one.name])
     found = lay({}, sorted(moved))
-    name_of, start = named_words(opened.memory, found), kept_words(opened, found.memory.size, ())
+    name_of, start = named_words(opened, found), kept_words(opened, found.memory.size, ())
+    start += [(place.at, place.end - place.begin) for name, place in found.places.items() if name == UNITS]
     tuned = []
     for one in parameters:
         row = Row(rows[one.name].values, [lay({one.of: value}, sorted(moved)) for value in rows[one.name].values])
@@ -270,8 +271,9 @@ def _stretches(marked: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
         yield 8 * begin, 8 * (end - begin)
 
 
-def named_words(memory: Memory, found: Laid) -> Callable[[int], str]:
+def named_words(opened: LaidOpen, found: Laid) -> Callable[[int], str]:
     """A function from a place in memory to the name of what lies there."""
+    memory = opened.memory
     fields = {at: name for name, places in PLACES.items() for at in places}
     inside = list(memory.array.items())
     begin = int(memory.arena.ctypes.data)
@@ -282,13 +284,23 @@ def named_words(memory: Memory, found: Laid) -> Callable[[int], str]:
         for one, array in inside:
             first = int(array.ctypes.data) - begin
             if first <= at < first + array.nbytes:
-                return f"{one} {(at - first) // 8}"
+                return _in_words(one, opened)
         for one, place in found.places.items():
             if one != "arena" and place.at <= at < place.at + place.end - place.begin:
-                return one
+                return _in_words(one, opened)
         return f"the number at {at}"
 
     return name
+
+
+def _in_words(array: str, opened: LaidOpen) -> str:
+    """What an array is, for somebody who has not seen the engine."""
+    name, _, number = array.partition(" ")
+    if name in OF_BLOCK and number.isdigit():
+        return f"a number of {opened.problem.blocks[int(number)].kernel.variant.label}"
+    if array.removeprefix("memory ") in ("absolute", "relative", "cap", "column_scale"):
+        return "what is tolerated of an unknown"
+    return array.removeprefix("memory ")
 
 
 def _words(array: NDArray) -> NDArray[np.int64]:

@@ -3,6 +3,7 @@
 #include "run.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define OFFERED __attribute__((visibility("default")))
 #define JOIN(prefix, name) prefix##_##name
@@ -24,13 +25,18 @@ OFFERED int OF_MODEL(set)(Run *run, int input, double value) {
 
 OFFERED int OF_MODEL(tune)(Run *run, int parameter, double value) {
     if (parameter < 0 || parameter >= N_TUNED) return run_refuse(run, "tune: there is no parameter of this number.");
-    const char *why = run_tune(run, parameter, value);
-    return why == NULL ? 0 : run_refuse(run, why);
+    const Parameter *one = &model_parameters[parameter];
+    const char *why = isfinite(value) ? run_tune(run, parameter, value) : "is no number";
+    char text[400];
+    if (why == NULL) return 0;
+    snprintf(text, sizeof text, "tune: %s = %.9g %s. It can be set from %.9g to %.9g.", one->name, value, why, one->low, one->high);
+    return run_refuse(run, text);
 }
 
 OFFERED int OF_MODEL(advance)(Run *run, double goal, int until_change, int *changed) {
     int any = 0;
-    if (!isfinite(goal) || goal < run_time(run)) return run_refuse(run, "advance: the run is beyond this time already.");
+    if (!isfinite(goal)) return run_refuse(run, "advance: the time is not a finite number.");
+    if (goal < run_time(run)) return run_refuse(run, "advance: the run is beyond this time already.");
     int said = run_advance(run, goal, until_change, &any);
     if (changed != NULL) *changed = any;
     return said;

@@ -111,7 +111,7 @@ double run_input(const Run *run, int input) { return real(run, AT_SET_VALUES)[in
 const char *run_tune(Run *run, int parameter, double value) {
     const Parameter *one = &model_parameters[parameter];
     if (value == run->asked[parameter]) return NULL;
-    if (!(value >= one->low && value <= one->high)) return "is beyond its range (its min and max)";
+    if (!(value >= one->low && value <= one->high)) return "is beyond its range";
     if (run->begun && one->when == WHEN_BEFORE) return "says how a run begins, and changes nothing now";
     if (!run->begun && one->when == WHEN_AFTER) return "can be set after the start only: the start follows it otherwise";
     run->asked[parameter] = value;

@@ -145,7 +145,9 @@ static enum Said set_parameter(Instance *instance, int parameter, double value) 
     const char *name = model_parameters[parameter].name;
     if (instance->stage == MADE || instance->stage == INITIALISING) back_to_start(instance); /* an output may be read */
     const char *why = run_tune(instance->run, parameter, value);
-    return why == NULL ? SAID_OK : say(instance, SAID_ERROR, "set: %s = %.9g %s.", name, value, why);
+    if (why == NULL) return SAID_OK;
+    return say(instance, SAID_ERROR, "set: %s = %.9g %s. It can be set from %.9g to %.9g.", name, value, why,
+               model_parameters[parameter].low, model_parameters[parameter].high);
 }
 
 enum Said set_reals(Instance *instance, const unsigned references[], size_t n, const double values[], size_t given) {
