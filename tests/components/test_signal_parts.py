@@ -262,14 +262,15 @@ def test_a_function_with_units_tells_the_unit_that_follows(tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
 def test_a_state_space_with_two_inputs_answers_as_scipy_says(engine):
-    """The reference holds its inputs linear between 80000 samples."""
+    """The reference holds its inputs linear between 80000 samples; of whole numbers it would make its start one, 0."""
     if engine == "ida":
         pytest.importorskip("sksundae")
     result = run("state_space", **{"run.engine": engine})
     t = np.linspace(0, 4, 80001)
     inputs = np.stack([np.minimum(t / 0.01, 1), np.sin(2 * np.pi * (t + t**2 / 2))], axis=1)
-    a = [[0, 1, 0, 0], [-200, -2, 100, 1], [0, 0, 0, 1], [100, 1, -100, -1]]
-    system = (a, [[0, 0], [1, 0], [0, 0], [0, 1]], [[1, 0, 0, 0], [0, 0, 1, 0]], [[0, 0], [0, 1e-3]])
+    a = np.array([[0, 1, 0, 0], [-200, -2, 100, 1], [0, 0, 0, 1], [100, 1, -100, -1]], float)
+    b, c = np.array([[0, 0], [1, 0], [0, 0], [0, 1]], float), np.array([[1, 0, 0, 0], [0, 0, 1, 0]], float)
+    system = (a, b, c, np.array([[0, 0], [0, 1e-3]]))
     _, answer, _ = scipy.signal.lsim(system, inputs, t, X0=[0.01, 0, 0, 0])
     for k in range(2):
         told = result[f"masses.signal{k + 1}"]
