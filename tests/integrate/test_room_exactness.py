@@ -27,7 +27,7 @@ def refined():
     def refine(m, h):
         assemble_step(m.linear, 2.0 / h)
         if factorise_dense(m.linear.factors) == 0:
-            refine_end(m.problem, m.point, m.linear, m.stepping.exchange, h)
+            refine_end(m.problem, m.point, m.linear, m.stepping, h)
 
     return entry(refine, ("",), "d")
 

@@ -60,6 +60,21 @@ def test_a_contact_that_lets_go_is_late_in_speed_by_the_square_of_the_nearer_par
     assert np.mean(errors) == pytest.approx(-1 / 24, rel=0.05)
 
 
+@pytest.mark.parametrize("s", PHASES.tolist())
+def test_a_jump_of_friction_leaves_the_errors_of_a_law_without_one(s, scene):
+    """Stiction 3 N above 2 N, let go in the step or in the next: the impulse of 1 N is right, and the way it makes."""
+    h, errors, jump = DUE / (BEFORE + s), {}, LEVEL - 2.0
+    for j, curve in ((0.0, "0.3"), (jump, "{curve: coulomb, stiction: 0.3, coulomb: 0.2}")):
+        text = BLOCK.replace("FORCE", RAMP).replace("SPEED", "0").replace("curve: 0.3", f"curve: {curve}")
+        system = scene(text).system
+        outcome = integrate(system, Run(stop=(BEFORE + 2) * h, fixed_step=h, engine="stepping"))
+        names, late = list(system.unknown_names), (2 - s) * h
+        x, v = (outcome.y[names.index(f"block.{what}")] for what in "xv")
+        errors[j] = (x - RATE / 6 * late**3 - j / 2 * late**2, v - RATE / 2 * late**2 - j * late)
+    assert errors[jump][1] == pytest.approx(-0.5 * min(s, 1 - s) ** 2 * RATE * h**2, abs=1e-9)
+    assert errors[jump] == pytest.approx(errors[0.0], abs=1e-12)
+
+
 def test_a_capture_is_right_in_speed_and_short_or_far_by_half_its_parts(scene):
     a = LEVEL - 1.0  # m/s^2
     model = scene(BLOCK.replace("FORCE", "1 N").replace("SPEED", repr(a * DUE)))

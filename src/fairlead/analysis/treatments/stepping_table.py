@@ -110,8 +110,8 @@ TABLE: tuple[Class, ...] = (
           "the force limit of {} varies in time, and stepping reads it in the middle of its steps", _timed,
           auto="it locates every switch, and a force limit varies in time"),
     Class("friction that falls as a contact lets go", INSIDE,
-          "stepping ends its steps where the friction of {} falls, but not where other contacts switch meanwhile: "
-          "what moves right after may be of order one in the step", _falling),
+          "stepping tells to a step when the friction of {} falls, and where others fall in the same step, which "
+          "load each other, its impulses to that of one contact", _falling),
     Class("everything else: contacts that hold at one level, limits that follow the motion, nodes without mass, "
           "ropes and stops that give, motions that are given", INSIDE, "", _any),
 )  # fmt: skip

@@ -31,6 +31,8 @@ RULE = Struct(
         # whether moves were taken back in this step (residual.py), whether its matrix is that of zones or values
         # met on the way, whether other pivots were tried for that
         "searched", "midway", "replanned",
+        # whether what is stiff is at rest at the end of a step, since friction falls somewhere (jump_inside.py)
+        "damps",
     ),
     numbers=(
         # theta asked for, its rise when zones cycle, theta in force
@@ -42,7 +44,9 @@ RULE = Struct(
     ),
     reals={
         # slopes of this step, of the one before and of the one before that; algebraic unknowns in its middle
-        "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "mean_before": "n", "move": "n",
+        "mean_slope": "n", "slope_before": "n", "slope_earlier": "n", "mean_before": "n", "move": "n", "chord_end": "n",
+        # by row, of a law that jumps: its impulse, and what puts the end right (jump_inside.py)
+        "kick": "n", "kick_first": "n", "kick_second": "n",
     },
     indices={
         # unknowns whose error sets the step
@@ -80,10 +84,11 @@ EXCHANGE = Struct(
 CONTACTS = Struct(
     copies=("n", "n_guards", "n_zones", "guard_machine", "zones",),
     integers=(
-        "expecting", "has_limits", "n_body_speed", "n_neighbours", "limits_vary", "n_switched", "n_free_guards",
+        "expecting", "has_limits", "n_body_speed", "n_neighbours", "limits_vary", "n_switched", "n_suspects",
+        "n_free_guards",
     ),
     reals={
-        "switched_after": "n_zones", "held_inertia": "n_zones",
+        "switched_after": "n_zones", "jump_at": "n_zones", "held_inertia": "n_zones",
     },
     indices={
         "rested": "n", "zones_at_start": "n_zones", "body_starts": "n_zones_plus_1", "body_speed": "n_body_speed",

@@ -104,12 +104,12 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     take_moment(problem)
     problem.rhs += 1
     y, y_end, v, b = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_v, n), reals(point.at_b, n)
-    f = reals(point.at_f, n)
+    f, kick = reals(point.at_f, n), reals(rule.at_kick, n)
     differential, holds = indices(problem.at_differential, n), indices(exchange.at_holds, n)
     backward = -1.0 / h
     for k in range(n):
         v[k] = backward * (y_end[k] - y[k]) if differential[k] == 1 else 0.0
-        b[k] = f[k] if holds[k] == 0 else 0.0
+        b[k] = f[k] - kick[k] if holds[k] == 0 else 0.0
     add_mass_times(matrices, point.at_v, point.at_b)
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     caught, slip = indices(exchange.at_caught, n), reals(point.at_residual, n)

@@ -131,12 +131,12 @@ def learn_constants(point, matrices, stepping):
     constants = reals(exchange.at_known_constants, exchange.n_known)
     known = indices(exchange.at_known, exchange.n_known)
     b, own = reals(point.at_b, point.n), indices(exchange.at_own_row, exchange.n_zones)
-    holds = indices(exchange.at_holds, point.n)
+    holds, kick = indices(exchange.at_holds, point.n), reals(stepping.rule.at_kick, point.n)
     for c in range(exchange.n_exchanged):
         z = changed[c]
         place = zones[z] * exchange.n_zones + z
         if known[place] == ROW and holds[own[z]] == 0:
-            constants[place] = b[own[z]] - linear_part(point, matrices, stepping, z)
+            constants[place] = b[own[z]] + kick[own[z]] - linear_part(point, matrices, stepping, z)
             known[place] = CONSTANT
 
 
@@ -149,7 +149,8 @@ def residual_of_row(point, matrices, stepping, z, h):
         return reals(point.at_residual, point.n)[row] / h + linear_part(point, matrices, stepping, z)
     zone = indices(exchange.at_zones, exchange.n_zones)[z]
     constants = reals(exchange.at_known_constants, exchange.n_known)
-    return constants[zone * exchange.n_zones + z] + linear_part(point, matrices, stepping, z)
+    kick = reals(stepping.rule.at_kick, point.n)[row]
+    return constants[zone * exchange.n_zones + z] - kick + linear_part(point, matrices, stepping, z)
 
 
 @compiled

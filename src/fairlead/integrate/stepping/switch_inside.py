@@ -95,6 +95,8 @@ def law_jumps(m, h):
     found = False
     for k in range(count):
         i = suspects[k]
+        if holds_row(contacts, machine[i]):
+            continue  # jump_inside.py
         if may_jump[i] == 1 and (machine[i] < 0 or known[i] != zones[machine[i]] + 1):
             jumps = jumps_at_guard(m, h, i)
             note_kind(contacts, machine[i], jumps)
@@ -102,6 +104,12 @@ def law_jumps(m, h):
             if machine[i] >= 0 and not jumps:
                 known[i] = zones[machine[i]] + 1
     return found
+
+
+@compiled
+def holds_row(contacts, z):
+    """True if machine z is known to hold a row: its jumps are put right inside the step (jump_inside.py)."""
+    return z >= 0 and indices(contacts.at_hold_row, contacts.n_zones)[z] >= 0
 
 
 @compiled
@@ -190,12 +198,14 @@ def jump_is_due(m, h):
     if m.events.settling.passes > 0:
         return False
     g, g_end = reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards)
-    fired = indices(guards.at_fired, guards.n_guards)
+    fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
     may_jump = indices(contacts.at_may_jump, guards.n_guards)
     ahead = 0.5 * h / (rule.gap + 0.5 * h)
     guards.n_fired = 0
     for i in range(guards.n_guards):
-        if may_jump[i] == 1 and may_cross(guards, i) and g_end[i] > g[i] and g_end[i] + ahead * (g_end[i] - g[i]) > 0.0:
+        if may_jump[i] == 0 or holds_row(contacts, machine[i]):
+            continue
+        if may_cross(guards, i) and g_end[i] > g[i] and g_end[i] + ahead * (g_end[i] - g[i]) > 0.0:
             fired[guards.n_fired] = i
             guards.n_fired += 1
     if guards.n_fired == 0 or all_continuous(guards, contacts):

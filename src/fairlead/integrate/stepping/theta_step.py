@@ -36,6 +36,12 @@ from fairlead.integrate.stepping.active_set import (
     learn_from_neighbours,
     violators,
 )
+from fairlead.integrate.stepping.jump_inside import (
+    doubt_captures,
+    forget_jumps,
+    note_fired,
+    put_jumps_right,
+)
 from fairlead.integrate.stepping.residual import (
     GIVEN_UP,
     MOST_SEARCHED,
@@ -86,6 +92,7 @@ def take_theta_step(m, h):
     stepping, rule, exchange = m.stepping, m.stepping.rule, m.stepping.exchange
     predict(point, rule, h)
     forget_switches(m.stepping.contacts)
+    forget_jumps(rule)
     begin_set(m.run, settling, stepping)
     expect_fronts(m, h)
     solves, solved, previous = 0, False, 1e300
@@ -114,6 +121,7 @@ def take_theta_step(m, h):
         else:
             guards_of_step(m, h)
             violators(guards)
+            doubt_captures(m, h)
         if guards.n_fired == 0:
             if problem.linear == 1 and exchange.unchecked == 0:
                 add_quadratures(problem, point, rule, h)
@@ -173,9 +181,13 @@ def switch_zones(m, h):
     if settling.passes == 0 and not known and rule.gap > 0.0 and law_jumps(m, h):
         find_jump(point, guards, rule, h)
         return JUMPS
+    if not known:
+        note_fired(guards, contacts)
     if follow_guards(m, h, known):
         find_jump(point, guards, rule, h)
         return JUMPS
+    if not known:
+        put_jumps_right(m, h)
     return CYCLES if settling.passes > run.max_passes else ONCE_MORE
 
 

@@ -31,10 +31,22 @@ from fairlead.integrate.stepping.residual import differs, take_mean, take_moment
 
 
 @compiled
-def refine_end(problem, point, linear, exchange, h):
+def refine_end(problem, point, linear, stepping, h):
     """Move the end of a step of the midpoint rule by its error; forces stay the means over the step they are."""
-    matrices, core = linear.matrices, linear.core
+    move_by_error(problem, point, linear, stepping, h)
+    linear.core.skip_meters = 0
+    if problem.n_quadratures > 0:
+        meter_step(problem, point, h)
+
+
+@compiled
+def move_by_error(problem, point, linear, stepping, h):
+    """The same of all but the quadratures."""
+    matrices, core, exchange = linear.matrices, linear.core, stepping.exchange
     n = problem.n
+    kick, first, second = (
+        reals(stepping.rule.at_kick, n), reals(stepping.rule.at_kick_first, n), reals(stepping.rule.at_kick_second, n),
+    )  # fmt: skip
     f0, f1, b, v = reals(point.at_x, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_v, n)
     y, y_end, bend = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_u, n)
     holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
@@ -43,7 +55,7 @@ def refine_end(problem, point, linear, exchange, h):
     forces_at_ends(problem, point, h)
     core.skip_meters = 1
     for k in range(n):
-        b[k] = f1[k] - f0[k] + 4.0 * ahead[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
+        b[k] = f1[k] - f0[k] + 4.0 * ahead[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
     if exchange.driven == 1:
         follow_surfaces(problem, point, exchange, h)
     solve(linear, point.at_b)
@@ -51,19 +63,38 @@ def refine_end(problem, point, linear, exchange, h):
         moves = moving[k] == 1 and quadrature[k] == 0
         bend[k] = b[k] / 6.0 if moves else 0.0
         v[k] = (y[k] - y_end[k]) / (3.0 * h) if moves else 0.0
-        b[k] = (f0[k] + f1[k]) / 6.0 - ahead[k] / 1.5
+        b[k] = (f0[k] + f1[k]) / 6.0 - ahead[k] / 1.5 - kick[k] / 3.0 - second[k]
     add_mass_times(matrices, point.at_v, point.at_b)
     add_jacobian_times(matrices, -1.0, point.at_u, point.at_b)
     for k in range(n):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
     solve(linear, point.at_b)
-    core.skip_meters = 0
+    if stepping.rule.damps == 1:
+        damp_end(problem, point, linear, stepping)
     for k in range(n):
         if moving[k] == 1 and quadrature[k] == 0:
             y_end[k] += 2.0 * b[k]
-    if problem.n_quadratures > 0:
-        meter_step(problem, point, h)
+
+
+@compiled
+def damp_end(problem, point, linear, stepping):
+    """Add g to b, W g = -J b/2 and what jumps need besides: by this no end keeps what is stiff (jump_inside.py)."""
+    n = problem.n
+    b, v, d = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
+    holds, quadrature = indices(stepping.exchange.at_holds, n), indices(problem.at_quadrature, n)
+    moving, second = indices(problem.at_differential, n), reals(stepping.rule.at_kick_second, n)
+    for k in range(n):
+        d[k] = b[k]
+        v[k] = b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
+        b[k] = second[k]
+    add_jacobian_times(linear.matrices, -0.5, point.at_v, point.at_b)
+    for k in range(n):
+        if holds[k] == 1 or quadrature[k] == 1:
+            b[k] = 0.0
+    solve(linear, point.at_b)
+    for k in range(n):
+        b[k] += d[k]
 
 
 @compiled

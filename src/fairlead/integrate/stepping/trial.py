@@ -114,7 +114,7 @@ def finish_inside(m, h, status):
         give_back_zones(guards, stepping)
         return WIDEN
     if rule.theta_now == MIDDLE:
-        refine_end(problem, point, linear, exchange, h)
+        refine_end(problem, point, linear, stepping, h)
     run.error = error_of_step(m, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
@@ -155,7 +155,7 @@ def finish_located(m, h):
 def end_located(m, h):
     """Move the end of a step by the error of its rule, and to where laws balance; the size of its error."""
     problem, point, linear, exchange = m.problem, m.point, m.linear, m.stepping.exchange
-    refine_end(problem, point, linear, exchange, h)
+    refine_end(problem, point, linear, m.stepping, h)
     error = error_of_step(m, h)
     if error <= 1.0:
         error = max(error, balance_end(m, h))
