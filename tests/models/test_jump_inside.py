@@ -1,9 +1,12 @@
 """Rows whose contacts jump as they let go, many in one step of `stepping`: each once, and right to the accuracy."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+import fairlead
 
 CURVE = "{curve: coulomb, stiction: 1.3, coulomb: 1.0}"
 
@@ -45,3 +48,21 @@ def test_steps_with_many_jumps_are_as_right_as_those_without(unequal, pull, stop
         assert np.abs(off).max() < 6 * accuracy * np.abs(right).max()
         if not pull.startswith("{"):  # nobody is caught who merely slows down
             assert max(np.unique([event.component for event in found.events], return_counts=True)[1]) == 1
+
+
+@pytest.mark.slow
+def test_a_line_whose_normal_force_follows_its_tension_jumps_inside_steps(tmp_path):
+    """The bend of the bundled model with stiction above sliding: as right as at one level, beside `rodas`."""
+    model = Path(__file__).parents[2] / "models" / "single_bend.yaml"
+    for curve in ("0.35", "{curve: coulomb, stiction: 0.45, coulomb: 0.35}"):
+        text = model.read_text(encoding="utf-8").replace('friction: "{mu}"', f"friction: {curve}")
+        assert curve in text
+        (tmp_path / "bend.yaml").write_text(text, encoding="utf-8")
+        found = {}
+        for engine, accuracy in (("rodas", "1e-5"), ("stepping", "1e-3")):
+            told = {"run.engine": engine, "run.accuracy": accuracy, "run.stop": "6 s"}
+            result = fairlead.load(tmp_path / "bend.yaml", set=told).run(out=None)
+            found[engine] = np.stack(
+                [result.at(name, np.arange(0, 6, 0.05)) for name in result.match("line.hose_node[*].x")]
+            )
+        assert np.abs(found["stepping"] - found["rodas"]).max() < 1e-3 * np.ptp(found["rodas"], axis=1).max()
