@@ -21,7 +21,7 @@ from statistics import median
 import fairlead
 from fairlead.cases import Cases
 from fairlead.studies.sweeps.design import Design
-from fairlead.studies.sweeps.farm import AHEAD
+from fairlead.studies.sweeps.farm import Farm
 from fairlead.studies.sweeps.ranges import read_range
 from fairlead.studies.sweeps.sweep import sweep
 
@@ -123,38 +123,44 @@ class Turns:
     """Watches a sweep; holds it at the end of every slice, where the bare loop has its turn."""
 
     def __init__(self, loop: BareLoop, every: list, first: int, slices: int) -> None:
-        self.loop, self.every = loop, every
+        self.loop, self.every, self.farm = loop, every, None
         self.sweep, self.bare, self.memory = Slices(), Slices(), {}
-        self.ahead = AHEAD * len(loop.crew)  # cases that the sweep's processes have got, and do before they are at rest
-        marks = [first + round(k * (len(every) - first) / slices) for k in range(slices + 1)]
-        self.ends = dict(zip(marks, [0, *marks], strict=False))
+        self.marks = [first + round(k * (len(every) - first) / slices) for k in range(slices + 1)]
+        self.computed = 0
         self.others = {one.pid for one in loop.crew}
         self.begun, self.used = 0.0, 0.0
 
     def __call__(self, now) -> None:
         """Let the bare loop do the cases that the sweep has just done."""
-        if now.done not in self.ends:
+        if not self.marks or now.done < self.marks[0]:
             return
+        self.marks.pop(0)
         mine = [one.pid for one in multiprocessing.active_children() if one.pid not in self.others]
-        over, begin = rest(mine), self.ends[now.done]
+        over, begin = rest(mine), self.computed
         used = cpu([os.getpid(), *mine])
-        just_done = self.every[begin + self.ahead if begin else 0 : now.done + self.ahead]
-        if begin:
+        self.computed = now.done + self.farm.given  # what its processes had got, they did before they were at rest
+        just_done = self.every[begin : self.computed]
+        if begin and just_done:
             self.sweep.add(len(just_done), over - self.begun, used - self.used)
             self.bare.add(len(just_done), *self.loop.run(just_done))
-        else:
+        elif just_done:
             self.loop.run(just_done)
         for share in (0.2, 1.0):
             if now.done >= share * now.total and share not in self.memory:
                 self.memory[share] = resident([os.getpid(), *mine])
         self.used, self.begun = cpu([os.getpid(), *mine]), time.perf_counter()
 
+    def crew(self, job, processes: int) -> Farm:
+        """The processes of the sweep that is watched."""
+        self.farm = Farm(job, processes)
+        return self.farm
+
 
 def row(name: str, cases: Cases, design: Design, processes: int, slices: int) -> str:
     every, loop = list(design.cases()), BareLoop(cases, processes)
     turns = Turns(loop, every, 4 * processes, slices)
     with tempfile.TemporaryDirectory() as folder:
-        sweep(cases, design, Path(folder), processes=processes, watch=turns)
+        sweep(cases, design, Path(folder), computers=lambda job: turns.crew(job, processes), watch=turns)
     loop.end()
     ours, theirs = turns.sweep, turns.bare
     each = sorted(

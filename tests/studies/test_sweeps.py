@@ -20,6 +20,7 @@ from fairlead.errors import FairleadError, ModelError, UsageError
 from fairlead.studies.sweeps.breach import breach
 from fairlead.studies.sweeps.design import MOST_CASES, Design, Sample
 from fairlead.studies.sweeps.distributions import read_distribution
+from fairlead.studies.sweeps.farm import AHEAD, Farm
 from fairlead.studies.sweeps.plan import is_sweep_file, read_plan
 from fairlead.studies.sweeps.ranges import RangeError, read_range
 from fairlead.studies.sweeps.sweep import sweep
@@ -130,6 +131,16 @@ def test_a_case_that_ends_its_process_costs_one_row(tmp_path) -> None:
     assert "exit code 11" in frame["sentence"][3]
     others = frame[frame["case"] != 3]
     assert (others["y"] == others["x"] ** 2).all()
+
+
+def test_short_cases_are_handed_out_many_at_a_time_and_a_crash_among_them_costs_one_row(tmp_path) -> None:
+    crew = Farm(job(crash_at_three), 2)
+    assert crew.ahead == AHEAD  # nothing is known of them yet
+    design = Design(grid={"x": [str(k) for k in range(200, 0, -1)]})
+    frame = sweep(crew.job, design, tmp_path, computers=lambda _: crew)[0].frame()
+    assert crew.ahead > 4 * AHEAD
+    assert frame["x"][frame["status"] == "killed"].tolist() == [3]
+    assert (len(frame), len(frame["key"].unique())) == (200, 200)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")

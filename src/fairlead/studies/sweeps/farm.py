@@ -3,6 +3,10 @@
 The executors of Python's library end as a whole when one process dies, with all cases that wait. Here each process has
 a pipe. When it is gone, the case that it was at is tried once more in a new one, since something else may have killed
 it; if that dies as well, the case is a row of status `killed`. The others go back to the queue.
+
+A process of a short case that is woken for each row would wake the first process as often, which takes a core from one
+of the others meanwhile. So a process has cases for `IN_HAND` seconds, and the first process looks for rows a few times
+in that span.
 """
 
 from __future__ import annotations
@@ -11,6 +15,7 @@ import multiprocessing
 import multiprocessing.connection as connections
 import os
 import signal
+import time
 from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -21,8 +26,12 @@ from fairlead.cases.row import KILLED, Row, Value
 from fairlead.errors import FairleadError
 from fairlead.studies.sweeps.job import Job
 
-AHEAD = 3
-"""Cases that a process has got: it does not wait for the next one, and little is lost with it."""
+AHEAD, MOST_AHEAD = 3, 100
+"""Cases that a process has got, at least and at most: it does not wait for the next one, and little is lost with it."""
+IN_HAND = 0.2
+"""Seconds for which a process has cases, where they are short."""
+LOOKS = 4
+"""Looks for rows within `IN_HAND`: no process is out of cases before the second."""
 TRIES = 2
 MOST_STARTS = 3
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -66,6 +75,19 @@ class Farm:
         self._workers: list[Worker] = []
         self._tried: dict[int, int] = {}
         self._failed_starts = 0
+        self._rows, self._seconds = 0, 0.0
+
+    @property
+    def given(self) -> int:
+        """Cases that processes have got and whose rows were not taken yet."""
+        return sum(len(worker.cases) for worker in self._workers)
+
+    @property
+    def ahead(self) -> int:
+        """Cases that each process is to have, by the length of those so far."""
+        if not self._rows:
+            return AHEAD
+        return min(MOST_AHEAD, max(AHEAD, round(IN_HAND * self._rows / max(self._seconds, 1e-9))))
 
     def __enter__(self) -> Farm:
         return self
@@ -92,7 +114,7 @@ class Farm:
 
     def _hand_out(self, cases: Iterator[Case], again: deque[Case]) -> bool:
         """Fill up what the processes have got; False when there are no more cases."""
-        for turn in range(AHEAD):
+        for turn in range(self.ahead):
             for place in range(self.processes):
                 if place < len(self._workers) and len(self._workers[place].cases) > turn:
                     continue
@@ -109,19 +131,26 @@ class Farm:
 
     def _collect(self, again: deque[Case]) -> Iterator[Done]:
         """Rows that have come since; waits for one."""
+        if self.ahead > AHEAD:
+            time.sleep(IN_HAND / LOOKS)
         ready = connections.wait([worker.pipe for worker in self._workers if worker.cases or not worker.ready])
         for worker in [one for one in self._workers if one.pipe in ready]:
-            try:
+            yield from self._take(worker, again)
+
+    def _take(self, worker: Worker, again: deque[Case]) -> Iterator[Done]:
+        """All rows that a process has sent, and what it was at if it is gone."""
+        try:
+            while worker.pipe.poll():
                 told = worker.pipe.recv()
-            except (EOFError, OSError):
-                yield from self._bury(worker, again)
-                continue
-            if told == READY:
-                worker.ready, self._failed_starts = True, 0
-                continue
-            number, row = told
-            worker.cases.popleft()
-            yield number, row
+                if told == READY:
+                    worker.ready, self._failed_starts = True, 0
+                    continue
+                number, row = told
+                worker.cases.popleft()
+                self._rows, self._seconds = self._rows + 1, self._seconds + row.seconds
+                yield number, row
+        except (EOFError, OSError):
+            yield from self._bury(worker, again)
 
     def _bury(self, worker: Worker, again: deque[Case]) -> Iterator[Done]:
         """Blame the case that a dead process was at, and give the others back."""
