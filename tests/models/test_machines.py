@@ -7,6 +7,7 @@ import pytest
 
 import fairlead
 from tests.reference.servo_cylinder import servo_cylinder
+from tests.reference.web_line import web_line
 
 SCENES = pathlib.Path(__file__).parents[2] / "models" / "machines"
 G = 9.80665
@@ -124,3 +125,16 @@ def test_a_servo_cylinder_hunts_as_its_equations_integrated_by_scipy_do(engine, 
     late = result["load.x"][result.t > 2] - 0.15
     assert late.min() < -3e-5
     assert late.max() > 3e-5  # past the place wanted, both ways
+
+
+@pytest.mark.parametrize(("taper", "gain", "damping"), [(0.3, 300, 100), (0.8, 200, 200)])
+def test_a_web_line_runs_as_its_balances_integrated_by_scipy_do(taper, gain, damping):
+    """Inertias that move are written as J w' = torque there, and as bodies on relations of positions here."""
+    result = run("web_line", **{"taper.taper": str(taper), "control.gain": str(gain), "run.stop": "20 s",
+                                "control.ahead_gain": "-300", "damper.damping": f"{damping} N*m*s/rad"})  # fmt: skip
+    t, rows = web_line(20, taper, gain, damping)
+    names = ("dancer.tension_in", "dancer.tension_out", "web.tension", "dancer.angle", "unwinder.radius",
+             "winder.radius")  # fmt: skip
+    for name, row, within in zip(names, rows, (0.05, 0.05, 0.05, 1e-6, 1e-8, 1e-8), strict=True):
+        assert np.abs(np.interp(result.t, t, row) - result[name]).max() < within, name
+    assert np.ptp(result["dancer.angle"]) > 0.1

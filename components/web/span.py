@@ -1,0 +1,193 @@
+"""The span of a web between two rollers: material comes in with the strain that it has behind, and goes out."""
+
+from fairlead.component import (
+    Component,
+    Effect,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    State,
+    Translational,
+    Zones,
+    guard,
+    sqrt,
+    zone,
+)  # fmt: skip
+
+TEARS = 1e-3  # s; in which the energy of a torn web is gone: it only has a place in the ledger
+CUT = 0.5  # of a signal that is 0 or 1
+
+
+def forward(p, v):
+    """The speed where it is positive, else nothing; a corner rounded over `slow`."""
+    return (v + sqrt(v**2 + p.slow**2)) / 2
+
+
+class Web(Component, abstract=True):
+    """Half-model of a web between two rollers, elastic, without mass.
+
+    S' = q_a - q_b        S = (free length)/(1 + strain), the material between the rollers
+    q_a = a.v/(1 + before),      q_b = b.v/(1 + strain)        running forward, from a to b
+    q_a = a.v/(1 + strain),      q_b = b.v/(1 + after)         running backward, each end for itself
+    tension = stiffness strain
+
+    A web sticks to a roller where it comes on to it and creeps where it leaves it. So it is carried over with the
+    strain of the span that it comes from. Connect the `strain` of the span behind to `before`, and of the one ahead to
+    `after`. The creep dissipates stiffness (strain - before)^2/2 for a metre of material. Energy that material brings
+    along and takes along is told as supplied; between spans it cancels.
+
+    Source: J. J. Shelton, Proc. American Control Conference 1986, 1423; G. Brandenburg, 3rd IFAC Conf. on
+    Instrumentation and Automation in the Paper, Rubber and Plastics Industries, 1977, 411; docs/physics.md, 4.9.
+    Limits: strain is small and elastic, equal over the width; no sag, no air, no sideways motion, no momentum of the
+    web. A slack web has no tension and stays on its rollers.
+    """
+
+    a = Translational("rim of the roller behind, from which the web comes")
+    b = Translational("rim of the roller ahead")
+    length = Parameter("m", "Of the web between the rollers.", above=0)
+    stiffness = Parameter("N", "Young's modulus times width times thickness.", above=0, usual=(10, 1e9))
+    tension = Parameter("N", "Tension at the start.", default=0.0, least=0, physics=False)
+    slow = Parameter("m/s", "Speed below which the way of material over a roller is rounded.", default=1e-6, above=0)
+    before = Input("1", "Strain of the web that comes on to the roller behind.", default=0.0)
+    after = Input("1", "Strain of the web that comes on to the roller ahead while it runs backward.", default=0.0)
+    pull = State("N", "Tension, and below zero what the web is longer than its way, as strain times stiffness.",
+                 start="tension")  # fmt: skip
+    carried = Output("N", "Tension, never negative.", name="tension")
+    strain = Output("1", "Strain, never negative.")
+    zones = Zones("taut", "slack")
+
+    @guard("taut", to="slack", unit="N")
+    def slackens(p, pull):
+        """The tension falls through zero."""
+        return -pull
+
+    @guard("slack", to="taut", unit="N")
+    def tightens(p, pull):
+        """The slack is taken up."""
+        return pull
+
+
+def flows(p, a, b, before, after, strain):
+    """Material in at a and out at b [m/s], energy that it brings less what it takes, and loss by creep [W]."""
+    in_a, in_b = forward(p, a.v) / (1 + before), (b.v - forward(p, b.v)) / (1 + after)
+    out_a, out_b = (a.v - forward(p, a.v)) / (1 + strain), forward(p, b.v) / (1 + strain)
+    half = p.stiffness / 2
+    brings = half * (before**2 * in_a - after**2 * in_b + strain**2 * (out_a - out_b))
+    lost = half * ((strain - before) ** 2 * in_a - (strain - after) ** 2 * in_b)
+    return in_a + out_a, in_b + out_b, brings, lost
+
+
+def span(p, a, b, before, after, pull, taut, length, rate, **ports):
+    """Law of a web whose way is `length`, which grows with `rate`; `ports` has the port of what moves, if any."""
+    stretch = pull / p.stiffness
+    strain = stretch if taut else 0
+    q_a, q_b, brings, lost = flows(p, a, b, before, after, strain)
+    grows = (1 + stretch) * (rate - (1 + stretch) * (q_a - q_b)) / length
+    tension = pull if taut else 0
+    stored = length * pull * stretch / (1 + stretch) / 2 if taut else 0
+    return Law(a=-tension, b=+tension, pull=p.stiffness * grows, tension=tension, strain=strain, supplied=brings,
+               dissipated=lost, stored=stored, **{port: share * tension for port, share in ports.items()})  # fmt: skip
+
+
+class FixedSpan(Web, abstract=True):
+    """Half-model of a web between rollers that stand, with what may end it."""
+
+    cut = Input("1", "Above 1/2 the web is cut.", default=0.0)
+    left = Input("m", "Web left on an unwinder; when it is used up, its end comes through.", default=1.0, signed=True)
+
+
+class WholeSpan(FixedSpan):
+    """A span that never tears."""
+
+    asked_with = {"stiffness": 1e5}
+
+    @zone("taut", "slack")
+    def running(p, a, b, before, after, pull, zone):
+        """The balance of material."""
+        return span(p, a, b, before, after, pull, zone == "taut", p.length, 0)
+
+
+class WebSpan(FixedSpan):
+    """A web between two rollers that stand:  length d(strain)/dt = b.v (1 + strain) - a.v (1 + strain)^2/(1 + before).
+
+    For small strain that is  length d(tension)/dt = stiffness (b.v - a.v) + a.v tension_before - b.v tension, the
+    equation of Shelton and Brandenburg. `a` and `b` are the rims of the rollers (an Idler, an Unwinder, a Rack).
+
+    breaking    on: the web tears at `strength`, or is cut by a signal, and its material may be used up; it then has no
+                tension for the rest of the run. off: it never tears
+    """
+
+    asked_with = {"stiffness": 1e5, "strength": 1e5}
+    strength = Parameter("N", "Tension at which the web tears.", default=1e12, above=0, usual=(1, 1e12))
+    breaking = Effect("The web tears, is cut, or runs out.", off=WholeSpan)
+    zones = Zones("taut", "slack", "torn", "gone")
+
+    @zone("taut", "slack")
+    def running(p, a, b, before, after, pull, zone):
+        """The balance of material."""
+        return span(p, a, b, before, after, pull, zone == "taut", p.length, 0)
+
+    @zone("torn")
+    def torn(p, a, b, pull):
+        """No tension; what the web had stored is lost."""
+        e = pull / p.stiffness
+        stored = p.length * pull * e / (1 + e) / 2
+        lost = p.length * pull * e * (1 + e / 2) / (1 + e) ** 2 / TEARS
+        return Law(a=0, b=0, pull=-pull / TEARS, tension=0, strain=0, stored=stored, dissipated=lost)
+
+    @zone("gone")
+    def gone(p, a, b, pull):
+        """As torn, with nothing stored."""
+        return Law(a=0, b=0, pull=-pull / TEARS, tension=0, strain=0)
+
+    @guard("taut", to="torn", unit="N")
+    def breaks(p, pull):
+        """The tension reaches the strength."""
+        return pull - p.strength
+
+    @guard("taut", to="torn", unit="1")
+    def is_cut(p, cut):
+        """A signal cuts it."""
+        return cut - CUT
+
+    @guard("slack", to="gone", unit="1")
+    def is_cut_slack(p, cut):
+        """Likewise, without tension."""
+        return cut - CUT
+
+    @guard("taut", to="torn", unit="m")
+    def runs_out(p, left):
+        """Its end has come off the roll."""
+        return -left
+
+    @guard("slack", to="gone", unit="m")
+    def runs_out_slack(p, left):
+        """Likewise, without tension."""
+        return -left
+
+
+class WebAccumulator(Web):
+    """A web in `strands` between fixed rollers and those of a carriage, whose way keeps web in store.
+
+    The free length is  length + strands carriage.x,  and the carriage is drawn back by  strands tension. With the mass
+    balance of a span the tension follows
+
+    length d(strain)/dt = (1 + strain) strands carriage.v - (1 + strain)^2 (a.v/(1 + before) - b.v/(1 + strain))
+
+    Source: P. R. Pagilla and others, IEEE Trans. Industry Applications 37 (2001), 934.
+    Limits: rollers inside have no inertia and no friction, so that all strands have one tension; `carriage.x` must stay
+    above -length/strands. With one strand it is one side of a loop round a dancer.
+    """
+
+    asked_with = {"stiffness": 1e5, "length": 1e3}
+    carriage = Translational("what lengthens the way of the web as x grows")
+    strands = Parameter("1", "How often the web runs to the carriage or back.", default=2.0, above=0, usual=(1, 200))
+    free = Output("m", "Free length, of all strands together.")
+
+    @zone("taut", "slack")
+    def running(p, a, b, carriage, before, after, pull, zone):
+        """The balance of material, over a way that changes."""
+        length, rate = p.length + p.strands * carriage.x, p.strands * carriage.v
+        law = span(p, a, b, before, after, pull, zone == "taut", length, rate, carriage=p.strands)
+        return Law(**law.terms, free=length)

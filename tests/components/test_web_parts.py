@@ -1,0 +1,243 @@
+"""The parts of a web line in models/single_parts against balances of material and momentum of their scenes."""
+
+import pathlib
+import re
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+import fairlead
+from fairlead.errors import ModelError
+
+SCENES = pathlib.Path(__file__).parents[2] / "models" / "single_parts"
+
+
+def run(name, **settings):
+    """A scene, with other values by their dotted names."""
+    result = fairlead.load(SCENES / f"{name}.yaml", set={"run.accuracy": "1e-6", **settings}).run(out=None)
+    assert result.ok
+    assert result.run["energy"]["closure"] < 1e-4
+    return result
+
+
+def switched(result, where, to):
+    """Time at which a zone was first entered [s]."""
+    table = result.switches().to_pandas()
+    return float(table["first"][(table["component"] == where) & (table["zone_to"] == to)].min())
+
+
+def test_strains_of_two_spans_follow_the_balance_of_their_material():
+    """S1' = v1 - v2 S1/L1 and S2' = v2 S1/L1 - v3 S2/L2 are linear; with rates a and b they are exponentials."""
+    result = run("web_span")
+    t, v1, v2, v3 = result.t[result.t < 6], 1.0, 1.001, 1.002
+    a, b = v2 / 1, v3 / 2
+    first = v1 / a * (1 + (a / v1 - 1) * np.exp(-a * t))
+    c = (a - v1) / (b - a)  # of exp(-a t) in the second span, whose inflow is a first
+    second = v1 / b + c * np.exp(-a * t) + (2 - v1 / b - c) * np.exp(-b * t)
+    assert result["web_1.strain"][: t.size] == pytest.approx(1 / first - 1, abs=1e-8)
+    assert result["web_2.tension"][: t.size] / 1e5 == pytest.approx(2 / second - 1, abs=1e-8)
+
+
+def test_tensions_follow_the_equation_of_shelton_and_brandenburg():
+    """L dT/dt = EA (v2 - v1) + v1 T0 - v2 T, exact to a share that is the strain, here 1e-3."""
+    result = run("web_span")
+
+    def rates(_, y):
+        return 1e5 * 0.001 + 0 - 1.001 * y[0], (1e5 * 0.001 + 1.001 * y[0] - 1.002 * y[1]) / 2
+
+    t = result.t[result.t < 6]
+    found = solve_ivp(rates, (0, 6), [0, 0], rtol=1e-9, atol=1e-9, t_eval=t)
+    assert result["web_1.tension"][: t.size] == pytest.approx(found.y[0], abs=0.3)
+    assert result["web_2.tension"][: t.size] == pytest.approx(found.y[1], abs=0.6)
+    assert result.at("web_2.tension", 5.9) > 170  # it has what came over the roller, beside its own 100 N
+
+
+@pytest.mark.slow
+def test_a_web_tears_where_its_strength_is_reached():
+    result = run("web_span")
+    start = 1 / (1 + result.at("web_1.strain", 6.0))
+
+    def material(_, y):
+        return [1 - (1.001 + 0.01 * (_ - 6) / 10) * y[0]]
+
+    found = solve_ivp(material, (6, 16), [start], rtol=1e-10, atol=1e-12, dense_output=True)
+    tears = brentq(lambda t: 1 / found.sol(t)[0] - 1 - 800 / 1e5, 6, 16)
+    assert switched(result, "web_1", "torn") == pytest.approx(tears, abs=1e-5)
+    assert result["web_1.tension"][-1] == 0
+    whole = run("web_span", **{"web_1.effects.breaking": "off"})
+    assert whole["web_1.tension"][-1] > 800
+
+
+@pytest.mark.slow
+def test_a_line_that_runs_backward_is_the_mirror_image_of_one_that_runs_forward():
+    """The rollers turned round in order and way: the strain of the far span comes over the roller between."""
+    forward = run("web_span", **{"run.stop": "6 s"})
+    back = run("web_span", **{
+        "run.stop": "6 s", "first.speed": "-10.02 rad/s", "second.speed": "-10.01 rad/s", "third.speed": "-10 rad/s",
+        "web_1.length": "2 m", "web_2.length": "1 m"})  # fmt: skip
+    assert back["web_2.tension"] == pytest.approx(forward["web_1.tension"], abs=1e-3)
+    assert back["web_1.tension"] == pytest.approx(forward["web_2.tension"], abs=1e-3)
+
+
+@pytest.mark.slow
+def test_a_slack_web_has_no_tension_until_its_slack_is_taken_up(simulate):
+    """From no tension the second roller lags by dv for 1 s: dv 1 s of slack, which a lead of dv takes up in 1 s."""
+    text = (SCENES / "web_span.yaml").read_text(encoding="utf-8").split("name: web_span\n")[1]
+    table = "{table: [[0 s, 9.9 rad/s], [1 s, 9.9 rad/s], [1.0001 s, 10.1 rad/s], [4 s, 10.1 rad/s]]}"
+    changed = re.sub(r"second: \{.*\}\}", f"second: {{type: SpeedSource, speed: {table}}}", text)
+    result = simulate(changed, **{"run.accuracy": "1e-6", "run.stop": "2.5 s", "web_1.strength": "1 MN"})
+    taut = switched(result, "web_1", "taut")
+    assert taut == pytest.approx(2, abs=1e-3)
+    assert result.at("web_1.tension", 1.5) == 0
+    strain = 1.01 / (1 + 0.01 * np.exp(-1.01 * (2.5 - taut))) - 1  # S' = 1 - 1.01 S
+    assert result.at("web_1.strain", 2.5) == pytest.approx(strain, rel=1e-4)
+
+
+def hollow(radius):
+    """Moment of inertia of the roll of both scenes [kg m^2]."""
+    return 0.2 + 800 * 0.5 * np.pi / 2 * (radius**4 - 0.05**4)
+
+
+def test_a_roll_turns_as_the_radius_and_the_inertia_that_are_left():
+    """J w' = F R without w dJ/dt, so w^2/2 is the integral of F R/J over the angle; web that goes keeps its speed."""
+    result = run("unwinder")
+    k = 0.002 / (2 * np.pi)
+    radius = result["roll.radius"]
+    speeds = np.gradient(0.3 - radius, result.t) / k
+    for at in (400, 800, 1100):
+        angle = (0.3 - radius[at]) / k
+        half = quad(lambda x: 40 * (0.3 - k * x) / hollow(0.3 - k * x), 0, angle)[0]
+        assert speeds[at] == pytest.approx(np.sqrt(2 * half), rel=1e-3)  # differences of rows
+    assert result["roll.moment"] == pytest.approx(hollow(radius), rel=1e-9)
+    assert result["roll.left"] == pytest.approx(np.pi * (radius**2 - 0.05**2) / 0.002, rel=1e-9)
+    assert radius[-1] < 0.2
+
+
+def test_the_time_that_a_roll_takes_is_that_of_its_equation():
+    """Two first-order equations integrated by scipy."""
+    result = run("unwinder")
+    k = 0.002 / (2 * np.pi)
+    found = solve_ivp(lambda _, y: (y[1], 40 * (0.3 - k * y[0]) / hollow(0.3 - k * y[0])), (0, 18), (0, 0), rtol=1e-10,
+                      atol=1e-10, t_eval=result.t)  # fmt: skip
+    assert result["roll.radius"] == pytest.approx(0.3 - k * found.y[0], abs=1e-7)
+
+
+@pytest.mark.slow
+def test_without_layers_a_roll_is_a_wheel():
+    result = run("unwinder", **{"roll.effects.layers": "off"})
+    full = run("unwinder")
+    assert result.run["unknowns"] < full.run["unknowns"]
+    turned = 40 * 0.3 / hollow(0.3) * result.t**2 / 2
+    left = np.pi * (0.3**2 - 0.05**2) / 0.002 - 0.3 * turned
+    assert result["roll.left"] == pytest.approx(left, abs=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("taper", "shape"), [(0.4, "hyperbolic"), (1.0, "hyperbolic"), (0.4, "linear")])
+def test_a_winder_has_the_tension_of_its_taper_less_what_its_roll_takes(taper, shape):
+    """At v the roll slows down by v k w/R^2 while R grows: J of it and the drag are taken from the torque."""
+    result = run("winder", **{"taper.taper": str(taper), "taper.shape": shape, "taper.full_radius": "250 mm"})
+    late = result.t > 15
+    radius, k = result["roll.radius"][late], 0.002 / (2 * np.pi)
+    falls = 1 - 0.05 / radius if shape == "hyperbolic" else (radius - 0.05) / 0.2
+    v = 2.0 * (1 + result["web.tension"][late] / 1e5)
+    slows = v**2 * k / radius**3
+    tension = 200 * (1 - taper * falls) + (hollow(radius) * slows - 1e-3 * v / radius) / radius
+    assert result["web.tension"][late] == pytest.approx(tension, rel=2e-4)
+    assert result["roll.wound"][-1] - result["roll.wound"][0] == pytest.approx(80, rel=2e-3)
+
+
+@pytest.mark.slow
+def test_a_web_slips_on_an_idler_at_the_ratio_of_euler_and_in_a_nip_with_its_force_beside():
+    result = run("web_rollers")
+    slips, later = switched(result, "idler.contact", "forward"), switched(result, "nip.contact", "forward")
+    assert later > slips > 1
+    one, two, three = (result.at(f"web_{k}.tension", slips - 1e-4) for k in (1, 2, 3))
+    assert two / one == pytest.approx(np.exp(0.2 * 1.5), rel=1e-4)
+    at = [result.at(f"web_{k}.tension", 2.9) for k in (1, 2, 3)]
+    assert at[1] / at[0] == pytest.approx(np.exp(0.2 * 1.5), rel=1e-4)
+    assert at[2] == pytest.approx(at[1] * np.exp(0.2 * 0.5) + 0.2 * 500, rel=1e-4)
+    braked = result.at("idler.speed", 2.9) - result.at("idler.speed", 2.8)  # what the web leaves of the brake
+    brakes = 8 / 2 * 1.85
+    assert braked / 0.1 == pytest.approx((0.05 * (at[1] - at[0]) - brakes) / 0.01, rel=2e-2)
+    assert three is not None
+
+
+@pytest.mark.slow
+def test_an_accumulator_has_the_tension_of_the_average_model():
+    """Material comes in at v_in and goes out at v_out S/L(x); the carriage is a mass with its force and its damper."""
+    result = run("web_accumulator")
+
+    def rates(t, y):
+        x, v, material = y
+        length = 4 + 8 * x
+        pull = 1e5 * (length / material - 1)
+        comes = 0.1 * np.interp(t, [0, 1, 2, 4, 5], [20, 20, 0, 0, 20])
+        return v, (1600 - 8 * pull - 300 * v) / 100, comes - 2.004 * material / length
+
+    found = solve_ivp(rates, (0, 6), (1.5, 0, 16 / 1.002), "LSODA", rtol=1e-10, atol=1e-12, max_step=1e-2,
+                      t_eval=result.t)  # fmt: skip
+    x, _, material = found.y
+    assert result["carriage.x"] == pytest.approx(x, abs=1e-6)
+    assert result["store.tension"] == pytest.approx(1e5 * ((4 + 8 * x) / material - 1), abs=0.05)
+    assert np.ptp(x) > 0.5
+
+
+@pytest.mark.slow
+def test_a_dancer_swings_on_the_stretch_of_both_sides_of_its_loop():
+    """2 arm^2 (material stiffness)/length over the moment; the cylinder's torque is that of both tensions."""
+    result = run("rotary_dancer")
+    late = result.t > 0.15
+    angle = result["dancer.angle"][late]
+    mean, times = (angle.max() + angle.min()) / 2, result.t[late]
+    ups = np.flatnonzero((angle[:-1] < mean) & (angle[1:] >= mean))
+    crossings = [np.interp(mean, angle[k : k + 2], times[k : k + 2]) for k in ups]
+    stiff = 2 * 0.4**2 * 1e5 * (1 + 200 / 1e5) / 1.0  # over the material, which is shorter than its way
+    assert np.mean(np.diff(crossings)) == pytest.approx(2 * np.pi / np.sqrt(stiff / 2), rel=1e-3)
+    assert mean == pytest.approx(10 / stiff, rel=1e-2)
+    assert result["dancer.tension_in"] == pytest.approx(result["dancer.tension_out"], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "set_to", "says"),
+    [
+        ("unwinder", {"roll.radius": "40 mm"}, "radius 0.04 m is below core_radius = 0.05 m"),
+        ("unwinder", {"roll.moment": "1e-3 kg*m^2"}, "is not above that of a core of solid web"),
+        ("winder", {"taper.shape": "linear"}, "shape is linear without full_radius"),
+        ("winder", {"taper.full_radius": "40 mm"}, "full_radius 0.04 m is not above core_radius = 0.05 m"),
+    ],
+)
+def test_rolls_that_cannot_be_are_refused(name, set_to, says):
+    with pytest.raises(ModelError, match=re.escape(says)):
+        fairlead.load(SCENES / f"{name}.yaml", set=set_to).check()
+
+
+USED_UP = """
+    components:
+      roll: {type: Unwinder, radius: 60 mm, core_radius: 50 mm, width: 0.5 m, thickness: 1 mm, density: 800 kg/m^3,
+             moment: 0.2 kg*m^2, speed: 20 rad/s}
+      brake: {type: TorqueSource, torque: -6 N*m}
+      web: {type: WebSpan, length: 1 m, stiffness: 100 kN, tension: 100 N}
+      nip: {type: SpeedSource, speed: 20 rad/s}
+      rim: {type: Rack, radius: 60 mm}
+    connections:
+      - [roll.shaft, brake.shaft]
+      - [roll.rim, web.a]
+      - [web.b, rim.rack]
+      - [nip.shaft, rim.pinion]
+      - [roll.left, web.left]
+      - [roll.held, web.before]
+    run: {stop: 4 s, accuracy: 1e-6}
+    record: {every: 10 ms, signals: [web.tension, roll.left]}
+"""
+
+
+@pytest.mark.slow
+def test_the_end_of_a_web_comes_off_when_its_roll_is_used_up(simulate):
+    """pi (0.06^2 - 0.05^2)/1 mm = 3.456 m at 1.2 m/s, less the stretch of a thousandth."""
+    result = simulate(USED_UP)
+    assert switched(result, "web", "torn") == pytest.approx(np.pi * 1.1e-3 / 1e-3 / 1.2, rel=2e-3)
+    assert result.at("web.tension", 2.8) > 90
+    assert result["web.tension"][-1] == 0
