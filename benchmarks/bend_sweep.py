@@ -1,7 +1,7 @@
 """The single bend over friction, tension and treatment of friction (physics 7c).
 
     python benchmarks/bend_sweep.py            runs what is missing in benchmarks/data/bend_sweep.jsonl (198 runs of a
-                                               second or so), then writes tables and figure into docs/validation.md
+                                               second or so), then writes tables and figure into docs/bend_tables.md
     python benchmarks/bend_sweep.py --table    the tables and the figure only
 
 For friction 0.20 to 0.70 of the hose on the bend and 400, 800, 1600 N outboard the bundled `single_bend` is hauled for

@@ -1,4 +1,4 @@
-"""Tables and figure of bend_sweep.py: a part of docs/validation.md, docs/figures/bend_sweep.png."""
+"""Tables and figure of bend_sweep.py: a part of docs/bend_tables.md, docs/figures/bend_sweep.png."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from bend_sweep import FRICTIONS, STOP, TENSIONS, TREATMENTS, Key
 
 DOCS = pathlib.Path(__file__).parents[1] / "docs"
-PAGE = DOCS / "validation.md"
+PAGE = DOCS / "bend_tables.md"
 BEGIN, END = "<!-- bend_sweep.py writes from here -->", "<!-- to here -->"
 COLOURS = {400.0: "#009E73", 800.0: "#0072B2", 1600.0: "#D55E00"}  # Okabe and Ito (2008)
 MARKERS = {"exact": "o", "robust": "s", "tanh": "^", "LuGre": "v", "literal, naive, h 0.1": "x"}

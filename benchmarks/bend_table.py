@@ -1,7 +1,7 @@
 """Fill `data/independent_bend.json`: the single bend by both independent engines at several accuracies.
 
     nice -n 10 python benchmarks/bend_table.py              # everything that is missing (about two hours)
-    nice -n 10 python benchmarks/bend_table.py --print      # the table for docs/validation.md
+    nice -n 10 python benchmarks/bend_table.py --print      # the table for docs/bend_tables.md
 
 Cases already in the file are skipped, so the run can be stopped at any time and taken up again.
 """

@@ -5,7 +5,7 @@
     python benchmarks/bend_variants.py --fairlead                  by fairlead; data/bend_variants_fairlead.json
 
 Writes the data file and prints one line per variant beside the number of the specification; of fairlead in the
-columns of docs/validation.md.
+columns of docs/bend_tables.md.
 """
 
 import argparse
@@ -91,7 +91,7 @@ def kept(path: Path) -> dict[str, Any]:
 
 
 def row(label: str, found: dict[str, Any]) -> str:
-    """The row of docs/validation.md: specification, Radau, convex engine, fairlead with both treatments."""
+    """The row of docs/bend_tables.md: specification, Radau, convex engine, fairlead with both treatments."""
     convex, radau = kept(DATA)[label], kept(BEGIN)[label]
     table = convex["table"]
     cells = [label, f"{convex['published_mm']:g}", f"{radau['registration_mm']:.1f}"]

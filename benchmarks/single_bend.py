@@ -140,7 +140,7 @@ def show(low: Row, high: Row) -> bool:
 
 
 def markdown(r: Row) -> str:
-    """The row of the validation page: same columns as the independent engines, work in one column."""
+    """The row of the page of tables: same columns as the independent engines, work in one column."""
     d, low = r.registration_mm, r.lowest_hose_so_far_N
     creep = "1e-4" if r.method == "binding" else "-"
     cells = [f"rodas, {r.method}, accuracy {r.accuracy:g}", r.elements, creep,

@@ -14,9 +14,9 @@ states. Not replayed, for they take minutes to hours of processor time, or are t
 | routes.md | hose and core | `benchmarks/hose_estimates.py` |
 | stability.md | the page | `make hard` |
 | studies.md | the study of the route; laws of the servo | `benchmarks/route_study.py`; `fairlead fit` |
-| validation.md | independent engines, robustness list | `benchmarks/bend_table.py`, `benchmarks/bend_variants.py` |
+| bend_tables.md | independent engines, robustness list | `benchmarks/bend_table.py`, `benchmarks/bend_variants.py` |
 
-A row of each treatment of the sweep in validation.md is replayed by `tests/models/test_bend_sweep.py`; what
+A row of each treatment of the sweep in bend_tables.md is replayed by `tests/models/test_bend_sweep.py`; what
 studies.md says of the route, on fewer cases, by `tests/studies/test_route_study.py`.
 """
 
@@ -137,9 +137,9 @@ def test_the_tables_of_the_page_on_routes_are_those_of_its_commands(
 
 
 @pytest.mark.parametrize("method", ["hold", "binding"])
-def test_the_bend_that_holds_together_is_that_of_the_page_on_validation(method: str) -> None:
+def test_the_bend_that_holds_together_is_that_of_the_page_of_tables(method: str) -> None:
     begin = f"| rodas, {method}, accuracy 0.001 | 60 |"
-    shown = begin + page("validation").partition("\nmu 0.35\n")[2].partition(begin)[2].partition("\n")[0]
+    shown = begin + page("bend_tables").partition("\nmu 0.35\n")[2].partition(begin)[2].partition("\n")[0]
     found = single_bend.markdown(single_bend.run(0.35, method, 1e-3, 60))
     same_to_the_last_digit(numbers(shown), numbers(found))
 
