@@ -6,10 +6,12 @@ A test says what it simulates in the words a user would write, then compares wit
 
 from __future__ import annotations
 
+import gc
 import itertools
+import os
 import signal
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +24,26 @@ from tests.slow import is_left
 
 Scene = Callable[..., Any]
 
+os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
+"""What SymPy remembers, here and in processes that tests start; it reads this when it is imported. With its own 1000,
+tests that trace one class after another take a quarter longer."""
+
 hypothesis.settings.register_profile(
     "same", derandomize=True, deadline=None, database=None, suppress_health_check=list(hypothesis.HealthCheck)
 )
 hypothesis.settings.load_profile("same")
 """The same examples everywhere, however slow the machine; others by hand: pytest --hypothesis-profile=default."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection(session: pytest.Session) -> Generator[None, object, object]:
+    """Do not look for garbage among what collecting makes, twelve thousand tests and their modules: it stays."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()  # nor later: each look would take half a second
+        gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -4,10 +4,12 @@
 import re
 import textwrap
 
+import numpy as np
 import pytest
 
 import fairlead
 from fairlead.component.dependencies import dependencies
+from fairlead.component.values import variant_of
 from fairlead.errors import ModelError
 
 NETLIST = """\
@@ -237,3 +239,16 @@ def test_a_new_netlist_of_known_classes_compiles_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(kernels, "_build", lambda variant, *_: pytest.fail(f"{variant.label} was compiled again"))
     kernels.kernel.cache_clear()
     assert fairlead.load("belt", set={"pad.normal_force": "12 N", "spring.stiffness": "80 N/m"}).check() == []
+
+
+def test_a_class_is_traced_once_for_its_machine_code_and_its_python_function():
+    """Tracing is most of the time that a kernel takes."""
+    from fairlead.component.registry import known_types
+    from fairlead.kernels import kernel
+    from fairlead.testing.samples import sample
+
+    damper = sample(known_types()["Damper"], np.random.default_rng(1), {}, True)
+    kernel.write_source.cache_clear()
+    kernel.plain.__wrapped__(variant_of(damper))
+    kernel._build(variant_of(damper))
+    assert kernel.write_source.cache_info().misses == 1

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from concurrent.futures import ProcessPoolExecutor
 
@@ -20,7 +21,7 @@ def all_compiled() -> tuple[Compiled, ...]:
 
 def compile_all() -> None:
     """Put the machine code of all engines into the cache."""
-    with ProcessPoolExecutor(os.cpu_count()) as pool:
+    with ProcessPoolExecutor(os.cpu_count(), initializer=gc.disable) as pool:  # what numba makes stays till the end
         list(pool.map(Compiled.is_cached, all_compiled()))
 
 

@@ -56,7 +56,7 @@ def _build(variant: Variant, rated: int = 0) -> Build:
 
 
 @functools.lru_cache(maxsize=8)  # the machine code and the Python function of a class are asked for together
-def write_source(variant: Variant, rated: int = 0) -> tuple[str, Structure]:
+def write_source(variant: Variant, rated: int) -> tuple[str, Structure]:
     """Python text of the kernel, in the subset that `lowering.py` understands, and its structure."""
     from fairlead.component.trace import trace
     from fairlead.kernels.text import KernelText
@@ -73,7 +73,7 @@ def plain(variant: Variant) -> tuple[Callable[..., None], Structure]:
     """
     import cmath
 
-    source, structure = write_source(variant)
+    source, structure = write_source(variant, 0)
     names: dict[str, Any] = {
         name: getattr(cmath, name) for name in ("exp", "log", "sqrt", "sin", "cos", "tan", "tanh", "atan")
     }

@@ -42,7 +42,7 @@ def _same_law(mine: Kernel, its: Kernel) -> bool:
         return True
     if mine.variant.type is not its.variant.type or _facts(mine) != _facts(its):
         return False
-    return write_source(mine.variant)[0] == write_source(its.variant)[0]
+    return write_source(mine.variant, 0)[0] == write_source(its.variant, 0)[0]
 
 
 def _facts(kernel: Kernel) -> str:
