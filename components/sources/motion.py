@@ -1,31 +1,20 @@
 """A motion given in time, along a line or of a shaft."""
 
-import itertools
-import math
-
 from fairlead.component import Component, Law, Output, Parameter, Rotational, Translational, Waveform, derived_wave
-from fairlead.component.piecewise import Sine
-from fairlead.component.values import Wave
 
 LEAST_JUMP = 1e-9  # m, or of the position; less is rounding of the pieces
 
 
 def jumps(path):
-    """(place, height) of every jump of a piecewise polynomial."""
-    for before, row in itertools.pairwise(path.rows):
-        left, right = (sum(c * (row[0] - piece[2]) ** k for k, c in enumerate(piece[3:])) for piece in (before, row))
-        if abs(right - left) > LEAST_JUMP * max(1.0, abs(left), abs(right)):
-            yield float(row[0]), float(right - left)
+    """(place, height) of every jump of a quantity in time."""
+    for at, height in path.jumps():
+        if abs(height) > LEAST_JUMP * max(1.0, abs(path(at))):
+            yield at, height
 
 
 def integrated(rate, origin):
     """A quantity in time whose rate is given, and which is `origin` at t = 0."""
-    path, sine = rate.polynomial.integral(0.0), rate.sine
-    swing = Sine()
-    if sine.amplitude != 0:
-        swing = Sine(sine.amplitude / sine.omega, sine.omega, sine.phase - math.pi / 2)
-    path.rows[:, 3] += origin - swing.amplitude * math.sin(swing.phase)
-    return Wave(path, swing)
+    return rate.integral(0.0).scaled(1.0, origin)
 
 
 class MotionSource(Component):
@@ -63,7 +52,7 @@ class MotionSource(Component):
         """Exactly one of the two ways."""
         if (p.velocity is None) == (p.position is None):
             yield "", "give either velocity or position", "A velocity is integrated from `origin`."
-        for at, jump in jumps(p.position.polynomial) if p.position is not None else ():
+        for at, jump in jumps(p.position) if p.position is not None else ():
             what = f"the position jumps by {jump:.3g} m at t = {at:g} s, which takes an infinite force"
             yield "position", what, "Give a ramp, or a velocity, which is integrated."
 
@@ -113,7 +102,7 @@ class SpeedSource(Component):
         """Exactly one of the two ways."""
         if (p.speed is None) == (p.angle is None):
             yield "", "give either speed or angle", "A speed is integrated from `origin`."
-        for at, jump in jumps(p.angle.polynomial) if p.angle is not None else ():
+        for at, jump in jumps(p.angle) if p.angle is not None else ():
             what = f"the angle jumps by {jump:.3g} rad at t = {at:g} s, which takes an infinite torque"
             yield "angle", what, "Give a ramp, or a speed, which is integrated."
 

@@ -9,7 +9,8 @@ import pytest
 from fairlead.component.given import Table, Waveform
 from fairlead.component.piecewise import constant, linear_table, monotone_cubic_table, pieces
 from fairlead.component.tables import read_table
-from fairlead.component.waveforms import add, read_waveform
+from fairlead.component.wave import added
+from fairlead.component.waveforms import read_waveform
 
 HERE = pathlib.Path()
 X, Y = [0.0, 1.0, 2.5, 3.0], [1.0, 3.0, 3.0, -1.0]
@@ -78,7 +79,7 @@ def test_a_piece_of_degree_four_cannot_be_integrated():
 
 def test_a_sum_has_the_borders_of_both_and_the_values_of_both():
     one, two = linear_table(X, Y), monotone_cubic_table([-1.0, 0.5, 2.5], [0.0, 1.0, 5.0])
-    both = add(one, two)
+    both = added(one, two)
     assert sorted(both.rows[1:, 0]) == sorted({*X, -1.0, 0.5, 2.5})
     for at in np.linspace(-2, 4, 121):
         assert both(at) == pytest.approx(one(at) + two(at), rel=1e-12, abs=1e-12)
@@ -86,7 +87,7 @@ def test_a_sum_has_the_borders_of_both_and_the_values_of_both():
 
 def test_nothing_added_is_the_other():
     table = linear_table(X, Y)
-    assert add(constant(0.0), table) is table
+    assert added(constant(0.0), table) is table
 
 
 WAVES = {

@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from fairlead.analysis.statics.schedule import Schedule, followed, rate, scaled
+from fairlead.analysis.statics.schedule import Schedule, followed
 from fairlead.component.given import Waveform
 from fairlead.component.waveforms import read_waveform
 
@@ -47,5 +47,5 @@ def test_what_changes_slowly_is_followed_as_it_is():
 
 def test_a_wave_is_scaled_and_differentiated_with_its_sine():
     given = wave({"constant": 1.0, "drift": {"rate": 2.0}, "sine": {"amplitude": 3.0, "frequency": 0.5}})
-    assert scaled(given, 2.0, 1.0)(0.7) == pytest.approx(2 * given(0.7) + 1)
-    assert rate(given)(0.7) == pytest.approx(2.0 + 3 * math.pi * math.cos(0.7 * math.pi))
+    assert given.scaled(2.0, 1.0)(0.7) == pytest.approx(2 * given(0.7) + 1)
+    assert given.derivative()(0.7) == pytest.approx(2.0 + 3 * math.pi * math.cos(0.7 * math.pi))

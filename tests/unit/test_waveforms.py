@@ -2,6 +2,7 @@
 
 import pathlib
 
+import numpy as np
 import pytest
 
 from fairlead.component.given import Waveform
@@ -11,6 +12,11 @@ from fairlead.component.waveforms import read_waveform
 HERE = pathlib.Path()
 LINE = {"ramp": {"to": 1, "over": 1}}
 SQUARE = {"product": {"of": LINE, "times": LINE}}
+SINE = {"amplitude": 2, "frequency": 1.5, "phase": 0.3}
+SLOW = {"amplitude": 0.5, "frequency": "0.2 Hz", "phase": -1, "offset": 0.25}
+RISING = {"product": {"of": {"sine": SINE}, "times": {"ramp": {"to": 1, "over": 2, "start": 0.5}}}}
+SLOWER = {"ramp": {"to": 1, "over": 3}}
+PARABOLA = {"product": {"of": {"sine": SLOW}, "times": {"product": {"of": LINE, "times": SLOWER}}}}
 
 
 def wave(given, unit="N"):
@@ -48,16 +54,73 @@ def test_a_product_multiplies_and_a_gate_lets_through_for_a_while():
     assert [gated(t) for t in (0.5, 2.0, 3.5)] == pytest.approx([1.0, 3.0, 1.0])
 
 
+def sine(t):
+    return 2 * np.sin(3 * np.pi * t + 0.3)
+
+
+def slow(t):
+    return 0.25 + 0.5 * np.sin(0.4 * np.pi * t - 1)
+
+
+def within(t, start, stop):
+    return (start <= t) & (t < stop)
+
+
+MODULATED = {
+    "several sines": ({"sine": [SINE, SLOW]}, lambda t: sine(t) + slow(t)),
+    "a sine and its opposite": ({"sine": [SINE, {**SINE, "amplitude": -2}], "constant": 3}, lambda t: 3 + 0 * t),
+    "an envelope": (RISING, lambda t: sine(t) * np.clip((t - 0.5) / 2, 0, 1)),
+    "a curved envelope": (PARABOLA, lambda t: slow(t) * np.clip(t, 0, 1) * np.clip(t / 3, 0, 1)),
+    "a burst": ({"gate": {"of": {"sine": SINE}, "start": 0.7, "stop": 2.1}}, lambda t: sine(t) * within(t, 0.7, 2.1)),
+    "a burst with an envelope": (
+        {"gate": {"of": RISING, "start": 1, "stop": 3}, "constant": 1},
+        lambda t: 1 + sine(t) * np.clip((t - 0.5) / 2, 0, 1) * within(t, 1, 3),
+    ),
+    "a sine by its own frequency": (
+        {"product": {"of": {"sine": SINE}, "times": {"sine": {**SINE, "phase": 1}}}},
+        lambda t: sine(t) * 2 * np.sin(3 * np.pi * t + 1),
+    ),
+    "side bands": ({"product": {"of": {"sine": SINE}, "times": {"sine": SLOW}}}, lambda t: sine(t) * slow(t)),
+    "a sine in pulses": (
+        {"product": {"of": {"sine": SINE}, "times": {"pulses": {"to": 1, "every": 1, "wide": 0.5, "count": 3}}}},
+        lambda t: sine(t) * within(t, 0, 3) * (t % 1 < 0.5),
+    ),
+    "a sine of no frequency": ({"gate": {"of": {"sine": {**SINE, "frequency": 0}}, "stop": 2}},
+                               lambda t: 2 * np.sin(0.3) * within(t, 0, 2)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MODULATED)
+def test_sines_are_added_multiplied_and_gated(name):
+    """Against numpy; the integral and the rate against quadrature and differences of the same formula."""
+    given, formula = MODULATED[name]
+    made = wave(given)
+    times = np.linspace(-1.003, 4.001, 700)
+    assert [made(t) for t in times] == pytest.approx(formula(times).tolist(), abs=1e-13)
+    fine = np.linspace(0, 4, 400_001)
+    middle = formula((fine[1:] + fine[:-1]) / 2)
+    total = np.concatenate([[0], np.cumsum(middle) * (fine[1] - fine[0])])
+    integral, rate = made.integral(0.0), made.derivative()
+    assert [integral(t) for t in fine[::20_000]] == pytest.approx(total[::20_000].tolist(), abs=1e-8)
+    smooth = [t for t in times if all(abs(t - border) > 2e-5 for border in made.borders)]
+    slopes = [(formula(t + 1e-5) - formula(t - 1e-5)) / 2e-5 for t in smooth]
+    assert [rate(t) for t in smooth] == pytest.approx(slopes, abs=1e-6)
+    assert all(abs(height) < 1e-12 for _, height in integral.jumps())
+
+
 @pytest.mark.parametrize(
     ("given", "path", "says"),
     [
         ({"ramp": [{"to": "3 N", "over": "1 s"}, {"to": "3 m", "over": "1 s"}]}, ("ramp", 1, "to"), "is a length"),
-        ({"sine": [{"amplitude": 1, "frequency": 1}] * 2}, ("sine", 1), "there is a sine already"),
+        ({"sine": [SINE, {"amplitude": "1 m", "frequency": 1}]}, ("sine", 1, "amplitude"), "is a length"),
+        ({"sine": [{"amplitude": 1, "frequency": k} for k in range(1, 20)]}, (), "these are 18 sines and more"),
+        ({"product": {"of": {"sine": [SINE, SLOW]}, "times": {"sine": {**SINE, "amplitude": "2 N"}}}},
+         ("product", "times", "sine", "amplitude"), "is a force, not a plain number"),
         ({"pulses": {"to": 1, "every": 1, "wide": 1, "count": 3}}, ("pulses",), "narrower than the time between"),
         ({"pulses": {"to": 1, "every": 1, "wide": 0.5, "count": 2.5}}, ("pulses", "count"), "no number of pulses"),
         ({"pulses": {"to": 1, "every": 1, "wide": 0.5, "count": 1e6}}, ("pulses", "count"), "no number of pulses"),
         ({"gate": {"of": 3, "start": 2, "stop": 1}}, ("gate", "stop"), "is not after start"),
-        ({"gate": {"of": {"sine": {"amplitude": 1, "frequency": 1}}, "stop": 1}}, ("gate", "of"), "a sine has no ends"),
+        ({"gate": {"of": {"sine": {"amplitude": 1}}, "stop": 1}}, ("gate", "of", "sine"), "frequency is missing"),
         ({"product": {"of": 3, "times": "2 N"}}, ("product", "times"), "is a force, not a plain number"),
         ({"product": {"of": 3}}, ("product",), "times is missing"),
         ({"product": {"of": SQUARE, "times": SQUARE}}, ("product",), "a degree above 3"),

@@ -24,7 +24,7 @@ from fairlead.component.values import Variant
 def dependencies(variant: Variant) -> str:
     """Text that changes whenever the traced laws of `variant` may change."""
     seen: set[int] = set()
-    pieces = [repr((variant.words, variant.absent))]
+    pieces = [repr((variant.words, variant.absent, variant.swings))]
     for base in variant.type.__mro__[:-1]:
         pieces += _of(base, seen)
     pieces += [f"{name}: {dependencies(part)}" for name, part in variant.parts]
@@ -47,8 +47,8 @@ def _looked_at(kind: Any) -> str:
 def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
-    tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols trace values "
-    tracing += "piecewise"
+    tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols terms trace "
+    tracing += "trace_readers values wave piecewise"
     files = [here / f"{name}.py" for name in tracing.split()]
     files += sorted((here.parent / "kernels").glob("*.py"))
     return "\n".join(file.read_text(encoding="utf-8") for file in files)

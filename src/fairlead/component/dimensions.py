@@ -23,6 +23,7 @@ from fairlead.component.declaration import Declaration
 from fairlead.component.given import Parameter, Table, Waveform
 from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TABLE, TIME, Key, key
 from fairlead.component.values import Variant
+from fairlead.component.wave import SWING
 from fairlead.quantities import KINDS, NONE, QuantityError, parse_unit, unit_text
 
 Dimension = tuple[Any, ...]
@@ -201,7 +202,7 @@ def _symbol(one: Key, variant: Variant) -> Dimension | None:
     if one.kind == PARAMETER:
         parameter = _declared(one.name, variant)
         if isinstance(parameter, Waveform):
-            return _told(parameter.unit) if one.part == "amplitude" else None
+            return _told(parameter.unit) if one.part == "amplitude" and f".{SWING}" not in one.name else None
         return _told(parameter.unit) if isinstance(parameter, Parameter) else None
     return _of_table(one, _declared(one.name, variant)) if one.kind == TABLE else None
 
@@ -217,6 +218,8 @@ def _of_table(one: Key, table: Any) -> Dimension | None:
 def _declared(path: str, variant: Variant) -> Any:
     """The declaration of a parameter, also of a part."""
     *parts, name = path.split(".")
+    if parts and name.startswith(SWING):
+        name = parts.pop()
     for part in parts:
         inner = dict(variant.parts).get(part)
         if inner is None:

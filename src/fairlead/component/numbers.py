@@ -61,4 +61,4 @@ def _of_one(name: str, declared: Any, value: Any) -> Iterator[tuple[str, tuple[f
 
 
 def _is_steady(wave: Wave) -> bool:
-    return wave.sine.amplitude == 0 and len(wave.polynomial.rows) == 1 and not wave.polynomial.rows[0, 4:].any()
+    return not wave.is_swinging and len(wave.polynomial.rows) == 1 and not wave.polynomial.rows[0, 4:].any()

@@ -12,6 +12,7 @@ from fairlead.component.piecewise import DEGREE
 from fairlead.component.replies import helper
 from fairlead.component.symbols import TraceError, inverse_mass, sine, symbol
 from fairlead.component.values import Variant
+from fairlead.component.wave import SWING
 from fairlead.errors import did_you_mean
 
 
@@ -34,7 +35,7 @@ class Recorder:
             return Recorder(parts[name], path + ".", self._reads)
         declared = has.parameters.get(name)
         if isinstance(declared, Table | Waveform) or (name in has.derived and has.derived[name].wave):
-            return TableReader(path, self._reads)
+            return TableReader(path, self._reads, dict(variant.swings).get(name, 0))
         if isinstance(declared, Choice | Count | Part):
             raise TraceError(f"{name!r} shapes the component and is not a number in its law")
         if declared is not None or name in has.derived:
@@ -49,8 +50,8 @@ class Recorder:
 class TableReader:
     """A table or a waveform inside a law: the polynomial of the interval in force."""
 
-    def __init__(self, path: str, reads: dict[str, sympy.Expr]) -> None:
-        self._path, self._reads = path, reads
+    def __init__(self, path: str, reads: dict[str, sympy.Expr], swings: int = 0) -> None:
+        self._path, self._reads, self._swings = path, reads, swings
 
     def __call__(self, x: Any) -> sympy.Expr:
         """Value at x."""
@@ -65,15 +66,27 @@ class TableReader:
         return self._derivative(x, 2)
 
     def _derivative(self, x: Any, order: int) -> sympy.Expr:
-        read = self._reads.setdefault(self._path, sympy.sympify(x))
-        if read != x:
-            raise TraceError(f"table {self._path!r} is read at two places in one zone: {read} and {x}")
-        at, s = sympy.Dummy("x"), symbol(f"T:{self._path}:0")
-        value = sum(symbol(f"T:{self._path}:{k + 1}") * (at - s) ** k for k in range(DEGREE + 1))
+        at = sympy.Dummy("x")
+        value = self._pieces(self._path, x, at)
         if x == symbol("t"):
-            amplitude, omega, phase = (symbol(sine(self._path, part)) for part in ("amplitude", "omega", "phase"))
-            value += amplitude * sympy.sin(omega * at + phase)
+            value += _sine(self._path, at)
+            for path in (f"{self._path}.{SWING}{k}" for k in range(self._swings)):
+                value += self._pieces(path, x, at) * _sine(path, at)
         return sympy.diff(value, at, order).subs(at, x)
+
+    def _pieces(self, path: str, x: Any, at: sympy.Symbol) -> sympy.Expr:
+        """The piece in force of a table, as a polynomial of `at`."""
+        read = self._reads.setdefault(path, sympy.sympify(x))
+        if read != x:
+            raise TraceError(f"table {path!r} is read at two places in one zone: {read} and {x}")
+        s = symbol(f"T:{path}:0")
+        return sum(symbol(f"T:{path}:{k + 1}") * (at - s) ** k for k in range(DEGREE + 1))
+
+
+def _sine(path: str, at: sympy.Symbol) -> sympy.Expr:
+    """What a quantity in time swings with."""
+    amplitude, omega, phase = (symbol(sine(path, part)) for part in ("amplitude", "omega", "phase"))
+    return amplitude * sympy.sin(omega * at + phase)
 
 
 class PortReader:

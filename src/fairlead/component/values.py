@@ -7,39 +7,17 @@ inertia are written the same way.
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from numbers import Real
 from typing import Any
 
 from fairlead.component.base import Declared
-from fairlead.component.piecewise import PiecewisePolynomial, Sine, constant
 from fairlead.component.replies import AnswerError, asked, helper, is_bundled, place_of
+from fairlead.component.wave import Wave, polynomial, steady
 from fairlead.errors import Fault
 
-
-@dataclass(frozen=True)
-class Wave:
-    """A quantity in time: a piecewise polynomial plus one sine."""
-
-    polynomial: PiecewisePolynomial
-    sine: Sine = field(default_factory=Sine)
-
-    def __call__(self, t: float) -> float:
-        """Value at time t."""
-        import math
-
-        return self.polynomial(t) + self.sine.amplitude * math.sin(self.sine.omega * t + self.sine.phase)
-
-
-def polynomial(value: PiecewisePolynomial | Wave) -> PiecewisePolynomial:
-    """The pieces of a table or of a quantity in time."""
-    return value.polynomial if isinstance(value, Wave) else value
-
-
-def steady(value: float) -> Wave:
-    """A wave that never changes."""
-    return Wave(constant(value))
+__all__ = ["Group", "Values", "Variant", "Wave", "number_given", "parameter", "polynomial", "steady", "variant_of"]
 
 
 class Values:
@@ -85,6 +63,9 @@ def _derived(values: Values, kind: type[Declared], name: str) -> Any:
         what = f"{place_of(one.function)}: {kind.__name__}.{name} gives {said!r}."
         wanted = "a quantity in time (a Wave)" if one.wave else "a number"
         raise AnswerError([Fault(None, what, f"What is derived from parameters is {wanted}.")])
+    if isinstance(said, Wave) and said.swings and not _given_swings(values):
+        what = f"{place_of(one.function)}: {kind.__name__}.{name} gives sines whose amplitudes change."
+        raise AnswerError([Fault(None, what, "Make them from a parameter declared as Waveform that has such.")])
     return said
 
 
@@ -123,6 +104,8 @@ class Variant:
     words: tuple[tuple[str, str], ...]
     parts: tuple[tuple[str, Variant], ...]
     absent: tuple[str, ...]
+    swings: tuple[tuple[str, int], ...] = ()
+    """Quantities in time with sines whose amplitudes change, and how many of them each has."""
 
     @property
     def label(self) -> str:
@@ -146,4 +129,23 @@ def _variant(values: Values) -> Variant:
         tuple((name, value) for name, value in given.items() if isinstance(value, str)),
         tuple((name, variant_of(value)) for name, value in given.items() if isinstance(value, Values)),
         tuple(name for name, value in given.items() if value is None),
+        tuple(_swings(values)),
     )
+
+
+def _swings(values: Values) -> Iterator[tuple[str, int]]:
+    """Of what is given in time and swings; what is derived from it may swing as well."""
+    if not _given_swings(values):
+        return
+    for name, one in values.type.declaration.derived.items():
+        if one.wave:
+            getattr(values, name)
+    for name, value in values.given.items():
+        if isinstance(value, Wave) and value.swings:
+            yield name, len(value.swings)
+
+
+def _given_swings(values: Values) -> bool:
+    """Whether a quantity in time that a user gave has sines whose amplitudes change."""
+    names = values.type.declaration.parameters
+    return any(isinstance(one := values.given.get(name), Wave) and bool(one.swings) for name in names)

@@ -8,10 +8,11 @@
     trapezoid: {to: 3 N, start: 0 s, rise: 1 s, stay: 5 s, fall: 1 s, from: 0 N}
     pulses: {to: 3 N, every: 1 s, wide: 0.2 s, count: 10, rise: 0 s, start: 0 s, from: 0 N}
     product: {of: {ramp: {to: 3 N, over: 1 s}}, times: {step: {to: 2, at: 5 s, from: 1}}}
-    gate: {of: {ramp: {to: 3 N, over: 1 s}}, start: 2 s, stop: 5 s}
+    gate: {of: {sine: {amplitude: 1 N, frequency: 2 Hz}}, start: 2 s, stop: 5 s}
     table: a table (tables.py), with t for x
 
-Several terms of a kind are a list: `ramp: [{to: 3 N, over: 1 s}, {to: -3 N, over: 1 s, start: 5 s}]`.
+Several terms of a kind are a list: `ramp: [{to: 3 N, over: 1 s}, {to: -3 N, over: 1 s, start: 5 s}]`. Whatever is a
+quantity in time may be a factor or be gated, also a sine, and a sum of them (wave.py).
 """
 
 from __future__ import annotations
@@ -22,18 +23,17 @@ import pathlib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fairlead.component.given import Waveform
-from fairlead.component.piecewise import DEGREE, FAR, PiecewisePolynomial, Sine, constant, pieces
+from fairlead.component.piecewise import DEGREE, PiecewisePolynomial, Sine, constant, pieces
 from fairlead.component.tables import MOST_POINTS, TableError, only, points, si_at
-from fairlead.component.values import Wave
+from fairlead.component.wave import Wave, add, steady, times
 from fairlead.errors import did_you_mean, listing
 from fairlead.quantities import QuantityError, wanted, written
 
 HIGHEST = DEGREE - 1
 """Degree of the pieces of a product; a velocity is integrated once more."""
+MOST_SINES = 16
+"""In one quantity in time; each is a term of the compiled law, and a product of sines has twice as many as both."""
 
 
 def read_waveform(value: Any, declared: Waveform, folder: pathlib.Path) -> Wave | None:
@@ -48,19 +48,23 @@ def _wave(value: Any, unit: str, folder: pathlib.Path) -> Wave:
         return Wave(constant(written(value, unit)))
     if not value:
         raise TableError("nothing is given", f"Give {listing(TERMS)}. Or: {wanted(unit)}")
-    polynomial: PiecewisePolynomial | None = None
-    sine = Sine()
+    whole: Wave | None = None
     for path, name, settings in _terms(value):
         try:
             term = TERMS[name](settings, unit, folder)
         except TableError as error:
             raise error.below(*path) from None
-        if isinstance(term, tuple):
-            if sine.amplitude != 0 and term[1].amplitude != 0:
-                raise TableError("there is a sine already", "Add others to the signal of one more source.", path)
-            term, sine = term
-        polynomial = term if polynomial is None else add(polynomial, term)
-    return Wave(constant(0.0) if polynomial is None else polynomial, sine)
+        term = term if isinstance(term, Wave) else Wave(term)
+        whole = term if whole is None else add(whole, term)
+    return _bearable(steady(0.0) if whole is None else whole)
+
+
+def _bearable(made: Wave) -> Wave:
+    """The wave, unless it has too many sines. Raises TableError."""
+    if len(made.swings) > MOST_SINES:
+        what = f"these are {len(made.swings)} sines and more, counting what products of sines make"
+        raise TableError(what, f"At most {MOST_SINES} in one quantity; add others to the signal of one more source.")
+    return made
 
 
 def _terms(value: Mapping[str, Any]) -> Iterator[tuple[tuple[str | int, ...], str, Any]]:
@@ -125,9 +129,9 @@ def _trapezoid(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolyn
     return _path_of_points(times, [s["from"], s["to"], s["to"], s["from"]])
 
 
-def _sine(settings: Any, unit: str, folder: pathlib.Path) -> tuple[PiecewisePolynomial, Sine]:
+def _sine(settings: Any, unit: str, folder: pathlib.Path) -> Wave:
     s = _numbers(settings, amplitude=(unit, None), frequency=("Hz", None), phase=("rad", 0.0), offset=(unit, 0.0))
-    return constant(s["offset"]), Sine(s["amplitude"], 2 * math.pi * s["frequency"], s["phase"])
+    return Wave(constant(s["offset"]), Sine(s["amplitude"], 2 * math.pi * s["frequency"], s["phase"]))
 
 
 def _table(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
@@ -158,81 +162,46 @@ def _pulses(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomi
     return _path_of_points(times, levels)
 
 
-def _product(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
+def _product(settings: Any, unit: str, folder: pathlib.Path) -> Wave:
     only(settings, {"of", "times"}, {"of", "times"})
-    return times(_piecewise(settings, "of", unit, folder), _piecewise(settings, "times", "1", folder))
+    return _times(_inner(settings, "of", unit, folder), _inner(settings, "times", "1", folder))
 
 
-def _gate(settings: Any, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
+def _gate(settings: Any, unit: str, folder: pathlib.Path) -> Wave:
     """What it is given between two times, zero before and after."""
     only(settings, {"of", "start", "stop"}, {"of", "stop"})
     start, stop = si_at(settings.get("start", 0.0), "s", "start"), si_at(settings["stop"], "s", "stop")
     if not stop > start:
         raise TableError(f" = {stop:g} s is not after start = {start:g} s", "A gate opens before it shuts.", ("stop",))
-    return times(_piecewise(settings, "of", unit, folder), pieces([start, stop], [[0.0], [1.0], [0.0]]))
+    return _times(_inner(settings, "of", unit, folder), Wave(pieces([start, stop], [[0.0], [1.0], [0.0]])))
 
 
-def _piecewise(settings: Mapping[str, Any], name: str, unit: str, folder: pathlib.Path) -> PiecewisePolynomial:
-    """A quantity in time that has pieces only. Raises TableError for one with a sine."""
+def _inner(settings: Mapping[str, Any], name: str, unit: str, folder: pathlib.Path) -> Wave:
+    """A quantity in time inside another."""
     try:
-        wave = _wave(settings[name], unit, folder)
+        return _wave(settings[name], unit, folder)
     except TableError as error:
         raise error.below(name) from None
     except QuantityError as error:
         raise TableError(f" = {error.what}", error.allowed, (name,)) from None
-    if wave.sine.amplitude != 0:
-        what = "a sine has no ends, and cannot be a factor"
-        raise TableError(what, "Multiply it in a class of your own, or give it as a table.", (name,))
-    return wave.polynomial
+
+
+def _times(a: Wave, b: Wave) -> Wave:
+    """The product; a velocity is integrated once more, so its pieces leave room for that. Raises TableError."""
+    try:
+        made = times(a, b)
+    except OverflowError:
+        made = None
+    if made is None or made.polynomial.rows[:, 4 + HIGHEST :].any():
+        what = f"the product has pieces of a degree above {HIGHEST}"
+        raise TableError(what, "Multiply straight lines and levels, such as ramps and steps.")
+    return _bearable(made)
 
 
 TERMS: dict[str, Callable[[Any, str, pathlib.Path], Any]] = {
     "constant": _constant, "ramp": _ramp, "step": _step, "drift": _drift, "sine": _sine, "trapezoid": _trapezoid,
     "pulses": _pulses, "product": _product, "gate": _gate, "table": _table,
 }  # fmt: skip
-
-
-def add(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
-    """Piece by piece over the borders of both."""
-    if len(a.rows) == 1 and not a.rows[0, 3:].any():
-        return b
-    borders, at, about = _common(a, b)
-    return pieces(borders, (_about(a, at, about) + _about(b, at, about)).tolist())
-
-
-def _common(
-    a: PiecewisePolynomial, b: PiecewisePolynomial
-) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """The borders of both; of every piece between them a place inside, and the reference its terms are about."""
-    borders = sorted({x for p in (a, b) for x in p.rows[1:, 0]})
-    starts = [-FAR, *borders]
-    references = [x if x > -FAR else (borders[0] if borders else 0.0) for x in starts]
-    inside = [(x + y) / 2 if x > -FAR and y < FAR else (y - 1 if x <= -FAR and y < FAR else x + 1 if x > -FAR else 0.0)
-              for x, y in zip(starts, [*borders, FAR], strict=True)]  # fmt: skip
-    return borders, np.array(inside), np.array(references)
-
-
-def _about(p: PiecewisePolynomial, at: NDArray[np.float64], references: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Coefficients (n, DEGREE + 1), about each reference, of the pieces that hold the places `at` (n,)."""
-    number = np.clip(np.searchsorted(p.rows[:, 0], at, side="right") - 1, 0, len(p.rows) - 1)
-    given = p.rows[number]
-    shift = (references - given[:, 2])[:, None]
-    made = np.zeros((len(at), DEGREE + 1))
-    for power in range(DEGREE, -1, -1):  # Horner's scheme in y = x + shift
-        made[:, 1:] = made[:, 1:] * shift + made[:, :-1]
-        made[:, :1] = made[:, :1] * shift + given[:, 3 + power : 4 + power]
-    return made
-
-
-def times(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
-    """The product, piece by piece over the borders of both. Raises TableError where its degree is too high."""
-    borders, at, about = _common(a, b)
-    one, other = _about(a, at, about), _about(b, at, about)
-    terms = [np.convolve(x, y) for x, y in zip(one, other, strict=True)]
-    if any(row[HIGHEST + 1 :].any() for row in terms):
-        what = f"the product has pieces of a degree above {HIGHEST}"
-        raise TableError(what, "Multiply straight lines and levels, such as ramps and steps.")
-    return pieces(borders, [row[: DEGREE + 1].tolist() for row in terms])
 
 
 def waveform_schema(declared: Waveform) -> dict[str, Any]:

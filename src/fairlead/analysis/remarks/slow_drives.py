@@ -44,7 +44,7 @@ def slow_drives(flat: FlatModel, solved: Iterable[Statics]) -> Iterator[Fault]:
 def most(flat: FlatModel, wave: Wave) -> float:
     """Largest size of a wave in the time of the run."""
     run = flat.assembly.netlist.run
-    corners = [float(t) for t in wave.polynomial.rows[1:, 0] if run.start <= t <= run.stop]
+    corners = [t for t in wave.borders if run.start <= t <= run.stop]
     times = [*np.linspace(run.start, run.stop, LOOKS).tolist(), *corners]
     return max(abs(wave(t)) for t in times)
 

@@ -110,9 +110,10 @@ def _period(where: str, value: Any, node: Value, netlist: Netlist) -> Iterator[F
 
 def _late(where: str, wave: Wave, node: Value, netlist: Netlist) -> Iterator[Fault]:
     """A quantity in time of which nothing happens before the run is over."""
-    rows, stop = wave.polynomial.rows, netlist.run.stop
-    begins = float(rows[1, 0]) if len(rows) > 1 else -np.inf
-    if wave.sine.amplitude == 0 and np.all(rows[0, 4:] == 0) and begins > stop:
+    stop = netlist.run.stop
+    begins = wave.borders[0] if wave.borders else -np.inf
+    swings = wave.sine.amplitude != 0 or any(swing.polynomial.rows[0, 3:].any() for swing in wave.swings)
+    if not swings and np.all(wave.polynomial.rows[0, 4:] == 0) and begins > stop:
         place = _of_time(node) or node.where
         what = f"{where} changes first at {begins:g} s, and the run ends at run.stop = {stop:g} s."
         yield Fault(place, what, "Let it begin earlier, or the run end later.")

@@ -49,7 +49,7 @@ def slowest_drive(instances: Iterable[Instance]) -> Scale | None:
 
 def _steady_speeds(motion: Wave) -> Iterator[float]:
     """Slopes of the straight pieces of a motion in time; one with a sine stands still now and then."""
-    if motion.sine.amplitude != 0:
+    if motion.is_swinging:
         return
     for row in polynomial(motion).rows:
         if not row[5:].any() and abs(row[4]) > STILL:

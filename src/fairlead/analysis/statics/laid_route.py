@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fairlead.analysis.statics.machines import Machine, machine
-from fairlead.analysis.statics.schedule import Schedule, scaled
+from fairlead.analysis.statics.schedule import Schedule
 from fairlead.analysis.statics.tracing import trace
 from fairlead.brief import in_a_line
 from fairlead.component.along import OfLine, OfRoute
@@ -161,7 +161,7 @@ class LaidRoute:
     def line_speed(self, drive: Machine) -> Wave:
         """The speed of the line [m/s] that a machine gives."""
         assert drive.speed is not None
-        return scaled(drive.speed, self.lever(drive, 0.0))
+        return drive.speed.scaled(self.lever(drive, 0.0))
 
     def pull(self, drive: Machine, t: float, speed: float, way: float) -> float:
         """Force outboard [N] that a machine gives to the line."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from fairlead.analysis.statics.schedule import rate, scaled
 from fairlead.analysis.statics.tracing import Traced, answer, trace
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.values import Wave, steady
@@ -54,7 +53,7 @@ class Machine:
         waves = [told for _, _, _, told in self.efforts if told is not None]
         given = [one for instance, *_ in self.efforts for one in instance.values.given.values()]
         waves += [one for one in given if isinstance(one, Wave)]
-        return [float(t) for wave in waves for t in wave.polynomial.rows[1:, 0]]
+        return [t for wave in waves for t in wave.borders]
 
 
 def bodies(flat: FlatModel, port: PortRef, without: tuple[str, ...] = ()) -> dict[int, float]:
@@ -121,7 +120,8 @@ def _prescribed(flat: FlatModel, prescribed: Any, ratio: float) -> Wave | None:
     _, own, _ = flat.place(prescribed.by)
     if not source.type.answers.moves_as:
         return None
-    return scaled(rate(getattr(source.values, source.type.answers.moves_as)), 1 / (own * ratio))
+    moves: Wave = getattr(source.values, source.type.answers.moves_as)
+    return moves.derivative().scaled(1 / (own * ratio))
 
 
 def _inertia(flat: FlatModel, group: int, line: str) -> float:
@@ -188,5 +188,5 @@ def _controlled(flat: FlatModel, ratios: dict[int, float]) -> Traced | None:
         told = reference.told()
         if told is not None:
             slope = measured.factor * ratio * ratios[group]
-            return Traced(instance.path, wave=scaled(told, 1 / slope, -measured.offset / slope))
+            return Traced(instance.path, wave=told.scaled(1 / slope, -measured.offset / slope))
     return None

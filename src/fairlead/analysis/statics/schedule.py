@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fairlead.brief import in_a_line
-from fairlead.component.piecewise import PiecewisePolynomial, Sine, linear_table
+from fairlead.component.piecewise import FAR, constant, linear_table
 from fairlead.component.values import Wave, steady
 
 STILL = 1e-9  # m/s; less is rest
@@ -44,20 +44,16 @@ class Schedule:
 
     def way(self, t: float) -> float:
         """Way since the begin [m]."""
-        path, sine = self._path, self.wave.sine
-        if not sine.amplitude:
-            return path(t)
-        swing = [math.cos(sine.omega * at + sine.phase) for at in (self.begin, t)]
-        return path(t) + sine.amplitude / sine.omega * (swing[0] - swing[1])
+        return self._path(t)
 
     @functools.cached_property
-    def _path(self) -> PiecewisePolynomial:
-        return self.wave.polynomial.integral(self.begin)
+    def _path(self) -> Wave:
+        return self.wave.integral(self.begin)
 
     def stretches(self) -> list[Stretch]:
         """All of them, in order; a speed that swings has none."""
         found: list[Stretch] = []
-        for begin, end, row in self._pieces() if not self.wave.sine.amplitude else ():
+        for begin, end, row in self._pieces() if not self.wave.is_swinging else ():
             if row[4:].any():
                 continue
             if found and found[-1].end == begin and found[-1].speed == row[3]:
@@ -80,12 +76,13 @@ class Schedule:
 
     def _looks(self, sign: int) -> Iterator[tuple[float, float]]:
         """The instant of every piece at which the speed is greatest in a direction."""
-        sine = self.wave.sine
         for begin, end, row in self._pieces():
-            t = np.linspace(begin, end, LOOKS if row[5:].any() or sine.amplitude else 2)
-            speed = np.polynomial.polynomial.polyval(t - row[2], row[3:]) + sine.amplitude * np.sin(
-                sine.omega * t + sine.phase
-            )
+            t = np.linspace(begin, end, LOOKS if row[5:].any() or self.wave.is_swinging else 2)
+            speed = np.polynomial.polynomial.polyval(t - row[2], row[3:])
+            for part in self.wave.parts:
+                k = part.polynomial.piece_at((begin + end) / 2)
+                size = np.polynomial.polynomial.polyval(t - part.polynomial.rows[k, 2], part.polynomial.rows[k, 3:])
+                speed = speed + size * np.sin(part.omega * t + part.phase)
             k = int((sign * speed).argmax())
             yield float(t[k]), float(speed[k])
 
@@ -102,32 +99,35 @@ class Schedule:
 
     def accelerations(self) -> Iterator[tuple[float, float, float]]:
         """(t, speed, acceleration) at both ends of every piece in which the speed changes; steps are left out."""
-        swing = self.wave.sine.amplitude * self.wave.sine.omega
+        swing = self._swing
         for begin, end, row in self._pieces():
             for t in (begin, end) if row[4:].any() or swing else ():
                 slope = np.polynomial.polynomial.polyval(t - row[2], row[4:] * np.arange(1, len(row) - 3))
                 yield t, self.speed(t), float(slope) + math.copysign(swing, slope or 1.0)
 
+    @functools.cached_property
+    def _swing(self) -> float:
+        """The largest acceleration that sines add."""
+        whole = abs(self.wave.sine.amplitude * self.wave.sine.omega)
+        if not self.wave.swings:
+            return whole
+        swings = Wave(constant(0.0), swings=self.wave.swings).derivative()
+        return whole + max(abs(swings(float(t))) for t in np.linspace(self.begin, self.end, LOOKS))
+
     def _pieces(self) -> Iterator[tuple[float, float, np.ndarray]]:
-        for row in self.wave.polynomial.rows:
-            begin, end = max(float(row[0]), self.begin), min(float(row[1]), self.end)
+        """Times between two borders, with the row of the pieces that do not swing."""
+        path = self.wave.polynomial
+        borders = [-FAR, *self.wave.borders, FAR]
+        for left, right in itertools.pairwise(borders):
+            begin, end = max(left, self.begin), min(right, self.end)
             if end > begin:
-                yield begin, end, row
-
-
-def scaled(wave: Wave, factor: float, offset: float = 0.0) -> Wave:
-    """The wave factor * wave + offset."""
-    rows = wave.polynomial.rows.copy()
-    rows[:, 3:] *= factor
-    rows[:, 3] += offset
-    sine = wave.sine
-    return Wave(PiecewisePolynomial(rows), Sine(sine.amplitude * factor, sine.omega, sine.phase))
+                yield begin, end, path.rows[path.piece_at((begin + end) / 2)]
 
 
 def followed(wave: Wave, most: float, begin: float, end: float) -> Wave:
     """What follows a wave from zero at `begin`, at a rate of at most `most`: straight lines until `end`."""
-    corners = [float(t) for t in wave.polynomial.rows[1:, 0] if begin < t < end]
-    straight = not (wave.polynomial.rows[:, 5:].any() or wave.sine.amplitude)
+    corners = [t for t in wave.borders if begin < t < end]
+    straight = not (wave.polynomial.rows[:, 5:].any() or wave.is_swinging)
     looks = [] if straight else np.linspace(begin, end, LOOKS).tolist()
     borders = sorted({begin, end, *corners, *looks})
     times, values = [begin], [0.0]
@@ -151,13 +151,6 @@ def _just(wave: Wave, left: float, right: float) -> tuple[float, float]:
     """Values just right of one border and just left of the next."""
     tiny = 1e-9 * (right - left)
     return wave(left + tiny), wave(right - tiny)
-
-
-def rate(wave: Wave) -> Wave:
-    """The derivative of a wave."""
-    sine = wave.sine
-    swing = Sine(sine.amplitude * sine.omega, sine.omega, sine.phase + math.pi / 2)
-    return Wave(wave.polynomial.derivative(), swing)
 
 
 def _sign(speed: float) -> int:

@@ -20,7 +20,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
-from fairlead.analysis.statics.schedule import followed, scaled
+from fairlead.analysis.statics.schedule import followed
 from fairlead.component.class_checks import DeclarationError
 from fairlead.component.given import Waveform
 from fairlead.component.instantiate import Instance, PortRef
@@ -45,7 +45,7 @@ class Traced:
 
     def told(self) -> Wave | None:
         """The signal in time, if it does not depend on what moves."""
-        return scaled(self.wave, self.factor, self.offset) if self.wave is not None else None
+        return self.wave.scaled(self.factor, self.offset) if self.wave is not None else None
 
 
 def trace(flat: FlatModel, target: PortRef, links: int = 0) -> Traced | None:

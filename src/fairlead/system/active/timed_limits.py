@@ -61,7 +61,7 @@ def _beats(block: Block, start: float, stop: float, moves: Moves) -> Booleans:
 
 def _moves(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool:
     """True if this quantity in time varies inside a piece in force between start and stop."""
-    if isinstance(given, Wave) and given.sine.amplitude and given.sine.omega:
+    if any(turns > 0 for turns in _swings(given, start, stop)):
         return True
     rows = polynomial(given).rows
     some = (rows[:, 1] > start) & (rows[:, 0] < stop)
@@ -70,12 +70,21 @@ def _moves(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool
 
 def _turns(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool:
     """True if this quantity in time turns up and down OFTEN between start and stop; a curved piece is a turn."""
-    if isinstance(given, Wave) and given.sine.amplitude and abs(given.sine.omega) * (stop - start) >= OFTEN * np.pi:
+    if any(turns >= OFTEN for turns in _swings(given, start, stop)):
         return True
     rows = polynomial(given).rows
     slopes = rows[(rows[:, 1] > start) & (rows[:, 0] < stop), FIRST_SLOPE:]
     ways = np.sign(slopes[:, 0])[slopes[:, 0] != 0.0]
     return bool(np.count_nonzero(np.diff(ways)) + np.count_nonzero(slopes[:, 1:].any(axis=1)) >= OFTEN)
+
+
+def _swings(given: PiecewisePolynomial | Wave, start: float, stop: float) -> Iterator[float]:
+    """How often each sine of a quantity in time turns between start and stop, while its amplitude is not zero."""
+    for part in given.parts if isinstance(given, Wave) else ():
+        rows = part.polynomial.rows
+        rows = rows[rows[:, FIRST_SLOPE - 1 :].any(axis=1)]
+        lasts = np.clip(rows[:, 1], start, stop) - np.clip(rows[:, 0], start, stop)
+        yield float(abs(part.omega) * lasts.sum() / np.pi)
 
 
 def _spread(system: System, beating: list[Booleans]) -> Booleans:
