@@ -9,14 +9,14 @@ class FlowSource(Component):
     inlet = Hydraulic("from the tank")
     outlet = Hydraulic("where it goes")
     flow = Waveform("m^3/s", "Flow in time.")
-    given = Output("m^3/s", "The flow.")
+    moved = Output("m^3/s", "The flow.", name="flow")
     power = Output("W", "Hydraulic power given.")
 
     def law(p, inlet, outlet, t):
         """What moves it supplies what the pressure takes."""
         flow = p.flow(t)
         power = flow * (outlet.pressure - inlet.pressure)
-        return Law(inlet=flow, outlet=-flow, given=flow, power=power, supplied=power)
+        return Law(inlet=flow, outlet=-flow, flow=flow, power=power, supplied=power)
 
 
 class FlowActuator(Component):

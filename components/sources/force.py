@@ -8,12 +8,12 @@ class ForceSource(Component):
 
     flange = Translational("where the force acts")
     force = Waveform("N", "Force in time, positive towards +x.")
-    applied = Output("N", "The force.")
+    applied = Output("N", "The force.", name="force")
 
     def law(p, flange, t):
         """The flange takes in the opposite of the force it gives."""
         force = p.force(t)
-        return Law(flange=-force, applied=force, supplied=force * flange.v)
+        return Law(flange=-force, force=force, supplied=force * flange.v)
 
 
 class ForceActuator(Component):

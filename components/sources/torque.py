@@ -8,12 +8,12 @@ class TorqueSource(Component):
 
     shaft = Rotational("where the torque acts")
     torque = Waveform("N*m", "Torque in time, positive forward.")
-    applied = Output("N*m", "The torque.")
+    applied = Output("N*m", "The torque.", name="torque")
 
     def law(p, shaft, t):
         """The shaft takes in the opposite of the torque it gives."""
         torque = p.torque(t)
-        return Law(shaft=-torque, applied=torque, supplied=torque * shaft.speed)
+        return Law(shaft=-torque, torque=torque, supplied=torque * shaft.speed)
 
 
 class TorqueActuator(Component):

@@ -26,13 +26,16 @@ def picked(names: Collection[str], pattern: str) -> list[str]:
     Where none does, the old name of an output (`rotor.rate`) stands for that of today.
     """
     found = _picked(names, pattern)
-    return found or _picked(names, as_today(names, pattern))
+    if found:
+        return found
+    fit = {name for today in as_today(names, pattern) for name in _picked(names, today)}
+    return [name for name in names if name in fit] if fit else []
 
 
-def as_today(names: Collection[str], pattern: str) -> str:
-    """The pattern with today's name of an output, if only so it fits; else ""."""
+def as_today(names: Collection[str], pattern: str) -> list[str]:
+    """The pattern with today's names of an output, those that fit, if only so it fits."""
     today = of_today(pattern)
-    return today if today and not _picked(names, pattern) and _picked(names, today) else ""
+    return [one for one in today if _picked(names, one)] if today and not _picked(names, pattern) else []
 
 
 def _picked(names: Collection[str], pattern: str) -> list[str]:

@@ -8,24 +8,24 @@ from __future__ import annotations
 from collections.abc import Collection
 
 OUTPUTS = {
-    "turned": "angle", "rate": "speed",
-    **{f"level{side}": f"pressure{side}" for side in ("", "_a", "_b", "_?", "_*", "*")},
+    "turned": ("angle",), "rate": ("speed",), "applied": ("force", "torque"), "given": ("flow",),
+    **{f"level{side}": (f"pressure{side}",) for side in ("", "_a", "_b", "_?", "_*", "*")},
 }  # fmt: skip
-"""The old name of an output by the one it has: that of the port. Sides of a drive are often asked for by a pattern."""
+"""What an output of an old name may be called: as its port. Sides of a drive are often asked for by a pattern."""
 
 
-def word_of_today(last: str) -> str:
-    """The same of its last word alone."""
-    return OUTPUTS.get(last, "")
+def word_of_today(last: str, known: Collection[str]) -> str:
+    """The same of its last word alone, by the names that its owner has."""
+    return next((today for today in OUTPUTS.get(last, ()) if today in known), "")
 
 
-def of_today(name: str) -> str:
-    """A dotted name or pattern whose last word is one of the old ones, as it is today; else ""."""
+def of_today(name: str) -> list[str]:
+    """A dotted name or pattern whose last word is one of the old ones, as it may be today."""
     owner, dot, last = name.rpartition(".")
-    return f"{owner}.{OUTPUTS[last]}" if dot and last in OUTPUTS else ""
+    return [f"{owner}.{today}" for today in OUTPUTS.get(last, ())] if dot else []
 
 
 def now_called(name: str, known: Collection[str]) -> str:
     """Today's name of what nothing in `known` is called any more; "" where the name is right, or means nothing."""
-    today = of_today(name) if name not in known else ""
-    return today if today in known else ""
+    today = of_today(name) if name not in known else []
+    return next((one for one in today if one in known), "")

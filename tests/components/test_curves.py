@@ -153,7 +153,7 @@ def test_no_load_at_all_is_no_trouble_for_a_power_of_it(simulate):
         type: ForceSource
         force: {trapezoid: {from: -1 N, to: 10 N, start: 0.1 s, rise: 0.1 s, stay: 0.1 s, fall: 0.1 s}}
       anvil: {type: Mass, mass: 1e9 kg}
-    connections: [[press.flange, anvil.flange], [press.applied, pad.normal], """,
+    connections: [[press.flange, anvil.flange], [press.force, pad.normal], """,
     )
     for method in ("hold", "binding", "lugre"):
         result = simulate(text, method=method, speed="1 m/s")

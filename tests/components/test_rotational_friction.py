@@ -77,7 +77,7 @@ def test_a_clutch_pressed_by_a_signal_locks_when_its_impulse_is_spent(simulate):
         "    connections: [",
         """      press: {type: ForceSource, force: {ramp: {to: 1 kN, over: 1 s}}}
       piston: {type: Mass, mass: 1e9 kg}
-    connections: [[press.flange, piston.flange], [press.applied, clutch.normal], """,
+    connections: [[press.flange, piston.flange], [press.force, clutch.normal], """,
     )
     result = simulate(text)
     (locked,) = [event.t for event in result.events if event.zone_to == "held" and event.t > 0.1]

@@ -169,7 +169,7 @@ record: {{every: 10 ms}}
 """
     result = simulate(text)
     slips = np.abs(result["rope.node[24].v"]) > 5e-3  # the first node in the clamp
-    force = result["grow.applied"][np.argmax(slips)]
+    force = result["grow.force"][np.argmax(slips)]
     assert force == pytest.approx(2 * 0.6 * 500 * 1.5, abs=2 * 0.6 * 500 * 0.125)
 
 

@@ -53,7 +53,7 @@ run: {stop: 1 s, accuracy: 1e-4, engine: rodas, max_steps: 1000}
 record:
   signals: ["cable.line[*].tension", "block.?"]
   every: 10 ms
-  plots: [{title: Pull, signals: [hand.applied], file: pull.png, kind: lines}]
+  plots: [{title: Pull, signals: [hand.force], file: pull.png, kind: lines}]
 limits: {"cable.line[*].tension": {above: -1 kN, below: 10 kN}}
 """
 BESIDE: dict[str, bytes] = {

@@ -31,7 +31,7 @@ connections:
   - [cable.path, route.path]
   - [hand.flange, cable.outboard]
 run: {stop: 1 s}
-record: {signals: ["SIGNALS"], plots: [{signals: [hand.applied], file: "PLOT"}]}
+record: {signals: ["SIGNALS"], plots: [{signals: [hand.force], file: "PLOT"}]}
 """
 USUAL = {
     "MORE": "tension: 1 N", "STATIONS": "[{type: Guide, length: 60 m, friction: 0.3}]", "FORCE": "1 N",
@@ -109,7 +109,7 @@ def test_a_fault_inside_a_table_file_names_the_row(tmp_path):
 ])  # fmt: skip
 def test_a_figure_that_could_not_be_written_is_refused_before_the_run(tmp_path, name, said):
     found = refused(tmp_path, line(plot=name))
-    assert "a.yaml:10:71: record.plots[0].file = " in found
+    assert "a.yaml:10:69: record.plots[0].file = " in found
     assert said in found
 
 

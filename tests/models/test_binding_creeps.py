@@ -116,4 +116,4 @@ def test_sloping_faces_break_away_at_stiction_and_not_above(simulate) -> None:
     result = simulate(text)
     assert result["pad.friction"].max() <= 5.0 * (1 + 1e-9)
     first = next(event for event in result.events if event.zone_to in ("slide_forward", "break_forward"))
-    assert 4.9 < result.at("push.applied", first.t) <= 5.0 + 1e-6
+    assert 4.9 < result.at("push.force", first.t) <= 5.0 + 1e-6

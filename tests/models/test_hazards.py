@@ -170,7 +170,7 @@ def test_h7_a_contact_that_loses_its_load_lets_go_in_time(scene, tmp_path):
           - [ground.flange, pad.a]
           - [pad.b, block.flange, pull.flange]
           - [press.flange, anvil.flange]
-          - [press.applied, pad.normal]
+          - [press.force, pad.normal]
         run: {stop: 1.5 s, accuracy: 1e-7}
     """
     result = ran(scene, tmp_path, text)

@@ -47,7 +47,7 @@ def test_a_cycle_of_the_couple_turns_what_masing_says_into_heat(tmp_path):
     result = fairlead.load(scene, set={"run.stop": "20 s", "friction.method": "hold"}).run(out=tmp_path / "run")
     assert result.status == "finished"
     cycle = result.t >= 4.0
-    work = np.trapezoid(result["hand.applied"][cycle], result["line.twist[80].angle"][cycle])
+    work = np.trapezoid(result["hand.force"][cycle], result["line.twist[80].angle"][cycle])
     assert work == pytest.approx(ANCHOR.loop_energy(COUPLE), rel=0.01)  # inertia of the line at this pace: 0.4 %
 
 

@@ -51,7 +51,7 @@ def travelling_chain(edge: float, nodes: int = 20, strain: float = 0.0) -> str:
         beside = [f"load{k}.{port}" for k, port in ((i + 1, "behind"), (i - 1, "ahead")) if 0 <= k < nodes]
         beside += [f"load{i}.behind"] * (i == 0) + [f"load{i}.ahead"] * (i == nodes - 1)
         joins += [f"[node{i}.flange, load{i}.flange, {', '.join(beside)}]"]
-        joins += [f"[pull.applied, load{i}.{side}]" for side in ("hose_in", "hose_out")]
+        joins += [f"[pull.force, load{i}.{side}]" for side in ("hose_in", "hose_out")]
     components = "\n".join(f"  {line}" for line in lines)
     connections = "\n".join(f"  - {join}" for join in joins)
     return f"""

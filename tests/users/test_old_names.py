@@ -5,7 +5,10 @@ import pathlib
 import pytest
 
 import fairlead
+from fairlead.component import Component
 from fairlead.component.registry import known_types
+from fairlead.component.symbols import symbol
+from fairlead.describe.specimen import traced_specimen
 from fairlead.errors import RunWarning
 from tests.mistakes.bases import DRILL
 from tests.mistakes.entry import damaged
@@ -106,3 +109,80 @@ def test_no_part_calls_a_pressure_a_level():
         if its.unit == "Pa" and output.startswith("level")
     ]
     assert not told
+
+
+SOURCES = """
+schema: 1
+name: sources
+components:
+  hand: {type: ForceSource, force: 3 N}
+  body: {type: Mass, mass: 1 kg}
+  motor: {type: TorqueSource, torque: 2 N*m}
+  rotor: {type: Inertia, moment: 1 kg*m^2}
+  tank: {type: Tank}
+  pump: {type: FlowSource, flow: 1 L/min}
+  seen: {type: SignalGain, gain: 2}
+connections:
+  - [hand.flange, body.flange]
+  - [motor.shaft, rotor.shaft]
+  - [tank.port, pump.inlet, pump.outlet]
+  - [motor.applied, seen.value]
+record: {signals: ["*.applied", pump.given, seen.signal]}
+run: {stop: 0.1 s}
+"""
+
+
+def test_sources_tell_what_they_give_by_the_name_of_their_port(tmp_path):
+    (tmp_path / "sources.yaml").write_text(SOURCES, encoding="utf-8")
+    model = fairlead.load(tmp_path / "sources.yaml")
+    told = {fault.what for fault in model.check() if "is called" in fault.what}
+    new = {"*.applied": "*.force or *.torque", "pump.given": "pump.flow", "motor.applied": "motor.torque"}
+    assert told == {f"{old} is called {today} now; the old name still works." for old, today in new.items()}
+    result = model.run(out=None)
+    assert {signal.name for signal in result.signals} == {"hand.force", "motor.torque", "pump.flow", "seen.signal"}
+    assert result["motor.torque"][-1] == result["seen.signal"][-1] / 2 == 2
+    with pytest.warns(RunWarning, match=r"hand\.applied is called hand\.force now"):
+        assert (result["hand.applied"] == 3).all()
+    run = model.start()
+    assert run.get("hand.applied") == run.get("hand.force") == 3
+
+
+OF_THEIR_OWN = {
+    "tension": "a force that pulls both ends towards each other", "friction": "what friction gives",
+    "size": "without sign", "pull": "what a tail pulls with", "drag": "what water gives", "load": "what gravity gives",
+    "skew": "the part of a loss that turns with the load",
+}  # fmt: skip
+"""Outputs that say more than their port does."""
+TAKEN = {"HeatActuator.given": "its input is called heat"}
+
+
+def test_an_output_that_tells_what_a_port_carries_or_how_it_moves_bears_the_name_of_that():
+    """Over all classes, by what their laws say, not by their names."""
+    wrong = []
+    for name, part in known_types().items():
+        if issubclass(part, Component) and any(_suspects(part.declaration)):
+            wrong += [f"{name}.{output}" for output in _named_otherwise(traced_specimen(part))]
+    assert sorted(set(wrong)) == sorted(TAKEN)
+
+
+def _suspects(has):
+    """Outputs in the unit of what a port carries or of how it moves, with another name: the others need no look."""
+    known = {(n, unit) for port in has.ports.values() for n, unit in (*port.domain.across, port.domain.through)}
+    for output, its in has.outputs.items():
+        names = {n for n, unit in known if unit == its.unit}
+        yield bool(names) and not names & set(output.split("_")) and output not in OF_THEIR_OWN
+
+
+def _named_otherwise(traced):
+    for zone in traced.zones.values():
+        for output, said in zone.outputs.items():
+            for name, carried in _of_ports(traced, zone):
+                same = said != 0 and not said.is_number and carried in (said, -said)
+                if same and name not in output.split("_") and output not in OF_THEIR_OWN:
+                    yield output
+
+
+def _of_ports(traced, zone):
+    for port, its in traced.variant.type.declaration.ports.items():
+        yield its.domain.through[0], zone.flows.get(port, 0)
+        yield from ((n, symbol(f"port:{port}:{k}")) for (n, _), k in zip(its.domain.across, "xv", strict=False))

@@ -81,5 +81,5 @@ def _wrong_end(end: Any, said: Expansion) -> Iterator[str]:
         return
     of = child.type.declaration
     known = {**of.ports, **of.inputs, **of.outputs}
-    if port not in known and word_of_today(port) not in known:
+    if port not in known and not word_of_today(port, known):
         yield f"joins {end}, and {child.type.__name__} has {listing(known)}. {did_you_mean(port, known)}".rstrip()

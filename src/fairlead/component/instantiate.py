@@ -28,7 +28,7 @@ from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, 
 from fairlead.netlist.braces import in_braces
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
-from fairlead.renamed import word_of_today
+from fairlead.renamed import OUTPUTS, word_of_today
 
 ENDS = ("flange", "shaft", "port")
 """Ports of many parts with one end, taken for one that is called otherwise."""
@@ -321,12 +321,12 @@ def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
 
 def _as_today(assembly: Assembly, owner: str, port: str) -> str:
     """What a component calls an output that the netlist gives its old name; else the name as it is."""
-    today = word_of_today(port)
-    if not today or f"{owner}.{port}" in assembly.aliases:
+    if port not in OUTPUTS or f"{owner}.{port}" in assembly.aliases:
         return port
     has = assembly.instances[owner].type.declaration if owner in assembly.instances else Declaration()
     known = {**has.ports, **has.inputs, **has.outputs}
-    return today if port not in known and (today in known or f"{owner}.{today}" in assembly.aliases) else port
+    outer = {today for today in OUTPUTS[port] if f"{owner}.{today}" in assembly.aliases}
+    return port if port in known else word_of_today(port, {*known, *outer}) or port
 
 
 def _only_free(assembly: Assembly, owner: str, ports: Iterable[str]) -> str:

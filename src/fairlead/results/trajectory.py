@@ -220,11 +220,12 @@ class Result:
 
     def _of_old(self, pattern: str) -> list[str]:
         """The signals that an old name of an output means; it warns of that."""
-        today = of_today(pattern) if isinstance(pattern, str) else ""
-        found = matching(self._signals, today) if today else []
+        fit = {one: matching(self._signals, one) for one in (of_today(pattern) if isinstance(pattern, str) else ())}
+        found = {name for names in fit.values() for name in names}
         if found:
+            today = " or ".join(one for one, names in fit.items() if names)
             warnings.warn(f"{pattern} is called {today} now; write that.", RunWarning, stacklevel=4)
-        return found
+        return [name for name in self._signals if name in found]
 
     def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
         """Return the value of a signal at the times `t` [s] (a number or an array).

@@ -19,7 +19,7 @@ connections:
   - [floor.flange, pad.a]
   - [pad.b, block.flange, pull.flange]
   - [press.flange, anvil.flange]
-  - [press.applied, pad.normal]
+  - [press.force, pad.normal]
 friction: {method: hold}
 run: {stop: 4 s, accuracy: 1e-6}
 record: {signals: [block.*, pad.*], every: 5 ms}

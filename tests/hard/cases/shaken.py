@@ -45,7 +45,7 @@ def two_blocks_on_a_belt_that_are_shaken(play: Play, accuracy: float) -> None:
         slides = (np.abs(slip) > play.by(1e-4, 5 * play.creep)) & (result.side == 0)
         play.near(f"friction of {pad}", (force * np.sign(slip))[slides], 0.6 * limit, 1e-6 * limit)
     t = result.t
-    forces = -result["hook.tension"] - result["pad_one.friction"] - result["pad_two.friction"] + result["shake.applied"]
+    forces = -result["hook.tension"] - result["pad_one.friction"] - result["pad_two.friction"] + result["shake.force"]
     impulse = np.concatenate([[0], np.cumsum(np.diff(t) * (forces[1:] + forces[:-1]) / 2)])
     momentum = result["one.v"] + 0.7 * result["two.v"]
     # The trapezoid rule on 0.2 ms misses up to 0.1 ms of a change by 10 N at each of some 70 switches.

@@ -17,10 +17,14 @@ def old_names(assembly: Assembly) -> list[Fault]:
     known = {signal.name: None for signal in signals_of(assembly)} if suspects else {}
     found = {(where, text): as_today(known, text) for where, text in suspects}
     return [
-        Fault(where, f"{text} is called {today} now; the old name still works.", f"Write {today}.")
+        Fault(where, f"{text} is called {_or(today)} now; the old name still works.", f"Write {_or(today)}.")
         for (where, text), today in found.items()
         if today
     ]
+
+
+def _or(names: list[str]) -> str:
+    return " or ".join(names)
 
 
 def _named(assembly: Assembly) -> Iterator[tuple[Location, str]]:
