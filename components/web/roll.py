@@ -136,10 +136,14 @@ class WebRoll(Composite, abstract=True):
         if p.radius < p.core_radius:
             what = f"radius {p.radius:g} m is below core_radius = {p.core_radius:g} m"
             yield "radius", what, "Web lies outside the core."
-        solid = pi * p.density * p.width * p.core_radius**4 / 2
-        if p.moment <= solid:
-            what = f"moment {p.moment:g} kg*m^2 is not above that of a core of solid web, {solid:.3g} kg*m^2"
-            yield "moment", what, "Add the inertia of shaft, chucks and drive, or take effects: {layers: off}."
+        yield from too_light(p.moment, pi * p.density * p.width * p.core_radius**4 / 2)
+
+
+def too_light(moment, solid):
+    """What of the inertia does not change would be below zero."""
+    if moment <= solid:
+        what = f"moment {moment:g} kg*m^2 is not above that of a core of solid web, {solid:.3g} kg*m^2"
+        yield "moment", what, "Add the inertia of shaft, chucks and drive; it must be more than that."
 
 
 def rolled(p, scene, way, length):

@@ -109,7 +109,8 @@ class Idler(WebRoller):
 
     Source: Euler's formula; docs/physics.md, 4.9. Limits: no film of air, which lowers mu
     at speed; mu is one coefficient, of sticking and sliding. The web on the roller has no mass, so that it slips as
-    the tensions say; where a roller that slips comes up to the web and zones do not settle, give `web_mass`.
+    the tensions say; where a roller that slips comes up to the web and zones do not settle, give `web_mass`,
+    and the spans `damping`.
     """
 
     def expand(p, scene):

@@ -30,7 +30,7 @@ class Web(Component, abstract=True):
     S' = q_a - q_b        S = (free length)/(1 + strain), the material between the rollers
     q_a = a.v/(1 + before),      q_b = b.v/(1 + strain)        running forward, from a to b
     q_a = a.v/(1 + strain),      q_b = b.v/(1 + after)         running backward, each end for itself
-    tension = stiffness strain
+    tension = stiffness strain + damping d(strain)/dt
 
     A web sticks to a roller where it comes on to it and creeps where it leaves it. So it is carried over with the
     strain of the span that it comes from. Connect the `strain` of the span behind to `before`, and of the one ahead to
@@ -48,12 +48,15 @@ class Web(Component, abstract=True):
     length = Parameter("m", "Of the web between the rollers.", above=0)
     stiffness = Parameter("N", "Young's modulus times width times thickness.", above=0, usual=(10, 1e9))
     tension = Parameter("N", "Tension at the start.", default=0.0, least=0, physics=False)
+    damping = Parameter("N*s", "Tension per rate of strain, beside the elastic one; none when not given.", default=None,
+                        above=0)  # fmt: skip
     slow = Parameter("m/s", "Speed below which the way of material over a roller is rounded.", default=1e-6, above=0)
     before = Input("1", "Strain of the web that comes on to the roller behind.", default=0.0)
     after = Input("1", "Strain of the web that comes on to the roller ahead while it runs backward.", default=0.0)
     pull = State("N", "Tension, and below zero what the web is longer than its way, as strain times stiffness.",
                  start="tension")  # fmt: skip
-    carried = Output("N", "Tension, never negative.", name="tension")
+    carried = Output("N", "Tension; never negative, but for damping.", name="tension")
+    elastic = Output("N", "Stiffness times strain.")
     strain = Output("1", "Strain, never negative.")
     zones = Zones("taut", "slack")
 
@@ -69,25 +72,37 @@ class Web(Component, abstract=True):
 
 
 def flows(p, a, b, before, after, strain):
-    """Material in at a and out at b [m/s], energy that it brings less what it takes, and loss by creep [W]."""
+    """Material in at a and out at b [m/s], energy that it brings less what it takes, and loss by creep [W].
+
+    At last how much faster than its web the roller at b is, over that at a [m/s].
+    """
     in_a, in_b = forward(p, a.v) / (1 + before), (b.v - forward(p, b.v)) / (1 + after)
     out_a, out_b = (a.v - forward(p, a.v)) / (1 + strain), forward(p, b.v) / (1 + strain)
     half = p.stiffness / 2
     brings = half * (before**2 * in_a - after**2 * in_b + strain**2 * (out_a - out_b))
     lost = half * ((strain - before) ** 2 * in_a - (strain - after) ** 2 * in_b)
-    return in_a + out_a, in_b + out_b, brings, lost
+    q_a, q_b = in_a + out_a, in_b + out_b
+    return q_a, q_b, brings, lost, b.v - a.v - (1 + strain) * (q_b - q_a)
 
 
-def span(p, a, b, before, after, pull, taut, length, rate, **ports):
-    """Law of a web whose way is `length`, which grows with `rate`; `ports` has the port of what moves, if any."""
+def span(p, a, b, pull, taut, length, rate, told, **ports):
+    """Law of a web whose way is `length`, which grows with `rate`; `told` is what `flows` tells of its ends.
+
+    `ports` has the port of what moves, if any, and by how much it lengthens the way. The work of damping at a roller
+    where the strain changes is told as supplied, as what material brings along.
+    """
+    q_a, q_b, brings, lost, slides = told
     stretch = pull / p.stiffness
-    strain = stretch if taut else 0
-    q_a, q_b, brings, lost = flows(p, a, b, before, after, strain)
     grows = (1 + stretch) * (rate - (1 + stretch) * (q_a - q_b)) / length
-    tension = pull if taut else 0
+    elastic = pull if taut else 0
+    damps = p.damping * grows if taut and p.damping is not None else 0
+    tension = elastic + damps
     stored = length * pull * stretch / (1 + stretch) / 2 if taut else 0
-    return Law(a=-tension, b=+tension, pull=p.stiffness * grows, tension=tension, strain=strain, supplied=brings,
-               dissipated=lost, stored=stored, **{port: share * tension for port, share in ports.items()})  # fmt: skip
+    return Law(
+        a=-tension, b=+tension, pull=p.stiffness * grows, tension=tension, elastic=elastic, stored=stored,
+        strain=stretch if taut else 0, supplied=brings - damps * slides,
+        dissipated=lost + damps * grows * length / (1 + stretch), **{port: n * tension for port, n in ports.items()},
+    )  # fmt: skip
 
 
 class FixedSpan(Web, abstract=True):
@@ -105,7 +120,9 @@ class WholeSpan(FixedSpan):
     @zone("taut", "slack")
     def running(p, a, b, before, after, pull, zone):
         """The balance of material."""
-        return span(p, a, b, before, after, pull, zone == "taut", p.length, 0)
+        taut = zone == "taut"
+        ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
+        return span(p, a, b, pull, taut, p.length, 0, ends)
 
 
 class WebSpan(FixedSpan):
@@ -126,7 +143,9 @@ class WebSpan(FixedSpan):
     @zone("taut", "slack")
     def running(p, a, b, before, after, pull, zone):
         """The balance of material."""
-        return span(p, a, b, before, after, pull, zone == "taut", p.length, 0)
+        taut = zone == "taut"
+        ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
+        return span(p, a, b, pull, taut, p.length, 0, ends)
 
     @zone("torn")
     def torn(p, a, b, pull):
@@ -134,12 +153,12 @@ class WebSpan(FixedSpan):
         e = pull / p.stiffness
         stored = p.length * pull * e / (1 + e) / 2
         lost = p.length * pull * e * (1 + e / 2) / (1 + e) ** 2 / TEARS
-        return Law(a=0, b=0, pull=-pull / TEARS, tension=0, strain=0, stored=stored, dissipated=lost)
+        return Law(a=0, b=0, pull=-pull / TEARS, tension=0, elastic=0, strain=0, stored=stored, dissipated=lost)
 
     @zone("gone")
     def gone(p, a, b, pull):
         """As torn, with nothing stored."""
-        return Law(a=0, b=0, pull=-pull / TEARS, tension=0, strain=0)
+        return Law(a=0, b=0, pull=-pull / TEARS, tension=0, elastic=0, strain=0)
 
     @guard("taut", to="torn", unit="N")
     def breaks(p, pull):
@@ -189,5 +208,31 @@ class WebAccumulator(Web):
     def running(p, a, b, carriage, before, after, pull, zone):
         """The balance of material, over a way that changes."""
         length, rate = p.length + p.strands * carriage.x, p.strands * carriage.v
-        law = span(p, a, b, before, after, pull, zone == "taut", length, rate, carriage=p.strands)
+        taut = zone == "taut"
+        ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
+        law = span(p, a, b, pull, taut, length, rate, ends, carriage=p.strands)
         return Law(**law.terms, free=length)
+
+
+class RopeTail(Web):
+    """A rope or web from a roller to a body that it is fastened to:  S' = q_a,  free length = length + load.x.
+
+    For small strain  length d(tension)/dt = stiffness (load.v - a.v) + a.v tension_before.  What is paid out at `a`
+    lets the body go; the force on it is `tension`, back towards the roller. `after` is not read: nothing comes from it.
+
+    Source: docs/physics.md, 4.9. Limits: as of a WebSpan; the free length must stay above zero.
+    """
+
+    asked_with = {"stiffness": 1e5, "length": 1e3}
+    b = Translational("the body at its end")
+
+    @zone("taut", "slack")
+    def running(p, a, b, before, pull, zone):
+        """The balance of material, over a way that the body changes: nothing passes the body."""
+        taut = zone == "taut"
+        strain = pull / p.stiffness if taut else 0
+        comes, goes = forward(p, a.v) / (1 + before), (a.v - forward(p, a.v)) / (1 + strain)
+        half = p.stiffness / 2
+        brings, lost = half * (before**2 * comes + strain**2 * goes), half * (strain - before) ** 2 * comes
+        ends = comes + goes, 0, brings, lost, (1 + strain) * (comes + goes) - a.v
+        return span(p, a, b, pull, taut, p.length + b.x, b.v, ends)

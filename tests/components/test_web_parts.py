@@ -200,11 +200,33 @@ def test_a_dancer_swings_on_the_stretch_of_both_sides_of_its_loop():
     assert result["dancer.tension_in"] == pytest.approx(result["dancer.tension_out"], abs=1e-6)
 
 
+def profile(result, at, n):
+    """Tensions from the storage drum to the load [N]."""
+    return np.array([result.at(f"winch.span[{i}].tension", at) for i in range(n)] + [result.at("tail.tension", at)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("mu", "groove"), [(0.12, 60.0), (0.2, 180.0)])
+def test_a_rope_slips_through_all_grooves_at_euler_s_ratio_of_all_their_wraps(mu, groove):
+    """Below it the storage drum feels nothing; from the load, each groove that slips takes exp(mu' pi)."""
+    result = run("traction_drums", **{"winch.mu": str(mu), "winch.groove": f"{groove} deg"})
+    ratio = np.exp(np.pi * mu / np.sin(np.radians(groove / 2)))
+    slips = [switched(result, f"winch.wrap[{i}]", "forward") for i in range(3)]
+    assert slips[0] > slips[1] > slips[2]
+    for i, at in enumerate(slips):  # the load that this groove and those towards the load hold beside 1 kN
+        assert profile(result, at, 3)[-1] == pytest.approx(1000 * ratio ** (3 - i), rel=2e-3)
+    tensions = profile(result, slips[0] + 0.5, 3)
+    assert tensions[1:] / tensions[:-1] == pytest.approx(ratio, rel=1e-3)
+    assert profile(result, slips[0] - 0.1, 3)[0] == pytest.approx(1000, abs=0.01)  # `slow`
+    assert result.at("drum.left", slips[0]) == result["drum.left"][0]
+
+
 @pytest.mark.parametrize(
     ("name", "set_to", "says"),
     [
         ("unwinder", {"roll.radius": "40 mm"}, "radius 0.04 m is below core_radius = 0.05 m"),
         ("unwinder", {"roll.moment": "1e-3 kg*m^2"}, "is not above that of a core of solid web"),
+        ("traction_drums", {"drum.width": "20 mm"}, "width 0.02 m is below diameter = 0.03 m"),
         ("winder", {"taper.shape": "linear"}, "shape is linear without full_radius"),
         ("winder", {"taper.full_radius": "40 mm"}, "full_radius 0.04 m is not above core_radius = 0.05 m"),
     ],

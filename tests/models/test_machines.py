@@ -138,3 +138,27 @@ def test_a_web_line_runs_as_its_balances_integrated_by_scipy_do(taper, gain, dam
     for name, row, within in zip(names, rows, (0.05, 0.05, 0.05, 1e-6, 1e-8, 1e-8), strict=True):
         assert np.abs(np.interp(result.t, t, row) - result[name]).max() < within, name
     assert np.ptp(result["dancer.angle"]) > 0.1
+
+
+@pytest.mark.parametrize(("mu", "wraps"), [(0.15, 6), (0.1, 8)])
+def test_a_traction_winch_hauls_and_pays_out_with_the_wraps_that_slip_at_the_side_the_rope_leaves(mu, wraps):
+    """Hauling, the tension after k half wraps is min(load, storage e^(mu pi k)), for strain comes with the rope.
+
+    Paying out it is max(storage, load e^(-mu pi k)) from the load. Torque and bearing of the storage drum
+    give the tension there, the weight and the water that of the load.
+    """
+    result = run("traction_winch", **{"winch.mu": str(mu), "winch.half_wraps": str(wraps)})
+    counts = np.arange(wraps + 1)
+    for at, hauls in ((19.9, True), (40.0, False)):
+        inner = [result.at(f"winch.span[{i}].tension", at) for i in range(wraps)]
+        tensions = np.array([*inner, result.at("tail.tension", at)])
+        load = 30e3 - 4e3 * result.at("load.v", at)
+        assert tensions[-1] == pytest.approx(load, rel=1e-3)
+        radius, way = result.at("drum.radius", at), -1 if hauls else 1
+        store = (2500 + way * 100 * 0.6 / radius) / radius
+        ratio = np.exp(mu * np.pi)
+        hauled, paid = np.minimum(load, store * ratio**counts), np.maximum(store, load * ratio ** (counts - wraps))
+        known = hauled if hauls else paid
+        assert tensions == pytest.approx(known, rel=0.01)
+    moved = result.at("load.x", 19.9) - result.at("load.x", 10.0)
+    assert moved == pytest.approx(-0.6 * 9.9, rel=5e-3)
