@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any
 import fairlead.results as results
 from fairlead.analysis.record.reported import remarks
 from fairlead.errors import no_attribute
-from fairlead.results.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from fairlead.report.page.inline import Animation
+    from fairlead.results.table import Table
 
 CALLED = {"time": "t", "times": "t", "to_dataframe": "to_pandas()", "df": "to_pandas()", "data": "to_xarray()",
           "names": "signals", "values": "columns()", "max": "extremes(name)", "min": "extremes(name)",

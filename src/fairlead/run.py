@@ -22,7 +22,6 @@ from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.analysis.remarks.remarks import remarks
-from fairlead.analysis.statics.route_record import route_records
 from fairlead.analysis.treatments.friction_record import friction_record
 from fairlead.analysis.treatments.stepping_table import few
 from fairlead.component.declare import CREEP
@@ -41,6 +40,7 @@ from fairlead.system.compiled.out_of_range import beyond_their_tables
 from fairlead.watch import Watch, least_jumps
 
 if TYPE_CHECKING:
+    from fairlead.flatten.flat_model import FlatModel
     from fairlead.system.arrays.recording import OutputSignal
     from fairlead.system.compiled.system import System
 
@@ -165,10 +165,18 @@ def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bo
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every, "friction": friction_record(system.flat),
         "remarks": [str(one) for one in (*remarks(system.flat), *engine_remarks(settings, system))] if told else [],
-        "routes": route_records(system.flat),
+        "routes": _routes(system.flat),
         "scene": scene_record(netlist, system.flat),
         "zones": zone_record(system.machine_names, system.machine_zones, system.zones),
     }  # fmt: skip
+
+
+def _routes(flat: FlatModel) -> list[dict[str, Any]]:
+    if not flat.assembly.routings:
+        return []
+    from fairlead.analysis.statics.route_record import route_records
+
+    return route_records(flat)
 
 
 def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> dict[str, Any]:

@@ -141,6 +141,8 @@ class Model:
     @functools.cached_property
     def flat(self) -> FlatModel:
         """Nodes, groups and links. Raises ModelError with everything that `check` would tell."""
+        if not self.flattened.assembly.routings:
+            return self.flattened
         from fairlead.analysis.statics.start_profile import laid_under_statics
 
         try:

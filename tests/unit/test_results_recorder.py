@@ -210,3 +210,16 @@ def test_a_damaged_series_is_told_in_a_sentence(tmp_path: Path) -> None:
     (tmp_path / "run" / "series.nc").write_bytes(b"\x89HDF\r\n\x1a\n and no more")
     with pytest.raises(DamagedResultsError, match=r"run/series\.nc: it has 20 bytes; .*\n.*run the netlist again\."):
         Result.open(tmp_path / "run")
+
+
+def test_what_a_run_gives_is_what_its_folder_holds(tmp_path: Path) -> None:
+    signals = [Signal("b.v", "m/s", "speed"), Signal("a", "N", "")]
+    with RunDirectory.create(tmp_path / "run", signals, {"name": "x", "list": (1, np.float64(0.1), np.nan)}) as run:
+        run.append([0.0, 1.0, 1.0], [[1.0, 2.0], [3.0, 4.0], [5.0, np.nan]], [0, -1, 1])
+        run.event(1.0, "pad", "stuck", "forward", "slips")
+    given, opened = run.result(), Result.open(tmp_path / "run")
+    assert given.run == opened.run
+    assert given.signals == opened.signals
+    assert given.events == opened.events
+    assert np.array_equal(given.t, opened.t)
+    assert all(np.array_equal(given[name], opened[name], equal_nan=True) for name in ("b.v", "a"))

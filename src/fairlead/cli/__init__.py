@@ -4,54 +4,50 @@ Exit codes are in `exit_codes.py`. Results go to standard output, progress, warn
 standard error. A verb imports what it needs when it runs, so that `--help` stays quick.
 """
 
+import importlib
 import io
 import os
 import sys
+from collections.abc import Iterable
+from typing import Any
 
 import typer
 
-from fairlead.cli import (
-    check,
-    compare,
-    cost,
-    describe,
-    doctor,
-    effects,
-    fit,
-    fmu,
-    friction,
-    graph,
-    margins,
-    modes,
-    new,
-    plot,
-    report,
-    run,
-    schema,
-    sensitivity,
-    statics,
-    sweep,
-)  # fmt: skip
 from fairlead.cli.terminal import echo
 from fairlead.cli.verb import Verb, Verbs
 
-__all__ = ["app", "main"]
+__all__ = ["VERBS", "app", "main"]
 
-app = typer.Typer(
-    name="fairlead",
-    cls=Verbs,
-    help="System models in which dry friction sticks and slips at many places at once.",
-    epilog="Start with: fairlead run single_bend --report",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-for verb in (
-    check.check, describe.describe, graph.graph, statics.statics, run.run, report.report, plot.plot, friction.friction,
-    margins.margins, compare.compare, sweep.sweep, fit.fit, sensitivity.sensitivity, modes.modes, cost.cost,
-    effects.effects, fmu.fmu, schema.schema, new.new, doctor.doctor,
-):  # fmt: skip
-    app.command(cls=Verb)(verb)
+VERBS = (
+    "check", "describe", "graph", "statics", "run", "report", "plot", "friction", "margins", "compare", "sweep", "fit",
+    "sensitivity", "modes", "cost", "effects", "fmu", "schema", "new", "doctor",
+)  # fmt: skip
+"""In the order in which `--help` lists them; each is a function in a module of its name."""
+
+
+def with_verbs(names: Iterable[str]) -> typer.Typer:
+    """The command with these verbs. To read in one of them and its options takes as long as a short run's loop."""
+    made = typer.Typer(
+        name="fairlead",
+        cls=Verbs,
+        help="System models in which dry friction sticks and slips at many places at once.",
+        epilog="Start with: fairlead run single_bend --report",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    for name in names:
+        made.command(cls=Verb)(getattr(importlib.import_module(f"{__name__}.{name}"), name))
+    made.callback()(_options)
+    return made
+
+
+def __getattr__(name: str) -> Any:
+    """`app`, the command with all verbs, is made when somebody wants it. Raises AttributeError for other names."""
+    if name != "app":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = made = with_verbs(VERBS)
+    return made
 
 
 def _print_version(wanted: bool) -> None:
@@ -62,7 +58,6 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _options(
     version: bool = typer.Option(
         False, "--version", help="Print the version.", callback=_print_version, is_eager=True
@@ -76,4 +71,5 @@ def main() -> None:
     if isinstance(sys.stdout, io.TextIOWrapper):  # what it cannot write, such as ° in ASCII, is no reason to fail
         sys.stdout.reconfigure(errors="replace")
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # to find some, pydantic reads a file of every package
-    app(prog_name="fairlead")
+    verb = sys.argv[1:2]  # what else may stand first needs all verbs: an option, a mistake, nothing
+    with_verbs(verb if verb and verb[0] in VERBS else VERBS)(prog_name="fairlead")

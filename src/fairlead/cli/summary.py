@@ -47,9 +47,11 @@ def _friction(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
 
 def _ruck(found: Sequence[dict[str, Any]] | None) -> list[tuple[str, str]]:
     """The verdict on each line that is watched for rucking."""
+    if not found:
+        return []
     from fairlead.analysis.margins.ruck import sentence
 
-    return [("ruck", sentence(one)) for one in (found or ())[:MOST_NAMED]]
+    return [("ruck", sentence(one)) for one in found[:MOST_NAMED]]
 
 
 def _lost(lost: Mapping[str, float] | None) -> list[tuple[str, str]]:

@@ -9,11 +9,12 @@ tables and waves.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import operator
 import pathlib
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, create_model
@@ -61,7 +62,7 @@ def read(
     """
     plain = {name: value.plain() for name, value in raw.items()}
     try:
-        model = model_of(kind).model_validate(plain, context={"folder": folder})
+        model = _validated(kind, plain, folder)
     except ValidationError as error:
         tree = Value(dict(raw), where)
         return None, explain(kind, error.errors(include_url=False), tree, path)
@@ -74,7 +75,7 @@ def read(
 
 def validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Path) -> Values:
     """Values from parameters as written, without their places. Raises pydantic's ValidationError."""
-    return in_force(_values(kind, model_of(kind).model_validate(plain, context={"folder": folder})))
+    return in_force(_values(kind, _validated(kind, plain, folder)))
 
 
 def make(kind: type[Declared], **given: Any) -> Values:
@@ -83,15 +84,50 @@ def make(kind: type[Declared], **given: Any) -> Values:
     return in_force(_values(kind, model))
 
 
+def _validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Path) -> BaseModel:
+    """The model of what is written. Raises pydantic's ValidationError.
+
+    A model of all members of a family takes ten times as long to make as one of those that are named. What that one
+    takes, the whole takes, and as the same; what it refuses the whole is asked about, for it knows what else there is.
+    """
+    if (named := _named_members(kind, plain)) is not None:
+        with contextlib.suppress(ValidationError):
+            model = _model(cast(Any, kind), view(), named)
+            return model.model_validate(plain, context={"folder": folder})
+    return model_of(kind).model_validate(plain, context={"folder": folder})
+
+
+def _named_members(kind: type[Declared], plain: Mapping[str, Any]) -> tuple[tuple[str, tuple[str, ...]], ...] | None:
+    """Which members the parts of a class are written as, by parameter; None where some part does not say."""
+    found = []
+    for name, declared in kind.declaration.parameters.items():
+        if not isinstance(declared, Part | Stations):
+            continue
+        family: Any = declared.family
+        given = plain.get(name, getattr(declared, "default", REQUIRED))
+        values = given if isinstance(declared, Stations) and isinstance(given, list) else [given]
+        full = [_with_word(family, one) for one in values if one is not None]
+        words = [one.get(family.key) if isinstance(one, Mapping) else None for one in full]
+        if not all(isinstance(word, str) and word in family.members for word in words):
+            return None
+        found.append((name, tuple(word for word in family.members if word in (words or [*family.members][:1]))))
+    return tuple(found) or None
+
+
 def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
     return _model(cast(Any, kind), view())  # mypy takes the __hash__ of instances for that of the class
 
 
 @functools.cache
-def _model(kind: type[Declared], seen: tuple[int, tuple[int, ...]]) -> type[BaseModel]:
-    """A member that joins a family later, or is of another library, makes other models of all that may have it."""
-    fields: dict[str, Any] = {n: _field(d) for n, d in kind.declaration.parameters.items()}
+def _model(kind: type[Declared], seen: tuple[int, tuple[int, ...]],
+           named: tuple[tuple[str, tuple[str, ...]], ...] = ()) -> type[BaseModel]:  # fmt: skip
+    """A member that joins a family later, or is of another library, makes other models of all that may have it.
+
+    With `named` the parts it names have these members of their families only.
+    """
+    only = dict(named)
+    fields: dict[str, Any] = {n: _field(d, only.get(n)) for n, d in kind.declaration.parameters.items()}
     if issubclass(kind, Family) and kind.key:
         fields[kind.key] = (
             Literal[kind.word],
@@ -100,9 +136,9 @@ def _model(kind: type[Declared], seen: tuple[int, tuple[int, ...]]) -> type[Base
     return create_model(kind.__name__, __config__=STRICT, **fields)
 
 
-def family_type(family: type[Family], keep: Callable[[type[Family]], Any] | None = None) -> Any:
-    """The annotated union of all members of a family, with the bare value as a short form."""
-    models = [model_of(member) for member in family.members.values()]
+def family_type(family: type[Family], only: Collection[str] | None = None) -> Any:
+    """The annotated union of all members of a family, or of `only` those, with the bare value as a short form."""
+    models = [model_of(member) for word, member in family.members.items() if only is None or word in only]
     union: Any = functools.reduce(operator.or_, models)
     inner = Annotated[union, Field(discriminator=family.key)] if len(models) > 1 else union
     return Annotated[inner, BeforeValidator(functools.partial(_with_word, family))]
@@ -123,8 +159,8 @@ def _with_word(family: type[Family], value: Any) -> Any:
     return value
 
 
-def _field(declared: Any) -> tuple[Any, Any]:
-    """Annotation and default of one parameter."""
+def _field(declared: Any, only: Collection[str] | None = None) -> tuple[Any, Any]:
+    """Annotation and default of one parameter; of a part, with `only` these members of its family."""
     default = ... if getattr(declared, "default", REQUIRED) is REQUIRED else declared.default
     kind: Any
     if isinstance(declared, Parameter):
@@ -141,14 +177,14 @@ def _field(declared: Any) -> tuple[Any, Any]:
     elif isinstance(declared, Name | File | Entries | Text | Matrix):
         kind = _own_words(declared)
     elif isinstance(declared, Part):
-        kind = family_type(declared.family)
+        kind = family_type(declared.family, only)
     elif isinstance(declared, Block):
         inner: dict[str, Any] = {name: _field(d) for name, d in declared.parameters.items()}
         kind = create_model("Block", __config__=STRICT, **inner)
         if default is ... and all(not field.is_required() for field in kind.model_fields.values()):
             default = Field(default_factory=kind)
     elif isinstance(declared, Stations):
-        kind = list[family_type(declared.family)]  # type: ignore[misc]  # a type made at run time
+        kind = list[family_type(declared.family, only)]  # type: ignore[misc]  # a type made at run time
     else:
         kind = _table_type(declared)
     if default is None:

@@ -91,13 +91,14 @@ class Scope:
         )
         self.whole, self.whole_problem = self.memory, self.problem
         self.part: Any = None
-        self.narrowing: Any = self.problem.narrowing
         n = len(problem.initial)
+        able = self._engine.works_on_parts and n >= LEAST
+        self.narrowing: Any = self.problem.narrowing if able else None
         self._cost = LOOK_COST // max(n, 1) + LOOK_BASE
         self._pause, self._margin, self._since = self._cost, MARGIN, 0
         self._seen: Any = None
         self._switched = np.zeros(len(problem.zones), dtype=np.int64)
-        able = self._engine.works_on_parts and n >= LEAST and self.narrowing is not None and self.narrowing.possible
+        able = self.narrowing is not None and self.narrowing.possible
         able = able and bool(problem.callbacks.get("outputs"))  # else unknowns are recorded, and a part has fewer
         self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
 

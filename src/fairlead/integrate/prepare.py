@@ -188,7 +188,7 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     memory.array["watched"][:] = watched(own)
     memory.number["n_watched"] = int(memory.array["watched"].sum())
     memory.array["falls"][:] = falls
-    memory.number["falling"] = int(falls.any() and len(np.unique(plan.given["holder"])) > 2)  # -1 is one
+    memory.number["falling"] = int(falls.any() and len(set(plan.given["holder"].tolist())) > 2)  # -1 is one
     memory.array["last_toggle"][:] = -NEVER
     memory.array["blocked_until"][:] = -NEVER
     memory.spread()

@@ -15,6 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.distinct import distinct
+
 INSIDE = 2
 SMOOTH = 0.5
 """Largest third difference of rows that are on a smooth curve, in their second ones; or fourth, in their third."""
@@ -94,7 +96,7 @@ class Curves:
         known = (step >= 0) & (step + 1 < len(ends))
         first = np.where(known, ends[np.clip(step, 0, None)], 0)
         count = np.where(known, ends[np.clip(step + 1, 0, len(ends) - 1)] - first + 1, 2)
-        curves = [(which := np.flatnonzero(count == n), first[which], int(n)) for n in np.unique(count) if n > 2]
+        curves = [(which := np.flatnonzero(count == n), first[which], int(n)) for n in distinct(count) if n > 2]
         if self.switches is not None:
             taken = np.zeros(len(left), dtype=bool)
             for back in (1, 0, 2):  # the four rows round it; where something switches there, those to one side

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 from fairlead.brief import brief
 from fairlead.results.events import Event
 from fairlead.results.signal import Signal
-from fairlead.results.table import Table
 
 if TYPE_CHECKING:
     import pandas
 
+    from fairlead.results.table import Table
 
 
 class Events(list[Event]):
@@ -19,7 +19,7 @@ class Events(list[Event]):
 
     def table(self) -> Table:
         """The same as a table."""
-        return Table(f"{len(self)} zone changes", Event._fields, ("s", "", "", "", ""), tuple(map(tuple, self)))
+        return _table(f"{len(self)} zone changes", Event._fields, ("s", "", "", "", ""), tuple(map(tuple, self)))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The same with columns t, component, zone_from, zone_to, guard."""
@@ -40,7 +40,7 @@ class Signals(tuple[Signal, ...]):
     def table(self) -> Table:
         """Names, units and descriptions."""
         rows = tuple((one.name, one.unit, one.description) for one in self)
-        return Table(f"{len(self)} signals", ("signal", "unit", "description"), ("", "", ""), rows)
+        return _table(f"{len(self)} signals", ("signal", "unit", "description"), ("", "", ""), rows)
 
     def to_pandas(self) -> pandas.DataFrame:
         """The same with columns signal, unit, description."""
@@ -59,10 +59,16 @@ class RunRecord(dict[str, Any]):
     def table(self) -> Table:
         """Its entries, long ones by kind and size."""
         rows = tuple((name, brief(value)) for name, value in self.items())
-        return Table("run.json", ("entry", "value"), ("", ""), rows)
+        return _table("run.json", ("entry", "value"), ("", ""), rows)
 
     def __repr__(self) -> str:
         return repr(self.table())
 
     def _repr_html_(self) -> str:
         return self.table()._repr_html_()
+
+
+def _table(*given: Any) -> Table:
+    from fairlead.results.table import Table  # a run that shows nothing does without
+
+    return Table(*given)

@@ -28,6 +28,7 @@ import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError
 from fairlead.results.claim import FINISHED, Claim
 from fairlead.results.events import EVENT_FILE, Event, EventWriter
+from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import sealed
 from fairlead.results.signal import Signal
 from fairlead.results.sink import Block, Sink, without_twins
@@ -124,14 +125,15 @@ class RunDirectory(Sink):
         try:
             with _disk(self.path):
                 self._own.check()
-                self._write_all(status, summary)
-                self._result = Result.open(self.path)  # as long as nobody else can write here
+                run = self._write_all(status, summary)
+                series = SeriesReader.of_written(self.path / SERIES_FILE, self.signals, self._series.rows)
+                self._result = Result(self.path, run, series)
                 self._claim.release(finished=status == FINISHED)
         finally:
             self._claim.release(finished=False)
 
-    def _write_all(self, status: str, summary: Mapping[str, Any]) -> None:
-        """Rows and events first: a run.json that says `finished` has all of them beside it, as it says."""
+    def _write_all(self, status: str, summary: Mapping[str, Any]) -> dict[str, Any]:
+        """Rows and events first: a run.json that says `finished` has all of them beside it, as it says. Gives that."""
         left: dict[str, Any] = {}
         try:
             self._write_blocks(last=True)
@@ -142,9 +144,10 @@ class RunDirectory(Sink):
             status = "failed"  # Rows are missing.
             raise
         finally:
-            run_file.write(self.path, self._ended(status, {**summary, **left}))
+            written = run_file.write(self.path, self._ended(status, {**summary, **left}))
             self._events.close()
             self._series.close()
+        return written
 
     def _write_blocks(self, last: bool = False) -> None:
         if not self._blocks:

@@ -7,7 +7,7 @@ they are read. Whatever HDF5 makes of the rest becomes DamagedResultsError (see 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ import fairlead.results.layout as layout
 from fairlead.results.curves import INSIDE
 from fairlead.results.damage import DamagedResultsError, reading
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
+from fairlead.results.signal import Signal
 
 if TYPE_CHECKING:
     import h5py
@@ -38,6 +39,14 @@ class SeriesReader:
         if 8 * self.rows > LARGEST_COMPRESSION * size:
             raise DamagedResultsError(path, f"it says that it holds {self.rows} rows, in {size} bytes.")
         self._position = {signal.name: index for index, signal in enumerate(self.signals)}
+
+    @classmethod
+    def of_written(cls, path: Path, signals: tuple[Signal, ...], rows: int) -> Self:
+        """The reader of a file that this process has just written, which need not be asked what it holds."""
+        reader = cls.__new__(cls)
+        reader.path, reader.signals, reader.rows = path, signals, rows
+        reader._position = {signal.name: index for index, signal in enumerate(signals)}
+        return reader
 
     def time(self) -> NDArray[np.float64]:
         """Return the recorded times (n,) [s]; an event's time occurs twice."""

@@ -31,10 +31,12 @@ GIVE = "Give a directory that a run has left, such as results/NAME."
 IDENTITY = ("id", "started", "process", "host")
 
 
-def write(directory: Path, record: Mapping[str, Any]) -> None:
-    """Replace run.json in one go: a reader sees the old or the new one, never half of it."""
-    text = json.dumps(_plain(record), indent=2, ensure_ascii=False, allow_nan=False)
+def write(directory: Path, record: Mapping[str, Any]) -> dict[str, Any]:
+    """Replace run.json in one go: a reader sees the old or the new one, never half of it. Gives what `load` would."""
+    plain = as_read(record)
+    text = json.dumps(plain, indent=2, ensure_ascii=False, allow_nan=False)
     place(directory / RUN_FILE, text + "\n")
+    return plain
 
 
 def amend(directory: Path, record: Mapping[str, Any]) -> None:
@@ -59,8 +61,6 @@ def as_read(record: Mapping[str, Any]) -> dict[str, Any]:
 
 def load(directory: Path) -> dict[str, Any]:
     """Return run.json as a dict. Raises UsageError when there is none, DamagedResultsError when it cannot be read."""
-    from fairlead.results.run_schema import check_head
-
     file = directory / RUN_FILE
     try:
         size = file.stat().st_size
@@ -75,6 +75,8 @@ def load(directory: Path) -> dict[str, Any]:
             raise DamagedResultsError(file, "its entries lie too deep in one another.") from None
     if not isinstance(record, dict):
         raise DamagedResultsError(file, "it does not hold the entries of a run.")
+    from fairlead.results.run_schema import check_head
+
     check_head(file, record)
     return record
 
@@ -105,8 +107,17 @@ class Watched:
         """Raise UsageError when another run has taken the place of this one."""
         seen = self._look()
         if not seen or seen != self._seen:
-            refuse_another(self._directory, self._record)
+            if not self._is_ours():
+                refuse_another(self._directory, self._record)
             self._seen = seen
+
+    def _is_ours(self) -> bool:
+        """Whether the file says so, whatever else it says."""
+        try:
+            found = json.loads((self._directory / RUN_FILE).read_bytes())
+        except (OSError, ValueError, RecursionError):
+            return False
+        return isinstance(found, dict) and all(found.get(key) == own for key, own in self._record.items())
 
     def _look(self) -> tuple[int, ...]:
         try:

@@ -20,7 +20,7 @@ T = TypeVar("T")
 
 
 class _Entry(BaseModel):
-    model_config = ConfigDict(strict=True, extra="allow", frozen=True)
+    model_config = ConfigDict(strict=True, extra="allow", frozen=True, defer_build=True)
 
 
 class Head(_Entry):

@@ -75,6 +75,11 @@ class SeriesWriter:
             self._file.flush()
         self._rows = rows
 
+    @property
+    def rows(self) -> int:
+        """How many rows have been written."""
+        return self._rows
+
     def close(self) -> None:
         """Close the file, without the room that was left; one that never got a block is created without rows."""
         nothing = np.empty(0), np.empty((0, len(self._signals))), np.empty(0, "i1")

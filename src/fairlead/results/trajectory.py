@@ -29,18 +29,19 @@ from fairlead.renamed import of_today
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
-from fairlead.results.export import Side
 from fairlead.results.kept import earlier
 from fairlead.results.kept_lists import Events, RunRecord, Signals
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import require_intact
 from fairlead.results.signal import Signal, matching
 from fairlead.results.store import SERIES_FILE
-from fairlead.results.table import Table
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+    from fairlead.results.export import Side
+    from fairlead.results.table import Table
 
 T = TypeVar("T")
 

@@ -8,6 +8,7 @@ No symbolic work happens here: kernels are traced once per class (`kernel.py`) a
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 from fairlead.component.effects import switch
 from fairlead.component.instantiate import PortRef
@@ -17,7 +18,6 @@ from fairlead.errors import Fault, ModelError
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.kernel import Kernel, kernel
-from fairlead.system.active.subsystem import Subsystem
 from fairlead.system.arrays.blocks import build_blocks
 from fairlead.system.assembly.algebraic_nodes import (
     geared_groups,
@@ -61,7 +61,14 @@ def compile(flat: FlatModel) -> System:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
     system = started(placed(system, initially), initially)
-    return dataclasses.replace(system, narrows=None if system.kept_positions or rated else Subsystem)
+    return dataclasses.replace(system, narrows=None if system.kept_positions or rated else _subsystem)
+
+
+def _subsystem(system: Any) -> Any:
+    """What of a system moves; few systems are large enough for that to be asked."""
+    from fairlead.system.active.subsystem import Subsystem
+
+    return Subsystem(system)
 
 
 def _rate(flat: FlatModel, kernels: dict[str, Kernel]) -> tuple[set[int], list[PortRef], list[Fault]]:

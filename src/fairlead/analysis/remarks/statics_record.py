@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from fairlead.analysis.remarks.remarks import side_walls, weak_clamps
+from fairlead.analysis.remarks.lines import side_walls, weak_clamps
 from fairlead.analysis.statics.cone import Held
 from fairlead.analysis.statics.shares import shares
 from fairlead.analysis.statics.solution import Statics

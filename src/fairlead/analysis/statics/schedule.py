@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fairlead.brief import in_a_line
-from fairlead.component.piecewise import FAR, constant, linear_table
+from fairlead.component.piecewise import FAR, constant, horner, linear_table
 from fairlead.component.values import Wave, steady
 
 STILL = 1e-9  # m/s; less is rest
@@ -78,10 +78,10 @@ class Schedule:
         """The instant of every piece at which the speed is greatest in a direction."""
         for begin, end, row in self._pieces():
             t = np.linspace(begin, end, LOOKS if row[5:].any() or self.wave.is_swinging else 2)
-            speed = np.polynomial.polynomial.polyval(t - row[2], row[3:])
+            speed = horner(row[3:], t - row[2])
             for part in self.wave.parts:
                 k = part.polynomial.piece_at((begin + end) / 2)
-                size = np.polynomial.polynomial.polyval(t - part.polynomial.rows[k, 2], part.polynomial.rows[k, 3:])
+                size = horner(part.polynomial.rows[k, 3:], t - part.polynomial.rows[k, 2])
                 speed = speed + size * np.sin(part.omega * t + part.phase)
             k = int((sign * speed).argmax())
             yield float(t[k]), float(speed[k])
@@ -102,7 +102,7 @@ class Schedule:
         swing = self._swing
         for begin, end, row in self._pieces():
             for t in (begin, end) if row[4:].any() or swing else ():
-                slope = np.polynomial.polynomial.polyval(t - row[2], row[4:] * np.arange(1, len(row) - 3))
+                slope = horner(row[4:] * np.arange(1, len(row) - 3), t - row[2])
                 yield t, self.speed(t), float(slope) + math.copysign(swing, slope or 1.0)
 
     @functools.cached_property

@@ -24,6 +24,7 @@ from fairlead.analysis.statics.schedule import STILL, Schedule
 from fairlead.analysis.statics.sliding import Piece, along
 from fairlead.analysis.statics.states import Drive, Passage, State
 from fairlead.brief import in_a_line
+from fairlead.distinct import distinct
 from fairlead.flatten.flat_model import FlatModel
 
 POINTS = 33  # along a piece, beside the connectors in it
@@ -138,7 +139,7 @@ def _holds(laid: list[Laid], between: list[int], loop: Device) -> bool:
 def _places(route: LaidRoute, piece: Piece, way: float) -> NDArray[np.float64]:
     """Where a piece is looked at: equal distances, and the connectors of the line."""
     inside = [place for place in route.connectors(way) if piece.begin < place < piece.end]
-    return np.union1d(np.linspace(piece.begin, piece.end, POINTS), inside)
+    return distinct(np.concatenate([np.linspace(piece.begin, piece.end, POINTS), inside]))
 
 
 def inboard_tension(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> float:

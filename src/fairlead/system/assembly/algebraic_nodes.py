@@ -19,6 +19,7 @@ import numpy as np
 
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import OWN, PORT, RATE, key, rate_of
+from fairlead.distinct import distinct
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.flatten.graph import connected_parts, of_paths
@@ -248,7 +249,7 @@ def rows_without_rates(blocks: Sequence[Block], numbering: Numbering) -> Integer
         s = block.kernel.structure
         for unknown, j in s.mass:
             rows.append(block.flow_index[np.isin(block.in_index[:, j], light), s.targets.index(f"own:{unknown}")])
-    return np.unique(np.concatenate(rows))
+    return distinct(np.concatenate(rows))
 
 
 def still_supports(blocks: Sequence[Block], numbering: Numbering) -> None:

@@ -51,6 +51,6 @@ def _held(
             partial.append((share.mass + count * len(s.mass) + e)[used])
             coef.append(block.in_coef[used, j])
     rows, columns = np.concatenate(row), np.concatenate(column)
-    without = np.intersect1d(rows[inert[columns]], rows[~inert[columns]])
-    kept = ~np.isin(rows, np.union1d(without, rows_without_rates(blocks, numbering)))
+    held, moved = (np.isin(rows, rows[those]) for those in (inert[columns], ~inert[columns]))
+    kept = ~(held & moved | np.isin(rows, rows_without_rates(blocks, numbering)))
     return rows[kept], columns[kept], np.concatenate(partial)[kept], np.concatenate(coef).astype(float)[kept]

@@ -19,6 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.distinct import distinct
+
 Integers = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
@@ -83,7 +85,7 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers,
     support = _Support(n + 1, n_signals)
     levels = level_of[row]
     length = 1
-    for level in np.unique(levels[row < n_signals]) if len(row) else []:
+    for level in distinct(levels[row < n_signals]) if len(row) else []:
         here = (levels == level) & (row < n_signals)
         part = support.expand(row, z - n, partial, coef, column, here & direct, here & via)
         length = support.store(part, length)
@@ -108,7 +110,7 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers,
     metered[length : length + len(keys)] = np.isin(keys % max(n, 1), meters)
     order = np.flatnonzero(~still)
     order = order[np.argsort(metered[every[order, 0]], kind="stable")]
-    moving = np.unique(every[order, 0])
+    moving = distinct(every[order, 0])
     moving = moving[np.argsort(metered[moving], kind="stable")]
     forces = (int(np.count_nonzero(~metered[every[order, 0]])), int(np.count_nonzero(~metered[moving])))
     return Program(
@@ -177,7 +179,7 @@ class _Support:
 
     def store(self, part: _Part, length: int) -> int:
         """Give every (signal, column) of the part a place; returns the new length of work."""
-        keys = np.unique(part.row * self.columns + part.column)
+        keys = distinct(part.row * self.columns + part.column)
         places = length + np.arange(len(keys))
         order = np.argsort(np.concatenate([self.keys, keys]), kind="stable")
         self.keys = np.concatenate([self.keys, keys])[order]

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fairlead.distinct import distinct
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory, Tables
@@ -123,7 +124,7 @@ def _calls(blocks: Sequence[Block], numbering: Numbering) -> list[tuple[int, int
         if not block.sig_index.size or (block.sig_index == numbering.dump).all():
             continue
         ranks, later = np.array(block.ranks), int(not _given(block))
-        for rank in np.unique(ranks):
+        for rank in distinct(ranks):
             first, end = np.searchsorted(ranks, [rank, rank + 1])
             calls.append((later, int(rank), place, int(first), int(end)))
     return sorted(calls)

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.distinct import distinct
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.kernels.break_away import least_left
@@ -112,7 +113,7 @@ class System:
     @property
     def beyond_row(self) -> Integers:
         """Machines of contacts that may close a circle: a switch changes more than their own row."""
-        machines = np.unique(self.memory["circle_pairs"][:, 5])
+        machines = distinct(self.memory["circle_pairs"][:, 5])
         return machines[machines >= 0]
 
     @property
