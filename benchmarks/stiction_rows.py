@@ -20,7 +20,7 @@ import machine  # noqa: F401  # first: it settles the number of threads before n
 import numpy as np
 
 import fairlead
-import fairlead.run as runner
+import fairlead.running as runner
 
 LEVELS = (1.0, 1.3)
 

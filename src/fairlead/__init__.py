@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from fairlead.errors import FairleadError, ModelError, RunError, RunInterrupted, RunWarning, SteppingError, UsageError
-from fairlead.simulate import Model, describe_type, json_schema, load
+from fairlead.simulate import Model, describe_type, json_schema, load, run
 
 if TYPE_CHECKING:
     from fairlead.result import Result
@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from fairlead.studies.sensitivities.sensitivity import sensitivity
 
 __all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInterrupted", "RunWarning",
-           "SteppingError", "UsageError", "describe_type", "json_schema", "load", "modes", "sensitivity"]  # fmt: skip
+           "SteppingError", "UsageError", "describe_type", "json_schema", "load", "modes", "run",
+           "sensitivity"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

@@ -15,7 +15,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from fairlead.analysis.record.suggestion import suggest
-from fairlead.component.numbers import numbers
+from fairlead.component.numbers import numbers, numbers_in_time
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.interface import Outer, OuterInput
 from fairlead.patterns import picked
@@ -88,7 +88,7 @@ def find_tunable(
     netlist: Netlist, entries: Mapping[str, Values], more: Iterable[str]
 ) -> tuple[tuple[Variable, ...], list[Fault]]:
     """Parameters by outer name, and what is wrong with others; `entries` are the components by name."""
-    known = numbers(netlist, entries)
+    known = numbers(netlist, entries) | numbers_in_time(netlist, entries)
     given = netlist.interface.tunable | {name: Outer(of=name) for name in more}
     faults, found = list[Fault](), list[Variable]()
     for name, outer in given.items():

@@ -35,7 +35,7 @@ from fairlead.integrate.underway import Saved, Underway
 from fairlead.outer import Read, find_inputs, find_outputs, set_already
 from fairlead.quantities import QuantityError, si
 from fairlead.renamed import now_called
-from fairlead.run import failed, failure_of, not_allowed
+from fairlead.running import failed, failure_of, not_allowed
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
@@ -117,7 +117,7 @@ class Stepping:
         self._now = self._next = Standing(Underway(own, asked, self._take), tunable, own)
         self._told(self._memory)
         self._values: np.ndarray | None = None
-        self._begun = False
+        self._begun = self._advanced = False
         for name, one in self._inputs.items():
             if one.seen.start is not None and one.seen.start != one.free.value:
                 self.set(name, one.seen.start)
@@ -159,7 +159,8 @@ class Stepping:
     def _tune(self, name: str, value: float | str) -> None:
         """Have the model with another value of a parameter; the run goes over to it as it goes on."""
         assert self._next.tunable is not None, "there are none to set"
-        changed = self._next.tunable.with_value(name, value, begun=self._begun)
+        changed = self._next.tunable.with_value(name, value, begun=self._advanced)
+        self._begun = self._begun and self._advanced  # what was only read begins once more
         if self._begun and not differs(self._next.tunable.model.system, changed.model.system):
             self._next = self._next._replace(tunable=changed)  # a value that stays is no event
             return
@@ -203,6 +204,7 @@ class Stepping:
         self.changes = []
         self._go_over()
         self._begin()
+        self._advanced = True
         if goal == self.t:
             self._take_over()
             return goal
@@ -235,6 +237,7 @@ class Stepping:
             what = "this state" if isinstance(state, State) else f"a {type(state).__name__}"
             raise UsageError(f"restore: {what} is not of a run of this model. Take what `save` of such a run gave.")
         self._begun, self._values, self.changes = True, None, []
+        self._advanced = True
         if state.now.own is not self._now.own:  # with other values of parameters
             self._now = state.now._replace(going=state.now.going.beside(self._take))
             self._told(self._memory)

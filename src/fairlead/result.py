@@ -113,14 +113,21 @@ class Result(results.Result):
         return Animation.of(self, height)
 
     def plot(
-        self, names: str | Iterable[str] | None = None, *, title: str = "",
+        self, *names: str | Iterable[str] | None, title: str = "",
         between: tuple[float | str, float | str] | None = None, file: str | Path | None = None,
     ) -> Figure:  # fmt: skip
         """Draw signals (all, or those of names or patterns) over time, a panel for each unit; a matplotlib Figure.
 
-        A notebook shows it. Elements of a line share a colour scale, zone changes are ticks at the top. `between`
-        limits the time [s], `file` also writes it (PNG, SVG or PDF). Raises UnknownSignalError, UsageError.
+        Names follow one another, or stand in a list: `plot("block.x", "pad.slip")`. A notebook shows it. Elements of a
+        line share a colour scale, zone changes are ticks at the top. `between` limits the time [s], `file` also writes
+        it (PNG, SVG or PDF). Raises UnknownSignalError, UsageError.
         """
         from fairlead.report.plot import plot
 
-        return plot(self, self.chosen(names), title, between, file)
+        listed = [name for one in names if one is not None for name in _each(one)]
+        return plot(self, self.chosen(listed or None), title, between, file)
+
+
+def _each(names: str | Iterable[str]) -> Iterable[str]:
+    """One name as a list of one; what is no name is told where it is looked up."""
+    return [names] if isinstance(names, str) or not isinstance(names, Iterable) else names

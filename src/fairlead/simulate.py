@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
 from fairlead.arguments import Arguments
 from fairlead.brief import in_a_line
-from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError, no_attribute
+from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError, no_attribute, shown
 
 if TYPE_CHECKING:
     from fairlead.component.instantiate import Assembly
@@ -79,6 +79,22 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     return model
 
 
+def run(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = None,
+        libraries: Iterable[str | os.PathLike[str]] = (), allow_fmu: bool = False,
+        out: str | os.PathLike[str] | Place | None = Place.RESULTS, force: bool = False,
+        progress: Progress | None = None, profile: bool = False, check: bool = True,
+        **settings: Unpack[RunKeywords]) -> Result:  # fmt: skip
+    """Read a netlist and simulate it: `load(path, set, libraries, allow_fmu).run(...)` in one call.
+
+    `fairlead.run("belt", {"pad.normal_force": "20 N"}, stop="5 s", out=None)["block.x"]`. For more than one run of a
+    model, `load` it once.
+    """
+    if isinstance(path, Model):
+        raise UsageError("run: path is a Model already. Write model.run(...).")
+    model = load(path, set, libraries, allow_fmu)
+    return model._run(out, force, progress, profile, check, settings, "run")
+
+
 def _fits_are_known_late(netlist: Netlist, given: Iterable[str]) -> bool:
     """Whether a value from outside may stand at a signal, whose unit only the compiled model knows."""
     blocks = (netlist.initial, netlist.nominal, netlist.limits)
@@ -98,11 +114,18 @@ class Model:
     """
 
     def __init__(
-        self, sources: Sources, overrides: Mapping[str, str], libraries: tuple[str, ...], *, allow_fmu: bool = False
-    ) -> None:
+        self, sources: Sources, overrides: Mapping[str, str] | None = None, libraries: tuple[str, ...] = (), *,
+        allow_fmu: bool = False,
+    ) -> None:  # fmt: skip
         """Work out the netlist of `sources`; nothing is instantiated yet. `load` reads them."""
+        from fairlead.netlist.includes import Sources
         from fairlead.netlist.load import worked_out
 
+        if not isinstance(sources, Sources):
+            said = f'"{os.fspath(sources)}"' if isinstance(sources, str | os.PathLike) else "PATH"
+            what = f"Model: sources = {shown(sources)} is no netlist that was read."
+            raise UsageError(f"{what} Write fairlead.load({said}), which gives a Model.")
+        overrides = overrides or {}
         self.libraries, self.allow_fmu = libraries, allow_fmu
         self.rebuilt = ""
         """Of a model made by `with_values`: why it shares no structure with the one it comes from, if it does not."""
@@ -177,7 +200,7 @@ class Model:
         from fairlead.system.compile import untraceable
 
         faults = list(self._faults)
-        assembly, found = instantiate(self.netlist, known_types(self.libraries))
+        assembly, found = instantiate(self.netlist, known_types(self.libraries), whole=not self._faults)
         faults += without_echoes(found, faults)
         if self._faults:  # connections may be missing, so that open ports are only echoes
             assembly.excuse(assembly.instances)
@@ -242,11 +265,18 @@ class Model:
         run (`result.remarks`) are given to `warnings` as RunWarning. Raises ModelError for settings that a netlist
         could not have, and for those that the model cannot be run with; UsageError where the results may not go.
         """
+        return self._run(out, force, progress, profile, check, settings, "Model.run")
+
+    def _run(
+        self, out: str | os.PathLike[str] | Place | None, force: bool, progress: Progress | None, profile: bool,
+        check: bool, settings: RunKeywords, called: str,
+    ) -> Result:  # fmt: skip
+        """`run`, whichever of the two was called."""
         from fairlead.netlist.keywords import with_keywords
-        from fairlead.run import run
+        from fairlead.running import run
 
         begun = time.perf_counter()
-        asked = Arguments("Model.run")
+        asked = Arguments(called)
         asked.path("out", "results" if isinstance(out, Place) else out, none="None to keep the result in memory")
         for name, value in (("force", force), ("profile", profile), ("check", check)):
             asked.yes_or_no(name, value)
@@ -263,7 +293,7 @@ class Model:
             force=force, progress=progress, profile=profile, begun=begun,
         )  # fmt: skip
         for remark in result.remarks:
-            warnings.warn(remark, RunWarning, stacklevel=2)
+            warnings.warn(remark, RunWarning, stacklevel=3)
         if check and not result.ok:
             raise (RunInterrupted if result.status == "interrupted" else RunError)(result)
         return result

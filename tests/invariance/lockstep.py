@@ -17,7 +17,7 @@ import fairlead
 from fairlead.engine import engine_settings
 from fairlead.integrate.problem import Status
 from fairlead.integrate.underway import Underway
-from fairlead.run import _patterns
+from fairlead.running import _patterns
 from tests.invariance.plays import Play
 from tests.invariance.reordering import permuted, shuffled
 

@@ -163,13 +163,13 @@ def test_sigterm_ends_the_process_when_run_json_says_so_and_all_is_kept(start, n
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
 def test_a_signal_before_the_first_block_leaves_a_run_that_is_said_to_have_been_ended(tmp_path, netlist, name) -> None:
     script = """
-import os, signal, sys, fairlead, fairlead.run
+import os, signal, sys, fairlead, fairlead.running
 signal.signal(getattr(signal, sys.argv[3]), signal.SIG_DFL)  # under nohup SIGHUP is ignored, in all that is started
-integrate = fairlead.run.integrate
+integrate = fairlead.running.integrate
 def terminated(*given):
     os.kill(os.getpid(), getattr(signal, sys.argv[3]))
     return integrate(*given)
-fairlead.run.integrate = terminated
+fairlead.running.integrate = terminated
 fairlead.load(sys.argv[1]).run(out=sys.argv[2])
 """
     command = [sys.executable, "-c", script, str(netlist), str(tmp_path / "run"), name]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import fairlead
-from fairlead import run
+from fairlead import running as run
 from fairlead.cases import Cases
 from fairlead.errors import ModelError
 from fairlead.integrate.problem import Block, End

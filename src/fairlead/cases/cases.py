@@ -23,7 +23,7 @@ from fairlead.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED
 from fairlead.cases.values_of import value_of
 from fairlead.errors import FairleadError, ModelError
 from fairlead.netlist.settings import RecordSettings
-from fairlead.run import run
+from fairlead.running import run
 
 if TYPE_CHECKING:
     from fairlead.result import Result

@@ -36,7 +36,7 @@ def compare(
     ] = "*",
     out: Annotated[
         pathlib.Path | None,
-        typer.Option(metavar="DIR", help="Leave runs and figure here. Default: results/NAME-compare."),
+        typer.Option("--out", "-o", metavar="DIR", help="Leave runs and figure here. Default: results/NAME-compare."),
     ] = None,
     max_wall: Annotated[float, typer.Option(help="Seconds after which each run is ended.")] = 60.0,
     allow_fmu: AllowFmu = False,

@@ -35,7 +35,8 @@ def cost(
     ] = None,
     target: Annotated[str, typer.Option(metavar="PERCENT", help="The target whose choice --write writes.")] = "1 %",
     out: Annotated[
-        pathlib.Path | None, typer.Option(metavar="DIR", help="Table and figure go here. Default: results/NAME-cost.")
+        pathlib.Path | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Table and figure go here. Default: results/NAME-cost."),
     ] = None,
     allow_fmu: AllowFmu = False,
     as_json: AsJson = False,

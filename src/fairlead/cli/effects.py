@@ -35,7 +35,8 @@ def effects(
     ] = None,
     fresh: Fresh = False,
     out: Annotated[
-        pathlib.Path | None, typer.Option(metavar="DIR", help="effects.json goes here. Default: results/NAME-effects.")
+        pathlib.Path | None,
+        typer.Option("--out", "-o", metavar="DIR", help="effects.json goes here. Default: results/NAME-effects."),
     ] = None,
     allow_fmu: AllowFmu = False,
     as_json: AsJson = False,

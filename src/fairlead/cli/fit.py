@@ -22,7 +22,8 @@ def fit(
     ] = None,
     no_laws: Annotated[bool, typer.Option("--no-laws", help="Do not compare the laws of the fit file.")] = False,
     out: Annotated[
-        pathlib.Path | None, typer.Option(metavar="DIR", help="The report goes here. Default: results/NAME-fit.")
+        pathlib.Path | None,
+        typer.Option("--out", "-o", metavar="DIR", help="The report goes here. Default: results/NAME-fit."),
     ] = None,
     as_json: AsJson = False,
     quiet: Quiet = False,

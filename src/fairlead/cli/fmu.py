@@ -2,6 +2,7 @@
 
 import enum
 import pathlib
+import warnings
 from typing import Annotated
 
 import typer
@@ -53,7 +54,9 @@ def fmu(
     inputs: Inputs,
     outputs: Outputs,
     tunable: Tunable,
-    version: Annotated[Version, typer.Option("--fmi", help="Version of the standard, of an FMU.")] = Version.THREE,
+    version: Annotated[
+        Version | None, typer.Option("--fmi", help="Version of the standard, of an FMU.", show_default="3")
+    ] = None,
     out: Annotated[
         pathlib.Path | None,
         typer.Option("-o", metavar="PATH", help="Write this file, or folder of a library. Default: NAME.fmu, NAME."),
@@ -67,14 +70,25 @@ def fmu(
     block and of --in, --out and --tunable. A C compiler links it.
     """
     import fairlead
+    from fairlead.errors import RunWarning, UsageError
     from fairlead.fmu import export, export_library
 
+    if action is Action.LIBRARY and version is not None:
+        raise UsageError(
+            f"--fmi {version.value} is of an FMU, and a library has no version of that standard.\n"
+            f"    Leave it out, or write `fairlead fmu export {netlist} --fmi {version.value}`."
+        )
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
     if action is Action.LIBRARY:
-        folder = export_library(model, out, inputs=inputs, outputs=outputs, tunable=tunable)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always", RunWarning)
+            folder = export_library(model, out, inputs=inputs, outputs=outputs, tunable=tunable)
         if not quiet:
             echo(f"Library, header and an example in {folder}/")
+            for one in told:
+                echo(str(one.message))
         return
+    version = version or Version.THREE
     written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs, tunable=tunable)
     if not quiet:
         echo(f"FMI {version.value}.0 for co-simulation in {written}")

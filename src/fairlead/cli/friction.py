@@ -25,7 +25,9 @@ def friction(
     libraries: Libraries,
     method: Annotated[str, typer.Option(help="For a curve: the treatment.", show_default="that of a new scene")] = "",
     normal: Annotated[str, typer.Option(help="Normal force where the scene gives none.")] = "1 N",
-    out: Annotated[pathlib.Path, typer.Option(metavar="DIR", help="Leave the figures here.")] = pathlib.Path("results"),
+    out: Annotated[
+        pathlib.Path, typer.Option("--out", "-o", metavar="DIR", help="Leave the figures here.")
+    ] = pathlib.Path("results"),
     as_json: AsJson = False,
     quiet: Quiet = False,
     verbose: Verbose = False,

@@ -29,7 +29,8 @@ def graph(
         Format | None, typer.Option("--format", help="Default: by the ending of --out, else mermaid.")
     ] = None,
     out: Annotated[
-        pathlib.Path | None, typer.Option(metavar="FILE", help="Write to this file, not to standard output.")
+        pathlib.Path | None,
+        typer.Option("--out", "-o", metavar="FILE", help="Write to this file, not to standard output."),
     ] = None,
     quiet: Quiet = False,
     verbose: Verbose = False,

@@ -46,7 +46,8 @@ def plot(
     ] = None,
     out: Annotated[
         pathlib.Path | None,
-        typer.Option(metavar="FILE", help="Write here, as PNG, SVG or PDF by its ending. Of --paper: a folder."),
+        typer.Option("--out", "-o", metavar="FILE",
+                     help="Write here, as PNG, SVG or PDF by its ending. Of --paper: a folder."),
     ] = None,
     paper: Annotated[bool, typer.Option("--paper", help="Make Figures 3, 5 and 6 of the source paper.")] = False,
     figure: Annotated[str, typer.Option(metavar="NAME", help="Of a sweep: which figure. Default: the first.")] = "",

@@ -16,7 +16,8 @@ def report(
     ],
     out: Annotated[
         pathlib.Path | None,
-        typer.Option(metavar="FILE", help="Write the page here. Default: report.html in the first folder."),
+        typer.Option("--out", "-o", metavar="FILE",
+                     help="Write the page here. Default: report.html in the first folder."),
     ] = None,
     quiet: Quiet = False,
     verbose: Verbose = False,

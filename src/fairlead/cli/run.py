@@ -33,7 +33,7 @@ def run(
     ] = None,
     out: Annotated[
         pathlib.Path | None,
-        typer.Option(metavar="DIR", help="Leave the results here. Default: results/NAME."),
+        typer.Option("--out", "-o", metavar="DIR", help="Leave the results here. Default: results/NAME."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the results of a finished run.")] = False,
     csv: Annotated[bool, typer.Option("--csv", help="Also write the signals as series.csv.")] = False,

@@ -72,7 +72,8 @@ def sweep(
         typer.Option(metavar="WHICH", help="Full results of cases: 17, failed, broken, highest:FIGURE. Repeatable."),
     ] = None,
     out: Annotated[
-        pathlib.Path | None, typer.Option(metavar="DIR", help="The table goes here. Default: results/NAME-sweep.")
+        pathlib.Path | None,
+        typer.Option("--out", "-o", metavar="DIR", help="The table goes here. Default: results/NAME-sweep."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the table of another sweep.")] = False,
     allow_fmu: AllowFmu = False,

@@ -158,8 +158,13 @@ def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assemb
     return assembly
 
 
-def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assembly, list[Fault]]:
-    """What can be made of a netlist in spite of its mistakes, and the mistakes, for `check`."""
+def survey(
+    netlist: Netlist, types: Mapping[str, type[Declared]], *, whole: bool = True
+) -> tuple[Assembly, list[Fault]]:
+    """What can be made of a netlist in spite of its mistakes, and the mistakes, for `check`.
+
+    Of one that is not `whole`, connections may be missing, so lines and routes that lead nowhere are only echoes.
+    """
     scene, faults = sound(netlist, types)
     assembly = Assembly(netlist, scene)
     for entry in netlist.components.values():
@@ -183,7 +188,8 @@ def survey(netlist: Netlist, types: Mapping[str, type[Declared]]) -> tuple[Assem
             assembly.excuse(assembly.instances)
             break
         faults += _connect(assembly, ends)
-    faults += _open_paths(assembly)
+    open_paths = _open_paths(assembly)
+    faults += open_paths if whole else []
     return assembly, sorted(faults, key=lambda f: (f.where is None, f.where))
 
 

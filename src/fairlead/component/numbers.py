@@ -6,11 +6,14 @@ was left out are none; a quantity in time is one where it is constant.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from fairlead.component.given import Block, Parameter, Waveform
+from fairlead.component.tables import TableError
 from fairlead.component.values import Group, Values, Wave
+from fairlead.component.waveforms import numbers_in
 from fairlead.netlist.netlist import Netlist
 from fairlead.quantities import QuantityError, parse_unit, split, unit_text
 
@@ -20,6 +23,20 @@ def numbers(netlist: Netlist, entries: Mapping[str, Values]) -> dict[str, tuple[
     found = numbers_of_scene(netlist)
     for name, values in entries.items():
         found |= {f"{name}.{inner}": one for inner, one in _of_values(values)}
+    return found
+
+
+def numbers_in_time(netlist: Netlist, entries: Mapping[str, Values]) -> dict[str, tuple[float, str]]:
+    """Those that stand in terms of quantities in time: `push.force.ramp.to`, `push.force.sine.0.amplitude`."""
+    found = {}
+    for name, values in entries.items():
+        for parameter, declared in values.type.declaration.parameters.items():
+            given = netlist.components[name].parameters.get(parameter) if name in netlist.components else None
+            if not isinstance(declared, Waveform) or given is None:
+                continue
+            with contextlib.suppress(TableError, QuantityError):  # a mistake is told where it is read
+                for path, number, unit in numbers_in(given.plain(), declared.unit, name, parameter):
+                    found[".".join(path)] = (number, unit)
     return found
 
 

@@ -204,6 +204,32 @@ TERMS: dict[str, Callable[[Any, str, pathlib.Path], Any]] = {
 }  # fmt: skip
 
 
+IN_TIME = ("over", "start", "at", "rise", "stay", "fall", "every", "wide", "stop")
+IN_ITS_UNIT = ("to", "from", "amplitude", "offset")
+
+
+def numbers_in(value: Any, unit: str, *path: str) -> Iterator[tuple[tuple[str, ...], float, str]]:
+    """Path, value [SI] and unit of every number in a sound quantity in time that is written as terms."""
+    for inner, name, settings in _terms(value) if isinstance(value, Mapping) else ():
+        at = (*path, *map(str, inner))
+        if name == "constant":
+            yield at, written(settings, unit), unit
+        for word, one in settings.items() if isinstance(settings, Mapping) and name != "table" else ():
+            if word in ("of", "times"):
+                factor = "1" if word == "times" else unit
+                more = ((*at, word), written(one, factor), factor) if not isinstance(one, Mapping) else None
+                yield from numbers_in(one, factor, *at, word) if more is None else (more,)
+            elif (known := _unit_of(word, unit)) is not None:
+                yield (*at, word), written(one, known), known
+
+
+def _unit_of(word: str, unit: str) -> str | None:
+    """The unit of a setting of a term; None for a count."""
+    if word in IN_TIME:
+        return "s"
+    return unit if word in IN_ITS_UNIT else {"frequency": "Hz", "phase": "rad", "rate": f"{unit}/s"}.get(word)
+
+
 def waveform_schema(declared: Waveform) -> dict[str, Any]:
     """JSON Schema of a quantity in time."""
     terms: dict[str, Any] = {name: {} for name in TERMS}

@@ -5,15 +5,17 @@ The calls are those of `Model.start` in C: `c/library.h` is the header's form, `
 
 from __future__ import annotations
 
+import hashlib
 import importlib.resources
 import os
 import pathlib
 import re
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Unpack
 
 from fairlead.arguments import Arguments
-from fairlead.errors import UsageError
+from fairlead.errors import RunWarning, UsageError
 from fairlead.fmu.archive import write
 from fairlead.fmu.compiler import compiles, linked
 from fairlead.fmu.description import identifier
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from fairlead.simulate import Model
 
 EXAMPLE_STEPS = 20
+MARK = "/* Written by fairlead, which leaves this file alone once it has been edited. Digest: "
 WHEN = {ALWAYS: "", BEFORE: ", before the start only", AFTER: ", after the start only"}
 _WORDS = (
     "alignas alignof and asm auto bitand bitor bool break case catch char class compl concept const constexpr continue "
@@ -48,8 +51,8 @@ def export_library(
     of `fairlead.fmu.export`; without `folder` it is NAME in this folder. A library of the same model has the same
     bytes.
 
-    Raises ModelError as `Model.start` does, and UsageError for what cannot go along, without a C compiler, and where
-    a file cannot be written.
+    An example.c that was edited stays, with a RunWarning. Raises ModelError as `Model.start` does, and UsageError for
+    what cannot go along, without a C compiler, and where a file cannot be written.
     """
     given = Arguments("export_library")
     given.model(model)
@@ -69,9 +72,28 @@ def export_library(
         f"{name}.h": header_text(name, model.netlist.name, made.variables, made.tuned),
         "example.c": _example(name, model.netlist.name, asked.settings.start, asked.settings.stop),
     }
+    if _is_edited(target / "example.c", texts["example.c"]):
+        told = f"{target / 'example.c'} is not as it was written, and stays. Remove it to have it written anew."
+        warnings.warn(told, RunWarning, stacklevel=2)
+        del texts["example.c"]
     for file, content in {f"lib{name}.so": library, **{file: text.encode() for file, text in texts.items()}}.items():
         write(target / file, content)
     return target
+
+
+def _is_edited(path: pathlib.Path, new: str) -> bool:
+    """Whether an example is there that somebody made his own: its text is not that which its last line tells of."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return path.exists()
+    body, _, _ = text.rpartition(MARK)
+    return text != new and text != _marked(body)
+
+
+def _marked(body: str) -> str:
+    """A text with a last line that tells whether it has been changed since."""
+    return f"{body}{MARK}{hashlib.blake2b(body.encode(), digest_size=8).hexdigest()} */\n"
 
 
 def prefix(name: str) -> str:
@@ -128,10 +150,10 @@ def _distinct(names: Sequence[str]) -> list[str]:
 
 def _example(name: str, title: str, start: float, stop: float) -> str:
     span = stop - start
-    return _filled("example.c", {
+    return _marked(_filled("example.c", {
         "NAME": name, "MODEL": _comment(title), "STOP": f"{span:.9g}", "STEPS": str(EXAMPLE_STEPS),
         "PERIOD * k": f"{start!r} + {span / EXAMPLE_STEPS!r} * k", "PERIOD": f"{span / EXAMPLE_STEPS:.9g}",
-    })  # fmt: skip
+    }))  # fmt: skip
 
 
 def _filled(file: str, words: dict[str, str]) -> str:

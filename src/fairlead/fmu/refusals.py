@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterable
 
 from fairlead.errors import Fault, UsageError, did_you_mean, listing, shown
 from fairlead.foreign.block import ForeignBlock
+from fairlead.outer import gathered
 from fairlead.patterns import picked
 from fairlead.system.compiled.opened import free_inputs
 from fairlead.system.compiled.system import Instance, System
@@ -61,11 +62,19 @@ def refuse_names(system: System, inputs: Iterable[str], outputs: Iterable[str], 
     signals = dict.fromkeys(signal.name for signal in system.signals)
     wrong = [_unknown("--in", name, free, "input that is free", "Free inputs") for name in inputs if name not in free]
     wrong += [
-        _unknown("--out", name, signals, "signal", "Signals") for name in outputs if not picked(signals, name)
+        _gathered(name) if gathered(name)[0] else _unknown("--out", name, signals, "signal", "Signals")
+        for name in outputs if not picked(signals, name)
     ]  # fmt: skip
     wrong += [f"{fault.what}\n    {fault.way_out}" for fault in parameters]
     if wrong:
         raise UsageError("\n".join(wrong))
+
+
+def _gathered(name: str) -> str:
+    return (
+        f"--out {shown(name)}: the largest or the smallest of several signals needs a name of its own.\n"
+        f'    Give it one in the netlist: `interface: {{outputs: {{NAME: {{of: "{name}"}}}}}}`.'
+    )
 
 
 def _unknown(option: str, name: str, known: Collection[str], what: str, several: str) -> str:
