@@ -95,7 +95,7 @@ class Growing(Component):
         return Law(moved=hold_position(layers.x - squares + p.offset * angle))
 
 
-class Cylinder(OnRoll):
+class SteadyRoll(OnRoll):
     """The limit of a Spiral with web so thin that radius and inertia stay."""
 
     rim = Translational("where the web comes off or on")
@@ -158,7 +158,7 @@ def rolled(p, scene, way, length):
     if p.layers == "off":
         turns = p.moment + bulk * (p.radius**4 - p.core_radius**4)
         children = {
-            "roll": scene.make(Cylinder, moment=turns, **same),
+            "roll": scene.make(SteadyRoll, moment=turns, **same),
             "core": scene.make(Inertia, moment=turns, **start),
         }
         return Expansion(children, [("roll.shaft", "core.shaft")], {"shaft": "core.shaft", "rim": "roll.rim"}, told)
