@@ -85,7 +85,7 @@ def flows(p, a, b, before, after, strain):
     return q_a, q_b, brings, lost, b.v - a.v - (1 + strain) * (q_b - q_a)
 
 
-def span(p, a, b, pull, taut, length, rate, told, **ports):
+def span(p, pull, taut, length, rate, told, **ports):
     """Law of a web whose way is `length`, which grows with `rate`; `told` is what `flows` tells of its ends.
 
     `ports` has the port of what moves, if any, and by how much it lengthens the way. The work of damping at a roller
@@ -122,7 +122,7 @@ class WholeSpan(FixedSpan):
         """The balance of material."""
         taut = zone == "taut"
         ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
-        return span(p, a, b, pull, taut, p.length, 0, ends)
+        return span(p, pull, taut, p.length, 0, ends)
 
 
 class WebSpan(FixedSpan):
@@ -145,7 +145,7 @@ class WebSpan(FixedSpan):
         """The balance of material."""
         taut = zone == "taut"
         ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
-        return span(p, a, b, pull, taut, p.length, 0, ends)
+        return span(p, pull, taut, p.length, 0, ends)
 
     @zone("torn")
     def torn(p, a, b, pull):
@@ -210,15 +210,25 @@ class WebAccumulator(Web):
         length, rate = p.length + p.strands * carriage.x, p.strands * carriage.v
         taut = zone == "taut"
         ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
-        law = span(p, a, b, pull, taut, length, rate, ends, carriage=p.strands)
+        law = span(p, pull, taut, length, rate, ends, carriage=p.strands)
         return Law(**law.terms, free=length)
 
 
-class RopeTail(Web):
-    """A rope or web from a roller to a body that it is fastened to:  S' = q_a,  free length = length + load.x.
+def tail(p, a, before, pull, taut, length, rate):
+    """Law of a rope whose other end is a body: material comes and goes at the roller alone."""
+    strain = pull / p.stiffness if taut else 0
+    comes, goes = forward(p, a.v) / (1 + before), (a.v - forward(p, a.v)) / (1 + strain)
+    half = p.stiffness / 2
+    brings, lost = half * (before**2 * comes + strain**2 * goes), half * (strain - before) ** 2 * comes
+    ends = comes + goes, 0, brings, lost, (1 + strain) * (comes + goes) - a.v
+    return span(p, pull, taut, length, rate, ends)
 
-    For small strain  length d(tension)/dt = stiffness (load.v - a.v) + a.v tension_before.  What is paid out at `a`
-    lets the body go; the force on it is `tension`, back towards the roller. `after` is not read: nothing comes from it.
+
+class RopeTail(Web):
+    """A rope or web from a roller to a body that it is fastened to:  S' = q_a,  free length = length + b.x.
+
+    For small strain  length d(tension)/dt = stiffness (b.v - a.v) + a.v tension_before.  What is paid out at `a` lets
+    the body go; the force on it is `tension`, back towards the roller. `after` is not read: nothing comes from it.
 
     Source: docs/physics.md, 4.9. Limits: as of a WebSpan; the free length must stay above zero.
     """
@@ -228,11 +238,25 @@ class RopeTail(Web):
 
     @zone("taut", "slack")
     def running(p, a, b, before, pull, zone):
-        """The balance of material, over a way that the body changes: nothing passes the body."""
-        taut = zone == "taut"
-        strain = pull / p.stiffness if taut else 0
-        comes, goes = forward(p, a.v) / (1 + before), (a.v - forward(p, a.v)) / (1 + strain)
-        half = p.stiffness / 2
-        brings, lost = half * (before**2 * comes + strain**2 * goes), half * (strain - before) ** 2 * comes
-        ends = comes + goes, 0, brings, lost, (1 + strain) * (comes + goes) - a.v
-        return span(p, a, b, pull, taut, p.length + b.x, b.v, ends)
+        """The balance of material, over a way that the body changes."""
+        return tail(p, a, before, pull, zone == "taut", p.length + b.x, b.v)
+
+
+class MovingTail(Web):
+    """A RopeTail from a roller whose place moves, as that on a ship:  free length = length + b.x - place.x.
+
+    `a` is the rim, as seen from the ship. The rope pulls the body and the place together, each with its tension.
+
+    Source and limits: as of a RopeTail; what the rope on the other side pulls is to be joined with `place` too.
+    """
+
+    asked_with = {"stiffness": 1e5, "length": 1e3}
+    exempt = {"balance": "the rope also goes through `a`, whose rim moves with the place"}
+    b = Translational("the body at its end")
+    place = Translational("the ship")
+
+    @zone("taut", "slack")
+    def running(p, a, b, place, before, pull, zone):
+        """The balance of material, over a way that both change."""
+        law = tail(p, a, before, pull, zone == "taut", p.length + b.x - place.x, b.v - place.v)
+        return Law(**law.terms, place=-law.terms["b"])

@@ -221,12 +221,65 @@ def test_a_rope_slips_through_all_grooves_at_euler_s_ratio_of_all_their_wraps(mu
     assert result.at("drum.left", slips[0]) == result["drum.left"][0]
 
 
+AREA = np.pi * 0.25**2 / 4  # of the compensator [m^2]
+
+
+@pytest.mark.slow
+def test_a_passive_compensator_has_the_force_of_its_gas_on_both_sides_of_its_sheave():
+    """The gas follows from the travel alone; the oil's force is that of both sides and of 200 kg."""
+    result = run("heave_compensator", **{"compensator.effects.active": "off"})
+    travel, late = result["compensator.travel"], result.t > 10
+    assert np.ptp(travel[late]) > 1.3
+    level = 20e5 * (1.5 / (1.5 * (20 / 33.6) ** (1 / 1.2) + AREA * (travel - 1.5))) ** 1.2
+    assert result["compensator.gas_pressure"] == pytest.approx(level, rel=1e-4)
+    rises = np.gradient(np.gradient(travel, result.t), result.t)
+    both = result["sheave.tension_in"] + result["sheave.tension_out"] + 200 * rises
+    assert (result["compensator.cylinder.pressure"] - 1e5)[late] * AREA == pytest.approx(both[late], abs=20)
+    assert result["tail.tension"][late] == pytest.approx((level[late] - 1e5) * AREA / 2, abs=300)  # of 80 kN
+
+
+@pytest.mark.slow
+def test_an_active_compensator_leaves_a_third_of_what_the_gas_leaves():
+    """2 T = gas + 4 (wanted - T), so T - wanted = (gas/2 - wanted)/3, less what the necks and the masses take."""
+    result = run("heave_compensator")
+    late = result.t > 10
+    assert np.abs(result["control.command"][late]).max() < 20e3
+    gas = (result["compensator.gas_pressure"][late] - 1e5) * AREA
+    assert result["tail.tension"][late] - 8e4 == pytest.approx((gas / 2 - 8e4) / 3, abs=100)
+    assert np.ptp(gas) / 2 > 6e3
+    weak = run("heave_compensator", **{"compensator.most": "1 kN"})
+    assert np.ptp(weak["tail.tension"][late]) > 2 * np.ptp(result["tail.tension"][late])
+
+
+@pytest.mark.slow
+def test_a_bearing_of_a_moving_sheave_parts_the_tensions_of_its_sides():
+    """While the loop grows, rope comes in from the side ahead, so the side behind has to pull harder."""
+    result = run("heave_compensator", **{"sheave.rubbing": "400 N*m", "compensator.effects.active": "off"})
+    t = np.linspace(10, 39, 581)
+    speed = np.gradient(result.at("compensator.travel", t), t)
+    swift = np.abs(speed) > 0.2
+    parts = result.at("sheave.tension_in", t) - result.at("sheave.tension_out", t)
+    assert np.ptp(np.sign(speed[swift])) == 2
+    assert parts[swift] == pytest.approx(1000 * np.sign(speed[swift]), abs=30)  # and 4 kg m^2 at the sheave
+
+
+def test_a_stopper_holds_up_to_its_capacity_and_lets_go_as_it_is_opened():
+    """The pull passes 50 kN at 5/3 s; opened from 4 s on it holds 20 kN until 4.6 s."""
+    result = run("stopper")
+    assert switched(result, "stopper.contact", "forward") == pytest.approx(5 / 3, rel=1e-6)
+    assert result.at("chain.v", 2.0) == pytest.approx(15 / 3**2 / 2, rel=1e-5)
+    again = [e.t for e in result.events if e.component == "stopper.contact" and e.zone_to == "forward"]
+    assert again[1] == pytest.approx(4.6, rel=1e-6)
+    assert result.at("chain.v", 6.0) - result.at("chain.v", 5.5) == pytest.approx(5, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("name", "set_to", "says"),
     [
         ("unwinder", {"roll.radius": "40 mm"}, "radius 0.04 m is below core_radius = 0.05 m"),
         ("unwinder", {"roll.moment": "1e-3 kg*m^2"}, "is not above that of a core of solid web"),
         ("traction_drums", {"drum.width": "20 mm"}, "width 0.02 m is below diameter = 0.03 m"),
+        ("heave_compensator", {"compensator.pressure": "15 bar"}, "is not above precharge = 2e+06 Pa"),
         ("winder", {"taper.shape": "linear"}, "shape is linear without full_radius"),
         ("winder", {"taper.full_radius": "40 mm"}, "full_radius 0.04 m is not above core_radius = 0.05 m"),
     ],
