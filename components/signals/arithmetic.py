@@ -25,6 +25,7 @@ class SignalSelect(Component):
     pick = Choice(("greatest", "least"), "Which one passes.", default="greatest")
     signal = Output("1", "The one that passes.")
     zones = Zones("a_passes", "b_passes")
+    saturates_in = {"a": ("b_passes",), "b": ("a_passes",)}
 
     @zone("a_passes")
     def first(p, a, b):

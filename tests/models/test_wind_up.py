@@ -86,6 +86,24 @@ def test_a_controller_without_limits_before_a_limiter_is_told(tmp_path, wanted, 
     assert "Give control the limits `low` and `high` that limit has" in remark
 
 
+@pytest.mark.parametrize("wanted", ["1", "-1"])
+def test_a_clip_in_an_expression_is_a_limiter(tmp_path, wanted):
+    """Made of the smaller and of the larger of two signals; only one of both is at its limit for good."""
+    clip = '{type: SignalFunction, expression: "max(-0.1, min(0.1, value))"}'
+    text = SCENE.replace("WANTED", wanted).replace("{type: Limiter, low: -0.1, high: 0.1}", clip)
+    (remark,) = told(tmp_path, text)
+    assert remark.startswith("control winds up: its integral grows during ")
+    assert "while limit.step" in remark
+    assert "passes another signal, and the controller answers late" in remark
+
+
+def test_a_controller_whose_command_is_chosen_both_ways_is_not_told(tmp_path):
+    """The size of a command: whichever of both passes, a larger command gives a larger one."""
+    size = '{type: SignalFunction, expression: "max(value, -value)"}'
+    text = SCENE.replace("WANTED", "1").replace("{type: Limiter, low: -0.1, high: 0.1}", size)
+    assert told(tmp_path, text.replace("stop: 4 s", "stop: 1 s")) == []
+
+
 @pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
 def test_it_is_told_of_every_engine(tmp_path, engine):
     if engine == "ida":

@@ -123,6 +123,10 @@ def test_sines_are_added_multiplied_and_gated(name):
         ({"gate": {"of": {"sine": {"amplitude": 1}}, "stop": 1}}, ("gate", "of", "sine"), "frequency is missing"),
         ({"product": {"of": 3, "times": "2 N"}}, ("product", "times"), "is a force, not a plain number"),
         ({"product": {"of": 3}}, ("product",), "times is missing"),
+        ({"sine": {"amplitude": 1, "omega": 3}}, ("sine", "omega"), "Did you mean frequency?"),
+        ({"pulses": {"to": 1, "period": 1, "wide": 0.5, "count": 2}}, ("pulses", "period"), "Did you mean every?"),
+        ({"square": {"amplitude": 1}}, ("square",), "Did you mean pulses?"),
+        ({"cosine": {"amplitude": 1, "frequency": 1}}, ("cosine",), "Did you mean sine with phase: 90 deg?"),
         ({"product": {"of": SQUARE, "times": SQUARE}}, ("product",), "a degree above 3"),
     ],
 )  # fmt: skip

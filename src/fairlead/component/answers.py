@@ -131,6 +131,14 @@ def _zones(value: Any, has: Declaration) -> str:
     return "" if fits else f"is {_shown(value)}; it names zones of {sorted(has.zones)}"
 
 
+def _saturation(value: Any, has: Declaration) -> str:
+    if not isinstance(value, dict):
+        return _zones(value, has)
+    if not set(value) <= set(has.inputs):
+        return f"is {_shown(value)}; it names inputs of {sorted(has.inputs)}"
+    return next((said for zones in value.values() if (said := _zones(zones, has))), "")
+
+
 def _budget(value: Any, has: Declaration) -> str:
     fits = isinstance(value, dict) and all(key in BUDGETS and isinstance(n, int) for key, n in value.items())
     return "" if fits else f"is {value!r}; it gives whole numbers for {' and '.join(BUDGETS)}"
@@ -168,6 +176,7 @@ INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
 WAVE = Kind("a parameter", _wave)
 TWO_PORTS = Kind("two ports", _two_ports)
 PARAMETERS, ZONES = Kind("parameters", _parameters), Kind("zones", _zones)
+SATURATION = Kind("zones, or a map of zones by input", _saturation)
 PARAMETER, BUDGET = Kind("a parameter", _parameter), Kind("a map of numbers", _budget)
 SHARE = Kind("a share", _share)
 TWO_OPTIONS = Kind("a choice and two of its options", _options)
@@ -281,9 +290,9 @@ class Answers:
         SHARE, "with an output of role strain: the share of its length by which it may get shorter without a remark",
         default=0.5,
     )
-    saturates_in: tuple[str, ...] = _asked(
-        ZONES, "zones in which a larger input gives no larger output; a run tells of a controller that winds up there",
-        default=(),
+    saturates_in: tuple[str, ...] | Mapping[str, tuple[str, ...]] = _asked(
+        SATURATION, "zones in which a larger input gives no larger output, of all inputs or by input; a run tells of a "
+        "controller that winds up there", default=(),
     )
     budget: Mapping[str, int] = _asked(
         BUDGET, "`max_steps` and `max_events` of its runs, where the netlist gives none", default=dict

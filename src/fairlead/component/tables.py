@@ -27,6 +27,10 @@ from fairlead.errors import did_you_mean, listing, shown
 from fairlead.quantities import NUMBER, QuantityError, written
 
 WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
+CALLED = {"omega": ("frequency",), "period": ("every", "over"), "width": ("wide",), "duration": ("over", "stay"),
+          "n": ("count",), "number": ("count",), "height": ("to",), "value": ("to",), "end": ("stop",), "x": ("t",),
+          "time": ("at", "t"), "offset": ("from",), "slope": ("rate",), "until": ("stop",)}  # fmt: skip
+"""What others call a setting of a quantity in time."""
 MOST_POINTS = 100_000
 MOST_BYTES = 10_000_000
 MOST_KEPT = 16
@@ -278,7 +282,8 @@ def only(settings: Any, allowed: Set[str], needed: Set[str] = frozenset()) -> No
         raise TableError(f" = {shown(settings)} is not a map", f"Write a map with {names}.")
     for name in settings:
         if name not in allowed:
-            what = f"there is no such setting. {did_you_mean(str(name), allowed)}".rstrip(" .")
+            meant = next((f"Did you mean {one}?" for one in CALLED.get(str(name), ()) if one in allowed), "")
+            what = f"there is no such setting. {meant or did_you_mean(str(name), allowed)}".rstrip(" .")
             raise TableError(what, f"There are {names}.", (str(name),), of_name=True)
     for name in sorted(needed - set(settings)):
         raise TableError(f"{name} is missing", f"Needed: {listing(sorted(needed))}.")

@@ -32,6 +32,10 @@ from fairlead.quantities import QuantityError, wanted, written
 
 HIGHEST = DEGREE - 1
 """Degree of the pieces of a product; a velocity is integrated once more."""
+CALLED = {"square": "pulses", "rectangle": "pulses", "pulse": "pulses", "cosine": "sine with phase: 90 deg",
+          "cos": "sine with phase: 90 deg", "sin": "sine", "sinus": "sine", "harmonic": "sine", "linear": "drift",
+          "window": "gate", "multiply": "product", "points": "table", "file": "table with file"}  # fmt: skip
+"""What others call a term."""
 MOST_SINES = 16
 """In one quantity in time; each is a term of the compiled law, and a product of sines has twice as many as both."""
 
@@ -71,7 +75,7 @@ def _terms(value: Mapping[str, Any]) -> Iterator[tuple[tuple[str | int, ...], st
     """Path, kind and settings of every term; several of a kind stand in a list."""
     for name, settings in value.items():
         if name not in TERMS:
-            near = did_you_mean(str(name), TERMS)
+            near = f"Did you mean {CALLED[name]}?" if name in CALLED else did_you_mean(str(name), TERMS)
             what = f"there is no such waveform. {near}".rstrip(" .")
             raise TableError(what, f"There are {listing(TERMS)}.", (str(name),), of_name=True)
         if isinstance(settings, list) and settings and (name != "table" or isinstance(settings[0], Mapping)):

@@ -1,14 +1,15 @@
 """Controllers that wind up: the integral grows although what follows has given all it has.
 
 An output of role `integral` is what a controller has gathered, and `saturates_in` are the zones of a part in which a
-larger input gives no larger output: a valve that is fully open, a limiter, an amplifier at its voltage. Where such a
-part is fed by the controller, at once or through other signals, the time is added up in which it is in one of these
-zones and the integral grows in size. More than half of a run is told, with the way out.
+larger input gives no larger output: a valve that is fully open, a limiter, an amplifier at its voltage; or, input by
+input, the smaller of two signals while the other one passes. Where such a part is fed by the controller, at once or
+through other signals, the time is added up in which it is in one of these zones and the integral grows in size. More
+than half of a run is told, with the way out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -23,6 +24,7 @@ MOST = 0.5
 """Share of the run from which on it is told."""
 NOTHING = 1e-12
 """Of the integral; a smaller change is taken for rounding."""
+GIVES_ALL, PASSES_ANOTHER = "already gives all it has", "passes another signal"
 Floats = NDArray[np.float64]
 Events = NDArray[np.void]
 
@@ -39,6 +41,7 @@ class Watched:
     saturated: frozenset[int]
     """Zones in which the part gives all it has."""
     zone: int
+    how: str = GIVES_ALL
     grows: bool = False
     t: float = np.nan
     size: float = np.nan
@@ -96,7 +99,7 @@ class WindUp:
         span = self.last[0] - self.first if self.last is not None else 0.0
         return [
             f"{one.controller} winds up: its integral grows during {100 * one.wound / span:.0f} % of the run while "
-            f"{one.part} already gives all it has, and the controller answers late when the error turns. Give "
+            f"{one.part} {one.how}, and the controller answers late when the error turns. Give "
             f"{one.controller} the limits `low` and `high` that {one.part} has, or a command that it can follow."
             for one in self.watched
             if one.wound > MOST * span
@@ -106,20 +109,24 @@ class WindUp:
 def _watched(system: System, integrals: dict[str, int]) -> Iterator[Watched]:
     by_path = {instance.path: instance for instance in system.flat.instances}
     for machine, path in enumerate(system.machine_names):
-        zones = by_path[path].type.answers.saturates_in if path in by_path else ()
-        if not zones:
-            continue
-        names = list(system.zone_names(machine))
-        saturated = frozenset(names.index(zone) for zone in zones if zone in names)
-        for controller in _fed_by(system.flat, path, integrals):
-            yield Watched(controller, path, integrals[controller], machine, saturated, int(system.zones[machine]))
+        says = by_path[path].type.answers.saturates_in if path in by_path else ()
+        names, at = list(system.zone_names(machine)) if says else [], int(system.zones[machine])
+        ways = says if isinstance(says, Mapping) else {"": says} if says else {}
+        fed = {own: set(_fed_by(system.flat, path, integrals, own)) for own in ways}
+        for own, zones in ways.items():
+            saturated = frozenset(names.index(zone) for zone in zones if zone in names)
+            others = set().union(*(fed[other] for other in ways if other != own))
+            for controller in sorted(fed[own] - others):  # of a signal against itself each way is its own
+                how = PASSES_ANOTHER if own else GIVES_ALL
+                yield Watched(controller, path, integrals[controller], machine, saturated, at, how)
 
 
-def _fed_by(flat: FlatModel, path: str, integrals: dict[str, int]) -> Iterator[str]:
-    """The controllers whose signal comes to a part, not looking behind a controller."""
+def _fed_by(flat: FlatModel, path: str, integrals: dict[str, int], own: str = "") -> Iterator[str]:
+    """The controllers whose signal comes to a part, or to one input of it, not looking behind a controller."""
     sources: dict[str, set[str]] = {}
     for target, source in flat.sources.items():
-        sources.setdefault(target.instance, set()).add(source.instance)
+        if not own or target.instance != path or target.port == own:
+            sources.setdefault(target.instance, set()).add(source.instance)
     seen, waiting = {path}, [*sorted(sources.get(path, ()))]
     while waiting:
         one = waiting.pop()
