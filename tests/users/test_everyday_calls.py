@@ -4,6 +4,7 @@ import pathlib
 
 import pytest
 from typer.main import get_command
+from typer.testing import CliRunner
 
 import fairlead
 from fairlead.cli import app
@@ -84,3 +85,16 @@ def test_a_line_that_is_joined_with_no_route_is_still_told(tmp_path):
     (tmp_path / "capstan.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=r"rope\.path is connected to nothing"):
         fairlead.load(tmp_path / "capstan.yaml").check()
+
+
+def test_plot_takes_signals_by_name_and_tells_what_can_be_drawn(tmp_path):
+    fairlead.run("belt", stop="0.5 s", out=tmp_path / "run")
+    shell = CliRunner()
+    named = shell.invoke(app, ["plot", str(tmp_path / "run"), "block.x", "pad.slip", "-o", str(tmp_path / "two.svg")])
+    assert named.exit_code == 0, named.output
+    assert (tmp_path / "two.svg").stat().st_size > 1000
+    wrong = shell.invoke(app, ["plot", str(tmp_path / "run"), "profle"])
+    assert wrong.exit_code == 2
+    assert "Did you mean profile?" in " ".join(wrong.output.replace("│", " ").split())
+    unknown = shell.invoke(app, ["plot", str(tmp_path / "run"), "blok.x"])
+    assert "Did you mean block.x?" in f"{unknown.exception} {unknown.output}"

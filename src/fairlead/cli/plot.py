@@ -8,6 +8,7 @@ import typer
 
 from fairlead.cli.options import Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo
+from fairlead.errors import did_you_mean, listing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,11 +33,20 @@ class What(enum.StrEnum):
     WORK_PRECISION = "work-precision"
 
 
+def _begun(incomplete: str) -> list[str]:
+    """What can be drawn whose name begins so, for completion."""
+    return [what for what in What if what.startswith(incomplete)]
+
+
 def plot(
     settings: Settings,
     libraries: Libraries,
     source: Annotated[str, typer.Argument(metavar="RUN|MODEL", help="A folder of a run or sweep, or a netlist.")] = "",
-    what: Annotated[What | None, typer.Argument(metavar="WHAT", help="What to draw.")] = None,
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="WHAT", help=f"What to draw: {', '.join(What)}; or names of signals.",
+                       autocompletion=_begun),
+    ] = None,
     signals: Annotated[
         list[str] | None, typer.Option("--signals", metavar="PATTERN", help="Signals, or parts with zones. Repeatable.")
     ] = None,
@@ -57,6 +67,8 @@ def plot(
     """Draw signals, a profile, a map, zones, the ledger, friction or work-precision, for print; or a sweep."""
     from fairlead.studies.sweeps.table import is_sweep
 
+    what, named = _asked(words or [])
+    signals = [*named, *(signals or ())]
     if source and is_sweep(pathlib.Path(source)):
         written = _of_sweep(pathlib.Path(source), figure, what, out)
     elif paper:
@@ -71,10 +83,21 @@ def plot(
 
         result, folder = _result(source, settings, libraries)
         times = [si(text, "s") for text in at or ()]
-        written = [printed(result, what.value, out or folder / f"{what.value}.png", signals or (), times)]
+        written = [printed(result, what.value, out or folder / f"{what.value}.png", signals, times)]
     if not quiet:
         for file in written:
             echo(f"wrote {file}")
+
+
+def _asked(words: list[str]) -> tuple[What | None, list[str]]:
+    """What is to be drawn, and the signals named behind it or alone: `plot RUN block.x pad.slip`."""
+    if not words or words[0] in list(What):
+        return (What(words[0]) if words else None), words[1:]
+    if not any(sign in words[0] for sign in ".*?["):
+        near = did_you_mean(words[0], list(What))
+        told = f"{words[0]!r} is nothing to draw. {near} There are {listing(list(What))}; or name signals."
+        raise typer.BadParameter(told)
+    return What.SIGNALS, words
 
 
 def _of_sweep(place: pathlib.Path, figure: str, what: What | None, out: pathlib.Path | None) -> list[pathlib.Path]:
