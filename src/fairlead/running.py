@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fairlead.analysis.record.below_weight import BelowWeight
 from fairlead.analysis.record.counts import unreasonable
 from fairlead.analysis.record.creep import WorstCreep
-from fairlead.analysis.record.energy import Ledger, judged
+from fairlead.analysis.record.energy import Ledger, judged, resolved
 from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
@@ -190,7 +190,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "chattering": list(outcome.chattering),
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
-        "worst_creep": watch.creep.summary(), "energy": judged(watch.ledger.summary(), watch.system.undeclared),
+        "worst_creep": watch.creep.summary(), "energy": _energy(outcome, watch),
         "extremes": watch.extremes.plain([one.name for one in watch.recording.chosen]),
         "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
@@ -200,6 +200,13 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "strains": watch.strains.summary(),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip
+
+
+def _energy(outcome: Outcome, watch: Watch) -> dict[str, Any]:
+    """The ledger, and the energy that the error weights of the run resolve."""
+    summary = watch.ledger.summary()
+    known = {} if "throughput" not in summary else {"resolved": resolved(outcome.problem)}
+    return judged(summary | known, watch.system.undeclared)
 
 
 def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:

@@ -83,6 +83,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "guard_machine": problem.guard_machine,
         "kink_guard": np.asarray(problem.kink_guard, np.int64),
         "may_hold": _of_contacts(problem),
+        "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
         "holder": np.asarray(problem.holder, np.int64), "in_circle": _in_circles(problem),
         "is_speed": moved_at_once(problem),
@@ -132,6 +133,17 @@ def _of_contacts(problem: Problem) -> Integers:
     takes = np.asarray(problem.takes_impulse, dtype=np.int64)
     held, rigid = np.isin(problem.guard_machine, holder[holder >= 0]), holder[(holder >= 0) & (takes == RIGID)]
     return held.astype(np.int64) + np.isin(problem.guard_machine, rigid)
+
+
+def bounded_rows(problem: Problem) -> Integers:
+    """By guard: the row whose force its machine holds, where it bounds that force; -1 for none, or more than one."""
+    holder = np.asarray(problem.holder, dtype=np.int64)
+    row = np.full(len(problem.zones) + 1, -1, dtype=np.int64)
+    held = np.flatnonzero(holder >= 0)
+    row[holder[held]] = held
+    counts = np.bincount(holder[held], minlength=len(row))
+    row[counts > 1] = -1
+    return np.where(np.asarray(problem.limit_guard) == 1, row[problem.guard_machine], -1).astype(np.int64)
 
 
 RIGID = 2
@@ -222,7 +234,8 @@ def point_at_instance(memory: Memory, own: Instance) -> None:
     """Tell the loop of the zones and weights of the run."""
     inertia, back = np.asarray(own.guard_inertia), np.asarray(own.rebound, np.float64)
     of_run = {
-        "absolute": own.absolute, "relative": own.relative, "cap": own.cap, "guard_tolerance": own.guard_tolerance,
+        "absolute": own.absolute, "relative": own.relative, "cap": own.cap,
+        "guard_tolerance": np.array(own.guard_tolerance, np.float64),
         "column_scale": np.minimum(own.absolute + own.relative * np.abs(own.initial), own.cap),
         "guard_inertia": inertia, "rebound": back,
     }  # fmt: skip

@@ -35,6 +35,7 @@ from fairlead.system.numbering.loops import without_loops
 from fairlead.system.numbering.ranks import signal_ranks
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.unknowns import groups_with_rate_forces, number
+from fairlead.system.start.driven import overridden
 from fairlead.system.start.places import placed, unfit
 from fairlead.system.start.speeds import started
 
@@ -60,6 +61,8 @@ def compile(flat: FlatModel) -> System:
     if faults:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)
+    if faults := overridden(system):
+        raise ModelError(faults)
     system = started(placed(system, initially), initially)
     return dataclasses.replace(system, narrows=None if system.kept_positions or rated else _subsystem)
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
 from fairlead.analysis.record.chattering import remark as of_chatter
-from fairlead.analysis.record.energy import unjudged
+from fairlead.analysis.record.energy import open_by, unjudged
 from fairlead.analysis.record.strains import remark as of_strains
 
 OPEN = 0.1
@@ -33,7 +33,7 @@ def told(run: Mapping[str, Any]) -> Iterator[Told]:
     reaction = run.get("settings", {}).get("chatter", "")
     if said := of_chatter(run.get("chattering", ()), run.get("dwell", 0.0), reaction):
         yield Told("warning", said)
-    closure = (run.get("energy") or {}).get("closure")
+    closure = open_by(run.get("energy"))
     if run["status"] == "finished" and closure is not None and not closure <= OPEN:
         missing = f"the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this run."
         yield Told("warning", f"{missing} Ask for a finer accuracy, or look for a number far from all others.")

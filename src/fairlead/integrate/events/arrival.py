@@ -25,7 +25,7 @@ from fairlead.integrate.events.first_sample import settle_for_sample, take_first
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RUBBED
-from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.limits import ROUNDING, goes_no_further
 from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import (
@@ -196,7 +196,7 @@ def judge_again(problem, run, point, events):
         return
     g, tolerance = reals(guards.at_g, problem.n_guards), reals(guards.at_guard_tolerance, problem.n_guards)
     fired, kept, ahead = indices(guards.at_fired, problem.n_guards), 0, reals(guards.at_g_probe, problem.n_guards)
-    d = 0.0
+    d, tied = 0.0, False  # whether a load turns at its limit
     if problem.n_moves == 0:
         d = distance_to_look(run, point)
         move_ahead(point, d, d)
@@ -207,7 +207,9 @@ def judge_again(problem, run, point, events):
         if not near and FARTHER * (ahead[i] - g[i]) >= EARLY * -g[i]:
             near = True
             settling.least_look = max(settling.least_look, d * EARLY * -g[i] / (ahead[i] - g[i]))
-        if near:
+        tops_out = goes_no_further(guards, i)
+        tied = tied or tops_out
+        if near and not tops_out:
             fired[kept] = i
             kept += 1
     if kept > 0:
@@ -215,7 +217,7 @@ def judge_again(problem, run, point, events):
     else:
         guards.n_fired, run.crossed, run.dropped = 0, 0, run.dropped + 1
         run.last_error = 0.0  # the point has moved: nothing is known of the step before
-        if problem.n_balanced > 0 and run.adaptive == 1:
+        if (problem.n_balanced > 0 or tied) and run.adaptive == 1:
             run.h_next = min(run.h_next, DOUBT * run.h)  # a load that turns at its limit leaves it with no slope
 
 

@@ -5,6 +5,8 @@ exactly zero at t0 does not fire. A guard that starts at zero and dips below it 
 there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
 extremum is tested. Companion rule: a guard above its tolerance that never was below zero means that
 the zones at t0 were wrong (the caller settles from there).
+The limit of a force that holds fires where it goes on beyond its tolerance: a load that comes to its limit and no
+further is held (limits.py).
 Zero at t0 is what a settlement counts as at a limit (limits.ROUNDING): the slip of a contact that has just broken
 away is 1e-20 m/s of either sign, and the sign must not tell whether the contact stops again or never slipped.
 
@@ -14,7 +16,7 @@ All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of
 from __future__ import annotations
 
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.limits import ROUNDING, weigh_limits
 from fairlead.integrate.events.settling import RISE, look_ahead
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.point.interpolant import interpolate
@@ -23,6 +25,9 @@ from fairlead.integrate.record.between import take_slip_away
 NONE, CROSSING, COMPANION = 0, 1, 2
 NEAR = 2.0**-10
 """Distance in theta over which the slope of a guard at an end of the step is taken."""
+
+ALWAYS = 2.0
+"""Theta, beyond the step, up to which a guard counts as below zero that does so in the whole of it."""
 
 HIGHEST = 4.0 / 27.0
 """Largest value of x (1 - x)^2, which is how far a cubic rises above its ends for a unit of slope at one of them."""
@@ -52,6 +57,7 @@ def first_crossing(m, h):
     g, end = reals(guards.at_g, ng), reals(guards.at_g_end, ng)
     early, left, right = reals(guards.at_g_early, ng), reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
     tolerance = reals(guards.at_guard_tolerance, ng)
+    weigh_limits(m.problem, guards, m.point.at_y_end)
     guards_at(m, 1.0, h, guards.at_g_end)
     guards_at(m, NEAR, h, guards.at_g_early)
     right_end = 1.0
@@ -67,6 +73,7 @@ def first_crossing(m, h):
     if bump < 1.0:
         right_end = bump
         guards_at(m, bump, h, guards.at_g_right)
+    leave_ties(guards)
     unseen = overlooked(guards)
     if unseen and not look_further(m, h, right_end):
         found = look_closer(m, h)
@@ -76,9 +83,25 @@ def first_crossing(m, h):
     for i in range(ng):
         crossed = crossed or (left[i] < 0.0 and right[i] >= 0.0)
     m.run.cut_at = 1.0
+    copy(right, reals(guards.at_g_late, ng))
     if crossed:
         locate(m, h, right_end)
     return collect_fired(guards, crossed)
+
+
+@compiled
+def leave_ties(guards):
+    """Limits of what holds that end the bracket at zero within their tolerance count as below: a tie holds.
+
+    They are beyond zero by rounding, or by so little that a step later tells; what goes on from there fires there.
+    """
+    ng = guards.n_guards
+    left, right = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
+    tolerance, since = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_since, ng)
+    limit = indices(guards.at_limit_guard, ng)
+    for i in range(ng):
+        if limit[i] == 1 and left[i] < 0.0 <= right[i] <= tolerance[i]:
+            right[i], since[i] = left[i], ALWAYS
 
 
 @compiled

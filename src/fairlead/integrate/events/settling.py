@@ -24,7 +24,7 @@ from fairlead.integrate.events.consistent import consistent
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
-from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.limits import ROUNDING, weigh_limits
 from fairlead.integrate.events.patterns import recurs, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
 from fairlead.integrate.linear.systems import DONE
@@ -283,6 +283,7 @@ def judge(problem, run, point, events):
     guards.n_fired = 0
     if ng == 0:
         return
+    weigh_limits(problem, guards, point.at_y)
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     g, tolerance, probe = reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng), reals(guards.at_g_probe, ng)
     at_limit = False

@@ -9,7 +9,7 @@ All take the address of the struct first (memory/arena.py) and work on arrays at
 from __future__ import annotations
 
 from fairlead.integrate.codes import RECORD, STEP_FLOOR
-from fairlead.integrate.events.crossing import COMPANION, CROSSING, NONE, first_crossing
+from fairlead.integrate.events.crossing import COMPANION, NONE, first_crossing, guards_at
 from fairlead.integrate.events.given_up import settle_at_start
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import not_finite_here
@@ -91,7 +91,8 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
         copy(indices(at_rooted, n_rooted), indices(guards.at_fired, n_rooted))
         guards.n_fired = n_rooted
         run.cut_at = 1.0
-    crossed = found == CROSSING or n_rooted > 0
+        look_beyond(m, h, run.t_land - t_end)
+    crossed = guards.n_fired > 0
     if crossed and h > 2.0 * floor:
         weigh(point, point.at_y_end)
         if rough(problem, run, point, m.linear, h):
@@ -100,6 +101,33 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     accept(run, point, h, crossed)
     copy(reals(at_rate_end, point.n), reals(point.at_slope, point.n))
     return 0
+
+
+@compiled
+def look_beyond(m, h, rest):
+    """How high the guards that were located at the end of the step h rise after it, into `g_late`.
+
+    Along the parabola through the last half of the step, and for the time `rest` until the next time event: there a
+    load may turn. What is at a limit of what holds and goes no further is taken out of `fired`: a tie holds.
+    """
+    guards, fired = m.events.guards, indices(m.events.guards.at_fired, m.events.guards.n_guards)
+    ng = guards.n_guards
+    half, near, end = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng), reals(guards.at_g_end, ng)
+    height, tolerance = reals(guards.at_g_late, ng), reals(guards.at_guard_tolerance, ng)
+    limit = indices(guards.at_limit_guard, ng)
+    guards_at(m, 0.5, h, guards.at_g_left)
+    guards_at(m, 0.75, h, guards.at_g_right)
+    s, kept = max(rest, 0.0) / h, 0
+    for k in range(guards.n_fired):
+        i = fired[k]
+        slope = (3.0 * end[i] - 4.0 * near[i] + half[i]) / 0.5
+        bend = (end[i] - 2.0 * near[i] + half[i]) / 0.0625
+        top = min(s, -slope / bend) if bend < 0.0 else s
+        height[i] = max(end[i], end[i] + slope * top + 0.5 * bend * top * top)
+        if limit[i] == 0 or height[i] > tolerance[i]:
+            fired[kept] = i
+            kept += 1
+    guards.n_fired = kept
 
 
 @compiled

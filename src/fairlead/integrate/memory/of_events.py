@@ -5,7 +5,7 @@ from __future__ import annotations
 from fairlead.integrate.memory.struct import Struct
 
 GUARDS = Struct(
-    copies=("n_guards", "guard_machine",),
+    copies=("n_guards", "guard_machine", "limit_guard",),
     integers=(
         "n_fired",
     ),

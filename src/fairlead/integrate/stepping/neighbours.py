@@ -53,7 +53,7 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
     held = np.flatnonzero(holder >= 0)
     row[holder[held[::-1]]] = held[::-1]
     return {
-        "limit_guard": limits, "may_jump": limits if limits.any() else np.ones(len(limits), dtype=np.int64),
+        "may_jump": limits if limits.any() else np.ones(len(limits), dtype=np.int64),
         "first_guard": first, "hold_row": row,
         "neighbour_starts": np.cumsum([0, *map(len, found)]).astype(np.int64),
         "neighbours": np.array([w for others in found for w in others], dtype=np.int64),

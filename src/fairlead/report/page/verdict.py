@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from fairlead.analysis.margins.ruck import sentence as of_ruck
 from fairlead.analysis.margins.ruck import verdicts
 from fairlead.analysis.margins.ruck_cause import why
+from fairlead.analysis.record.energy import open_by
 from fairlead.analysis.record.reported import told
 from fairlead.analysis.treatments.friction_record import sentence as of_friction
 from fairlead.report.page.slow import slowest
@@ -145,11 +146,13 @@ def _statics(run: dict[str, Any]) -> Iterator[Sentence]:
 
 
 def _energy(run: dict[str, Any]) -> Iterator[Sentence]:
-    closure = (run.get("energy") or {}).get("closure")
-    if closure is not None:
-        yield Sentence("Energy", "good" if closure <= CLOSED else "bad",
-                       f"The ledger closes: {_number(closure)} of what passed is missing." if closure <= CLOSED else
-                       f"The ledger does not close: {_number(closure)} of what passed is missing.")  # fmt: skip
+    closure, left_open = (run.get("energy") or {}).get("closure"), open_by(run.get("energy"))
+    if closure is None or left_open is None:
+        return
+    closes = left_open <= CLOSED
+    said = f"The ledger {'closes' if closes else 'does not close'}: {_number(closure)} of what passed is missing"
+    within = ", no more than the error weights of so little motion explain" if closes and closure > CLOSED else ""
+    yield Sentence("Energy", "good" if closes else "bad", f"{said}{within}.")
 
 
 def _creep(run: dict[str, Any]) -> Iterator[Sentence]:
