@@ -205,8 +205,9 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
 def _energy(outcome: Outcome, watch: Watch) -> dict[str, Any]:
     """The ledger, and the energy that the error weights of the run resolve."""
     summary = watch.ledger.summary()
-    known = {} if "throughput" not in summary else {"resolved": resolved(outcome.problem)}
-    return judged(summary | known, watch.system.undeclared)
+    if "throughput" in summary:
+        summary["resolved"] = resolved(outcome.problem)
+    return judged(summary, watch.system.undeclared)
 
 
 def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:

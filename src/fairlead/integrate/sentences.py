@@ -7,6 +7,9 @@ import numpy as np
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Problem, Run, Status
 
+MOST_NAMED = 6
+"""Forces that are named of those that hold."""
+
 
 def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, ...]:
     """Unknowns or machines to look at first, by name."""
@@ -14,7 +17,8 @@ def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, 
     if status in (Status.STEP_FLOOR, Status.NOT_FINITE, Status.INCONSISTENT):
         return (problem.unknown_names[int(number["worst"])],)
     if status == Status.SINGULAR and number["culprit"] >= 0:
-        return (problem.unknown_names[int(number["culprit"])],)
+        culprit = int(number["culprit"])
+        return holding(memory, problem) if problem.quadrature[culprit] else (problem.unknown_names[culprit],)
     if status == Status.CHATTER:
         return (problem.machine_names[int(number["culprit"])],)
     if status == Status.REBOUND_RUBS:
@@ -23,6 +27,14 @@ def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, 
     if status == Status.NOT_SETTLED:
         return tuple(problem.machine_names[z] for z in still_switching(memory))
     return ()
+
+
+def holding(memory: Memory, problem: Problem) -> tuple[str, ...]:
+    """Forces that hold in the zones in force: where a sum, which nothing depends on, seems open, one of these is."""
+    rows, values = memory.array["mass_rows"], memory.array["mass"]
+    held = np.unique(rows[values != 0.0])
+    held = held[(np.asarray(problem.takes_impulse)[held] > 0) & ~np.asarray(problem.differential)[held]]
+    return tuple(problem.unknown_names[k] for k in held[:MOST_NAMED].tolist())
 
 
 def still_switching(memory: Memory) -> list[int]:
@@ -86,7 +98,18 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.MAX_WALL: f"{when}: the budget of {run.max_wall} s is used up; {kept}",
         Status.INTERRUPTED: f"{when}: interrupted; {kept}",
     }
-    return texts[status] + _without_inertia(status, memory, problem)
+    return texts[status] + _without_inertia(status, memory, problem) + _held_twice(status, memory, problem)
+
+
+def _held_twice(status: Status, memory: Memory, problem: Problem) -> str:
+    """What to do where several parts hold one motion at once, of which one has a ratio that sharing does not know."""
+    culprit = int(memory.number["culprit"])
+    if status != Status.SINGULAR or culprit < 0 or not problem.quadrature[culprit]:
+        return ""
+    return (
+        " The forces named all hold there, some of them the same motion, and nothing says how they share it: give one "
+        "of them way (EndStop instead of RigidStop, method: binding for a contact), or put a Spring between."
+    )
 
 
 def _without_inertia(status: Status, memory: Memory, problem: Problem) -> str:

@@ -2,6 +2,9 @@
 
 Bodies are nodes, all prescribed ones together one node, and every contact that may hold an edge. An edge that
 lies on no circle is a bridge: however many contacts hold, its force is determined by the bodies it holds.
+
+A circle round which the speeds agree only at rest, as that of a screw and its nut whose flanks stick, holds its bodies
+at rest. So they are joined with what is at rest by such a circle too: a stop at the nut closes another one there.
 """
 
 from __future__ import annotations
@@ -15,6 +18,7 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.structure import Structure
 
 REST = -1  # stands for all groups that never move
+AGREES = 1e-9  # relative; speeds round a circle are products of rounded numbers
 
 
 @dataclass(frozen=True)
@@ -35,16 +39,18 @@ def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPa
         return []
     import networkx as nx  # takes a tenth of a second; most scenes have no circle
 
-    parallel = Counter(edges)
-    bridges = {_sorted(edge) for edge in nx.bridges(nx.Graph(edge for edge in edges if edge[0] != edge[1]))}
+    every = edges + _at_rest(pairs, edges)
+    parallel = Counter(every)
+    bridges = {_sorted(edge) for edge in nx.bridges(nx.Graph(edge for edge in every if edge[0] != edge[1]))}
     return [pair for pair, edge in zip(pairs, edges, strict=True) if parallel[edge] > 1 or edge not in bridges]
 
 
 def _pairs(flat: FlatModel, path: str, structure: Structure) -> Iterator[HeldPair]:
     for unknown, speeds in structure.pairs.items():
         ends = [end(flat, path, port, speed) for port, speed in speeds.items()]
-        if len(ends) <= 2:
-            one, other = (*ends, (REST, 1.0))[:2]
+        moving = [one for one in ends if one[0] != REST]  # a lever whose pivot stands joins two bodies
+        if len(moving) <= 2:
+            one, other = (*moving, (REST, 1.0), (REST, 1.0))[:2]
             yield HeldPair(path, unknown, (one, other), structure.senses[unknown])
 
 
@@ -58,6 +64,31 @@ def end(flat: FlatModel, path: str, port: str, speed: float) -> tuple[int, float
 def _edge(flat: FlatModel, pair: HeldPair) -> tuple[int, int]:
     one, other = (index if index != REST and flat.groups[index].free else REST for index, _ in pair.ends)
     return _sorted((one, other))
+
+
+def _at_rest(pairs: Sequence[HeldPair], edges: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """An edge to what is at rest for every contact that closes a circle round which speeds agree only at rest."""
+    above: dict[int, tuple[int, float]] = {}  # of a body: one above it, and its own speed over that of the other
+    found = []
+    for pair, edge in zip(pairs, edges, strict=True):
+        if REST in edge:
+            continue  # what hangs on it is at rest anyhow
+        (one, slip_one), (other, slip_other) = ((_top(above, index), coef) for index, coef in pair.ends)
+        slip_one, slip_other = slip_one * one[1], slip_other * other[1]
+        if one[0] != other[0]:
+            above[other[0]] = one[0], -slip_one / slip_other
+        elif abs(slip_one + slip_other) > AGREES * (abs(slip_one) + abs(slip_other)):
+            found.append(_sorted((REST, edge[0])))
+    return found
+
+
+def _top(above: Mapping[int, tuple[int, float]], node: int) -> tuple[int, float]:
+    """The body at the top, and the speed of this one over its speed."""
+    ratio = 1.0
+    while node in above:
+        node, own = above[node]
+        ratio *= own
+    return node, ratio
 
 
 def _sorted(edge: tuple[int, int]) -> tuple[int, int]:
