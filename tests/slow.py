@@ -56,9 +56,11 @@ LEFT_TO_TEST_ALL = (
     "tests/components/test_route_devices.py::test_at_its_stop_a_tensioner_*",
     "tests/models/test_carried.py::*-stepping*",
     "tests/models/test_bend_sweep.py::*literal*",
-    "tests/models/test_bend_sweep.py::test_every_treatment_finds_*[0.35-LuGre]",
+    "tests/models/test_bend_sweep.py::test_every_treatment_finds_*[0.35-*",
     "tests/models/test_bend_sweep.py::test_every_treatment_finds_*[0.5-tanh]",
     "tests/models/test_carried.py::test_a_line_that_is_paid_out_and_hauled_in_*[rim-*",
+    "tests/models/test_carried.py::test_a_line_that_is_paid_out_and_hauled_in_*[layers-*",
+    "tests/models/test_guidance_drives.py::test_drives_bring_*[electric]",
     "tests/models/test_route_mesh.py::test_steady_tensions_do_not_know_*",
     "tests/models/test_bend_variants.py::test_the_hose_*[creep 1e-3, mu 0.35]",
     # variants of the single bend: one of each kind of change is played
@@ -73,6 +75,7 @@ LEFT_TO_TEST_ALL = (
     "tests/models/test_bend_variants.py::test_where_the_bulkheads_*[mu 0.25]",
     "tests/models/test_bend_variants.py::test_where_the_bulkheads_*[creep *",
     "tests/models/test_constant_inboard_tension.py::test_what_is_lacking_*[20000]",
+    "tests/models/test_constant_inboard_tension.py::test_at_low_friction_*",
     "tests/unit/test_carriage.py::test_what_is_left_does_not_depend_on_how_much_*",
     "tests/models/test_torsion.py::test_with_a_friction_of_its_own_*",
     # advice and cost: the closed forms and one model are played
@@ -87,10 +90,12 @@ LEFT_TO_TEST_ALL = (
     "tests/models/test_effects_advice.py::test_the_advice_holds_*",
     "tests/models/test_effects_advice.py::test_an_effect_that_matters_*",
     "tests/models/test_cost.py::test_a_scene_that_is_sensitive_*",
-    # a loop of its own is compiled for it
+    # a loop of its own is compiled for it; of FMUs for any processor that of one engine is
+    "tests/fmu/test_tunable.py::test_what_is_tuned_moves_as_in_fairlead_*[3-stepping]",
     "tests/integrate/test_own_method.py::*",
     # treatments that are there to be seen failing, and random ones
     "tests/models/test_hazards.py::test_h4_in_a_chain_*",
+    "tests/models/test_hazards.py::test_h4_is_gone_*[0.6]",
     "tests/models/test_hazards.py::test_h6_*",
     "tests/models/test_hazards.py::test_h2_*",
     "tests/components/test_friction_treatments.py::test_the_naive_sign_*",
@@ -133,8 +138,7 @@ LEFT_TO_TEST_ALL = (
     "tests/unit/test_native.py::*helper of a helper*",
     "tests/unit/test_docs.py::test_every_command_shown_ends_well*routes*",
     "tests/models/test_pickled_model.py::test_processes_that_are_spawned_*",
-    # the contract: one curve, as for all contacts, and an effect of lines off on plain ones
-    "tests/components/test_contract.py::test_registered_component_keeps[PlanarContact[table] *",
+    # the contract: an effect of lines off on plain ones
     "tests/components/test_contract.py::test_registered_component_keeps[LoopedCore[line_damping off] *",
     "tests/components/test_contract.py::test_registered_component_keeps[LoopedHose[line_damping off] *",
     "tests/components/test_contract.py::test_registered_component_keeps[RelaxingHose[line_damping off] *",

@@ -9,6 +9,7 @@ vectors to the processor that the code is made native on.
 
 from __future__ import annotations
 
+import gc
 import os
 import pathlib
 import subprocess
@@ -88,6 +89,7 @@ def make_all(folder: pathlib.Path) -> None:
 
 
 if __name__ == "__main__":
+    gc.disable()  # what numba makes stays till the end
     target, *which = sys.argv[1:]
     if which:
         make_here(Compiled(which[0], tuple(which[1:])), pathlib.Path(target))
