@@ -58,15 +58,22 @@ def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = N
     or numbers in SI, and a value that does not fit is told at once; `libraries` are Python files with component
     classes of the user, whose code is run. With `allow_fmu` runs may call the code of FMUs that the netlist names.
     """
-    from fairlead.netlist.load import read
-
     asked = Arguments("load")
     asked.path("path", path)
     asked.values_by_name("set", set)
     asked.texts("libraries", libraries, '"parts.py"')
     asked.yes_or_no("allow_fmu", allow_fmu)
     asked.refuse()
-    sources, faults = read(path)
+    return opened(path, set, libraries, allow_fmu)
+
+
+def opened(path: str | os.PathLike[str], set: Mapping[str, str | float] | None,
+           libraries: Iterable[str | os.PathLike[str]], allow_fmu: bool,
+           draft: str | None = None) -> Model:  # fmt: skip
+    """As `load`, with arguments that are sound; `draft` is the text of the netlist as an editor has it."""
+    from fairlead.netlist.load import read
+
+    sources, faults = read(path, draft)
     if sources is None:
         raise ModelError(faults)
     model = Model(sources, _as_text(set or {}), tuple(os.fspath(each) for each in libraries), allow_fmu=allow_fmu)

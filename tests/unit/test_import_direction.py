@@ -46,7 +46,7 @@ ALLOWED = {
 }
 # May import all that lies before:
 LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "tuning", "outer", "renewal",
-        "simulate", "statics", "studies", "cases", "testing", "fmu", "cli", "__main__", "models"}  # fmt: skip
+        "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__", "models"}  # fmt: skip
 
 
 def source_files() -> dict[str, pathlib.Path]:

@@ -19,8 +19,8 @@ from fairlead.cli.verb import Verb, Verbs
 __all__ = ["VERBS", "app", "main"]
 
 VERBS = (
-    "check", "describe", "graph", "statics", "run", "report", "plot", "friction", "margins", "compare", "sweep", "fit",
-    "sensitivity", "modes", "cost", "effects", "fmu", "schema", "new", "doctor",
+    "check", "describe", "graph", "statics", "run", "view", "report", "plot", "friction", "margins", "compare", "sweep",
+    "fit", "sensitivity", "modes", "cost", "effects", "fmu", "schema", "new", "doctor",
 )  # fmt: skip
 """In the order in which `--help` lists them; each is a function in a module of its name."""
 

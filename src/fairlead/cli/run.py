@@ -61,7 +61,7 @@ def run(
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # told below the table
         result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile, check=False)
-    cut_short = _interrupted(lambda: _compare_with_statics(model, result))
+    cut_short = bool(result.run.get("routes")) and _interrupted(lambda: _compare_with_statics(model, result))
     if not as_json:  # the run is whole, and its summary waits for no figure
         _tell(result, quiet=quiet, profile=profile)
     silent = as_json or quiet
@@ -81,16 +81,9 @@ def exit_code(outcome: dict[str, Any]) -> int:
 
 
 def _compare_with_statics(model: "Model", result: "Result") -> None:
-    """Put into run.json how far a line on a route is from its quasi-static tensions, and whether it rucks."""
-    if not result.run.get("routes"):
-        return
-    from fairlead.analysis.margins.quasi_static import against_statics
-    from fairlead.analysis.margins.ruck import verdicts
-    from fairlead.results import run_file
+    from fairlead.analysis.margins.kept import compare_with_statics
 
-    result.run["against_statics"] = against_statics(model.flat, result)
-    result.run["ruck"] = verdicts(result)
-    run_file.amend(result.folder, result.run)
+    compare_with_statics(model.flat, result)
 
 
 def _interrupted(work: "Callable[[], None]") -> bool:

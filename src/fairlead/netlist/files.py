@@ -88,8 +88,13 @@ def read_text(file: Path, where: Location | None = None) -> tuple[str, bytes]:
             data = stream.read(MOST_BYTES + 1)
     except OSError as error:
         raise ModelError([Fault(where or place, f"cannot read {display(file)}: {error.strerror}")]) from None
+    return text_of(data, place), data
+
+
+def text_of(data: bytes, place: Location) -> str:
+    """The text of the bytes of a file; raises ModelError when they are too many or binary."""
     if len(data) > MOST_BYTES:
-        megabytes = file.stat().st_size / 1e6
+        megabytes = len(data) / 1e6
         what = f"this file has {megabytes:.1f} MB; a netlist has at most {MOST_BYTES / 1e6:g} MB"
         raise ModelError([Fault(place, what, "Put data into a CSV table.")])
     try:
@@ -101,7 +106,7 @@ def read_text(file: Path, where: Location | None = None) -> tuple[str, bytes]:
     if found := UNPRINTABLE.search(text):
         what = f"not a text file: it holds the control character U+{ord(found[0]):04X}"
         raise ModelError([Fault(_at_end(place.file, text[: found.start()]), what, "A netlist is a YAML file.")])
-    return text, data
+    return text
 
 
 def _at_end(file: str, before: str) -> Location:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from fairlead.errors import Fault, Location, ModelError, shown
-from fairlead.netlist.files import display, inside, read_text
+from fairlead.netlist.files import display, inside, read_text, text_of
 from fairlead.netlist.limits import Meter, TooMuch
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.yaml12 import read_yaml
@@ -28,6 +28,8 @@ class Sources:
     texts: dict[str, str] = field(default_factory=dict)  # by the name that messages call a file
     meter: Meter = field(default_factory=Meter)
     seen: set[Path] = field(default_factory=set)
+    draft: str | None = None
+    """The text of the top netlist as an editor has it, which need not be that of the file."""
 
     @property
     def folder(self) -> Path:
@@ -40,9 +42,9 @@ class Sources:
         return hashlib.sha256(self.data + said.encode("utf-8", "surrogatepass")).hexdigest()
 
 
-def gather(top: Path) -> Sources:
-    """Read a netlist and what it includes; faults are collected, never raised."""
-    sources = Sources(top)
+def gather(top: Path, draft: str | None = None) -> Sources:
+    """Read a netlist (or take its text) and what it includes; faults are collected, never raised."""
+    sources = Sources(top, draft=draft)
     sources.tree = _read(sources, top, None, (top.resolve(),))
     return sources
 
@@ -51,7 +53,11 @@ def _read(sources: Sources, file: Path, named_at: Location | None, chain: tuple[
     """The tree of one file with its includes merged in; `chain` leads from the top to this file."""
     sources.seen.add(file.resolve())
     try:
-        text, data = read_text(file, named_at)
+        if sources.draft is not None and len(chain) == 1:
+            data = sources.draft.encode()
+            text = text_of(data, Location(display(file)))
+        else:
+            text, data = read_text(file, named_at)
         sources.meter.file(named_at or Location(display(file)), len(data))
     except ModelError as error:
         sources.faults += error.faults

@@ -46,10 +46,10 @@ def survey(
     return (None, faults) if sources is None else worked_out(sources, overrides or {})
 
 
-def read(path: str | os.PathLike[str]) -> tuple[Sources | None, tuple[Fault, ...]]:
-    """The files of a netlist; None, and why, when nothing can be read."""
+def read(path: str | os.PathLike[str], draft: str | None = None) -> tuple[Sources | None, tuple[Fault, ...]]:
+    """The files of a netlist; None, and why, when nothing can be read. `draft` is read instead of the first of them."""
     try:
-        sources = gather(find(path))
+        sources = gather(find(path), draft)
     except ModelError as error:
         return None, error.faults
     return (None, tuple(sources.faults)) if sources.tree is None else (sources, ())
