@@ -1,6 +1,7 @@
 """Types at a glance: by family with a sentence, innards apart; what one needs to use one, as a page and as data."""
 
 import json
+import re
 
 import pytest
 from typer.testing import CliRunner
@@ -32,7 +33,7 @@ def test_innards_are_apart_and_all_of_them_are_types():
     first, _, inside = page.partition("\ninnards")
     assert set(bundled()) >= INNARDS
     for name in innards(bundled()):
-        assert f"  {name} " not in first
+        assert not re.search(rf"^ +{name} ", first, re.MULTILINE)  # as a type, not as a word of a sentence
         assert name in inside
     assert {"ContinuousPi", "LateralLoad"} <= innards(bundled())
     assert not {"PiController", "Mass", "Contact", "Cable", "Route"} & innards(bundled())

@@ -95,7 +95,7 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         ),
         Status.MAX_STEPS: f"{when}: the budget of {run.max_steps} steps is used up; {kept}",
         Status.MAX_EVENTS: f"{when}: the budget of {run.max_events} events is used up; {kept}",
-        Status.MAX_WALL: f"{when}: the budget of {run.max_wall} s is used up; {kept}",
+        Status.MAX_WALL: f"{when}: the budget of {run.max_wall or 0:.4g} s is used up; {kept}",
         Status.INTERRUPTED: f"{when}: interrupted; {kept}",
     }
     return texts[status] + _without_inertia(status, memory, problem) + _held_twice(status, memory, problem)
