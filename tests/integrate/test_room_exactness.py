@@ -104,6 +104,32 @@ def test_a_force_given_as_a_cubic_of_time_is_integrated_exactly(seed):
     assert at.array["y_end"][0] == pytest.approx(force.integ()(0.7 + H) - force.integ()(0.7), rel=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_motion_given_as_a_cubic_of_time_is_integrated_exactly_without_more_of_f(seed):
+    """The step reads it on its chord. What follows it tells what that makes of f; besides, f at the ends will do."""
+    given = np.polynomial.Polynomial(np.random.default_rng(seed).normal(size=4))
+    start, asked = 0.7, []
+    chord = (given(start) + given(start + H)) / 2
+
+    def field(t, _y):
+        asked.append(t)
+        return given(t)
+
+    def ahead(t, _y, out):
+        assert list(mean[:4]) == [start, start + H, 0.5, 0.5]
+        out[:] = chord - given(t)
+
+    at, _kept = equations(np.zeros((1, 1)), field)
+    _more = fields(at, 1, ahead=(ahead, 1))
+    mean = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+    at.number["t"], at.number["mean_at"] = start, mean.ctypes.data
+    at.array["y_end"][:] = H * chord
+    refined()(at, H)
+    assert at.array["y_end"][0] == pytest.approx(given.integ()(start + H) - given.integ()(start), rel=1e-12)
+    assert asked == [start, start + H]
+    assert not mean[2:4].any()
+
+
 @pytest.mark.parametrize("theta", [0.4, 1.0])
 @pytest.mark.parametrize("seed", range(4))
 def test_a_rate_of_degree_five_is_metered_exactly_to_the_end_of_the_piece(seed, theta):

@@ -30,6 +30,9 @@ accuracy that the run asks for, and the choice of what is recorded.
     gap       void   (ctx, t, y, r)               r[n] = 0 but -g on the rows of relations g of positions that
                                                   are kept (facts.py, moves); asked for where there are any
 
+    ahead     void   (ctx, t, y, f)               f with given motions on the chord of a step (facts.py, mean), less
+                                                  f with them where they are at t; asked for where there are any
+
 What a problem knows beside its equations is in `facts.py`; one made of plain functions knows nothing of that.
 
 ctx is int64*, t a double, the others double* or int64*. All after mass may be missing (or zero):
@@ -58,7 +61,7 @@ Bytes = NDArray[np.uint8]
 
 CALLBACKS = (
     "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
-    "slopes", "gap",
+    "slopes", "gap", "ahead",
 )  # fmt: skip
 """The names a problem may use in `callbacks`; the first three must be there."""
 

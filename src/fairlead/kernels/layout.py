@@ -171,8 +171,12 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     GIVEN_PLACES,  # int64 (given,)       where in z their positions and speeds lie
     GIVEN_MEAN,  # float64 (given,)       scratch
     MEAN,  # float64 (5,)           two times; the weights of what is given then; whether the mean differs
+    N_FOLLOWING,  # calls for the signals, and for the flows, of what reads a given motion or follows what does
+    N_FOLLOWING_FLOWS,
+    FOLLOWING,  # int64 (following, CALL)
+    FOLLOWING_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(118)
+) = range(122)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last

@@ -8,6 +8,7 @@ PROBLEM = Struct(
     calls=(
         "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
         "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes", "call_gap",
+        "call_ahead",
     ),
     integers=(
         # sizes

@@ -99,22 +99,20 @@ def damp_end(problem, point, linear, stepping):
 
 @compiled
 def chord_ahead(problem, point, h):
-    """Into `error_vector`: f with given motions on their chord, less f with them where they are in the middle."""
+    """Into `error_vector`: f with given motions on their chord, less f with them where they are in the middle.
+
+    Only the laws that follow a given motion are evaluated, so that this counts as no evaluation of f.
+    """
     y, y_end, u = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_u, problem.n)
-    ahead, f = reals(point.at_error_vector, problem.n), reals(point.at_f, problem.n)
-    moving = indices(problem.at_differential, problem.n)
+    ahead, moving = reals(point.at_error_vector, problem.n), indices(problem.at_differential, problem.n)
     for k in range(problem.n):
         ahead[k] = 0.0
         u[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
     if not differs(problem):
         return
     take_mean(problem, point, 0.5, h)
-    field_at(problem.call_forces, (problem.context, point.t + 0.5 * h, point.at_u, point.at_error_vector))
+    field_at(problem.call_ahead, (problem.context, point.t + 0.5 * h, point.at_u, point.at_error_vector))
     take_moment(problem)
-    field_at(problem.call_forces, (problem.context, point.t + 0.5 * h, point.at_u, point.at_f))
-    problem.rhs += 2
-    for k in range(problem.n):
-        ahead[k] -= f[k]
 
 
 @compiled

@@ -11,31 +11,37 @@ def look(ctx, t, y):
         z[i] = y[i]
     if ctx[N_GIVEN_PLACES] > 0:
         average(ctx)
-    call_signals(ctx, t, 0, ctx[N_GIVEN])
+    give_motions(ctx, t)
     if ctx[N_GIVEN_PLACES] > 0:
         put_average(ctx)
-    call_signals(ctx, t, ctx[N_GIVEN], ctx[N_SCHEDULE])
+    make_calls(ctx, SIGNALS, ctx[SCHEDULE], ctx[N_GIVEN], ctx[N_SCHEDULE], f8(ctx[Z]))
 
 
-def call_signals(ctx, t, first, end):
-    """Have the kernels give their signals at t, in these calls."""
-    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
-    kernels, blocks, schedule = i8(ctx[KERNELS]), ctx[BLOCKS], i8(ctx[SCHEDULE])
+def give_motions(ctx, t):
+    """The time, and the motions that are given then, in z."""
+    z = f8(ctx[Z])
     z[ctx[T_AT]] = t
+    make_calls(ctx, SIGNALS, ctx[SCHEDULE], 0, ctx[N_GIVEN], z)
+
+
+def make_calls(ctx, mode, table, first, end, out):
+    """Have kernels write their answers to `mode` to `out`: the calls from first to before end of a table of them."""
+    z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
+    kernels, blocks, calls = i8(ctx[KERNELS]), ctx[BLOCKS], i8(table)
     for s in range(first, end):
-        b, start, stop = schedule[CALL * s], schedule[CALL * s + CALL_FIRST], schedule[CALL * s + CALL_END]
+        b, start, stop = calls[CALL * s], calls[CALL * s + CALL_FIRST], calls[CALL * s + CALL_END]
         block = i8(blocks + WORD * BLOCK * b)
-        call_kernel(kernels[b], SIGNALS, block, start, stop, z, zones, tables, z)
+        call_kernel(kernels[b], mode, block, start, stop, z, zones, tables, out)
 
 
 def average(ctx):
     """Where a mean over a step is asked for: what its ends have in it of the positions and speeds that are given."""
     step, z, places, mean = f8(ctx[MEAN]), f8(ctx[Z]), i8(ctx[GIVEN_PLACES]), f8(ctx[GIVEN_MEAN])
     if step[2] + step[3] > 0.0:
-        call_signals(ctx, step[0], 0, ctx[N_GIVEN])
+        give_motions(ctx, step[0])
         for k in range(0, ctx[N_GIVEN_PLACES]):
             mean[k] = step[2] * z[places[k]]
-        call_signals(ctx, step[1], 0, ctx[N_GIVEN])
+        give_motions(ctx, step[1])
         for k in range(0, ctx[N_GIVEN_PLACES]):
             mean[k] += step[3] * z[places[k]]
 
@@ -65,22 +71,28 @@ def ask(ctx, mode, out):
 def evaluate(ctx, t, y):
     """Signals, flows and reactions at (t, y): fills z and w, without the ledger."""
     look(ctx, t, y)
-    n, z, w, rest = ctx[N], f8(ctx[Z]), f8(ctx[W]), f8(ctx[F_REST])
+    n, w, rest = ctx[N], f8(ctx[W]), f8(ctx[F_REST])
     for i in range(0, n + ctx[N_REACTIONS] + 1):
         w[i] = rest[i]
     ask(ctx, FLOWS, w)
     if ctx[N_CIRCLES] > 0:
         add_shares(ctx, t, y)
-    mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
-    for r in range(0, ctx[N_REACTIONS]):
-        z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
-    if ctx[N_RATED] > 0:
-        add_rates(ctx, w)
+    react(ctx, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):
         w[pairs[PAIR * k + PAIR_X]] = y[pairs[PAIR * k + PAIR_V]]
     if ctx[N_ACCELERATED] > 0:
         of_accelerations(ctx, y, w)
+
+
+def react(ctx, w):
+    """Reactions at prescribed nodes, and what rates of balances are in the balances of nodes without inertia."""
+    n, z = ctx[N], f8(ctx[Z])
+    mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
+    for r in range(0, ctx[N_REACTIONS]):
+        z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
+    if ctx[N_RATED] > 0:
+        add_rates(ctx, w)
 
 
 def of_accelerations(ctx, y, w):
@@ -128,3 +140,29 @@ def forces(ctx, t, y, f):
     w = f8(ctx[W])
     for i in range(0, ctx[N]):
         f[i] = w[i]
+
+
+def ahead(ctx, t, y, f):
+    """What f has more with given motions on the chord of a step than with them where they are at t.
+
+    Asked are only the laws that follow a given motion, on the chord and then at t; other rows are zero.
+    """
+    look(ctx, t, y)
+    follow(ctx)
+    n, w = ctx[N], f8(ctx[W])
+    for i in range(0, n):
+        f[i] = w[i]
+    give_motions(ctx, t)
+    make_calls(ctx, SIGNALS, ctx[FOLLOWING], 0, ctx[N_FOLLOWING], f8(ctx[Z]))
+    follow(ctx)
+    for i in range(0, n):
+        f[i] -= w[i]
+
+
+def follow(ctx):
+    """Into w what laws give that follow a given motion; those that do not are no part of it."""
+    w = f8(ctx[W])
+    for i in range(0, ctx[N] + ctx[N_REACTIONS] + 1):
+        w[i] = 0.0
+    make_calls(ctx, FLOWS, ctx[FOLLOWING_FLOWS], 0, ctx[N_FOLLOWING_FLOWS], w)
+    react(ctx, w)

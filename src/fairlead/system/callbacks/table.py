@@ -12,14 +12,18 @@ from fairlead.system.callbacks.algebraic_rates import add_rates, find_known, fin
 from fairlead.system.callbacks.derivatives import assemble, fix, jacobian, mass, slopes
 from fairlead.system.callbacks.evaluation import (
     accelerate,
+    ahead,
     ask,
     average,
-    call_signals,
     evaluate,
+    follow,
     forces,
+    give_motions,
     look,
+    make_calls,
     of_accelerations,
     put_average,
+    react,
     rhs,
     take_samples,
 )
@@ -40,6 +44,7 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
     "slip": (slip, ("I8", "float", "F8", "F8"), "int"),
     "drift": (drift, ("I8", "float", "F8", "F8"), "None"),
     "gap": (gap, ("I8", "float", "F8", "F8"), "None"),
+    "ahead": (ahead, ("I8", "float", "F8", "F8"), "None"),
     "next_time": (next_time, ("I8", "float"), "float"),
     "at_time": (at_time, ("I8", "float", "F8"), "int"),
     "outputs": (outputs, ("I8", "float", "F8", "F8"), "None"),
@@ -48,8 +53,8 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
 """Each with the types of its arguments and of what it returns."""
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
-    call_signals, average, put_average, look, ask, of_accelerations, evaluate, accelerate, slips, take_samples, fix,
-    assemble, expand, let_slip, show,
+    make_calls, give_motions, average, put_average, look, ask, react, follow, of_accelerations, evaluate, accelerate,
+    slips, take_samples, fix, assemble, expand, let_slip, show,
 )  # fmt: skip
 """What callbacks call."""
 

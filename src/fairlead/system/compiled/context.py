@@ -13,6 +13,7 @@ from fairlead.distinct import distinct
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory, Tables
+from fairlead.system.arrays.following import followers
 from fairlead.system.arrays.switching import holds
 from fairlead.system.arrays.timing import time_places
 from fairlead.system.assembly.program import Program
@@ -26,7 +27,7 @@ ADDRESSES = (
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
     "ACCELERATED", "ACCELERATED_MASS", "RATED", "RATED_JOINS", "RATED_MEMBERS", "RATED_WEIGHTS", "RATED_TERMS",
-    "GIVEN_PLACES",
+    "GIVEN_PLACES", "FOLLOWING", "FOLLOWING_FLOWS",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -36,7 +37,7 @@ COUNTED = {
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
     "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
     "N_RATED": "rated", "N_RATED_JOINS": "rated_joins", "N_RATED_TERMS": "rated_terms",
-    "N_GIVEN_PLACES": "given_places",
+    "N_GIVEN_PLACES": "given_places", "N_FOLLOWING": "following", "N_FOLLOWING_FLOWS": "following_flows",
 }  # fmt: skip
 
 
@@ -45,12 +46,13 @@ def working_arrays(
 ) -> Memory:
     """What the callbacks read and write, beside what belongs to the mass matrix, guards, samples and outputs."""
     reactions, given = reaction_masses(flat, numbering), _given_places(blocks, numbering)
+    schedule = _schedule(blocks, numbering)
     return {
         "z": np.zeros(numbering.dump + 1 + numbering.resting), "w": np.zeros(numbering.w_dump + 1),
         "f_rest": np.zeros(numbering.w_dump + 1),
         "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
         "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
-        "counts": _counts(blocks), "schedule": _schedule(blocks, numbering),
+        "counts": _counts(blocks), "schedule": schedule,
         "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, layout.PAIR),
         "inverse_mass": _inverse_mass(flat, numbering),
         "accelerated": np.array([(numbering.rate[k], a) for k, a in numbering.accelerated.items()],
@@ -64,7 +66,7 @@ def working_arrays(
         "fixed_done": np.zeros(1, dtype=np.int64),
         "holds": holds(blocks)[0], "time_place": time_places(blocks),
         "given_places": given, "given_mean": np.zeros(len(given)), "mean": np.zeros(5),
-    }  # fmt: skip
+    } | followers(blocks, schedule, given, numbering.dump)  # fmt: skip
 
 
 def context(
