@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import fairlead.analysis.record.extremes as extremes_module
 from fairlead.analysis.record.event_rows import Rows
 from fairlead.analysis.record.extremes import Extremes
 from fairlead.analysis.record.step_rows import INSIDE, LEAST_ROWS, MOST_ROWS, MOST_VALUES, Batches
@@ -51,3 +52,23 @@ def test_batches_of_many_signals_have_fewer_rows():
     assert Batches(1).length == MOST_ROWS
     assert Batches(MOST_VALUES // 100).length == 100
     assert Batches(10**9).length == LEAST_ROWS
+
+
+def test_only_the_stretches_near_to_the_best_so_far_are_looked_up(monkeypatch):
+    """A hundred signals rest; one was at 0 and rises, so that each stretch of it is above all before."""
+    looked = []
+
+    def counted(taken, stretch, rows):
+        looked.append(len(stretch))
+        return first_best(taken, stretch, rows)
+
+    first_best = extremes_module._first_best
+    monkeypatch.setattr(extremes_module, "_first_best", counted)
+    extremes = Extremes(101)
+    rows = 10 * extremes_module.STRETCH
+    rise = np.linspace(1.0, 2.0, rows)
+    for last in (0.0 * rise, rise):
+        values = np.concatenate([np.full((rows, 100), 7.0), last[:, None]], axis=1)
+        extremes.watch(Rows(np.linspace(0.0, 1.0, rows), values, np.zeros(rows, dtype=np.int8)))
+    assert looked[1] == 10
+    assert (extremes.highest[100], extremes.t_highest[100], extremes.lowest[100]) == (2.0, 1.0, 0.0)

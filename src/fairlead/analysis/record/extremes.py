@@ -8,7 +8,7 @@ recorded.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -27,6 +27,7 @@ MARGIN = 0.1
 AGREE = 0.25
 """Share of the largest second difference by which three may differ that are of one smooth curve."""
 Floats = NDArray[np.float64]
+Taken = Callable[[Integers, Integers], Floats]
 
 
 @dataclass
@@ -48,12 +49,9 @@ class Extremes:
         """Take rows of whole steps."""
         if not len(rows.t) or not self.signals:
             return
-        values = rows.values[:, : self.signals]
         steps = [which for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
-        # the lowest of a signal is the highest of its negative: both in one go, since a call costs more than a column
-        both = np.concatenate([values.T, -values.T])
         before = np.concatenate([self.highest, -self.lowest])
-        best, when = _highest(rows, both, steps, before)
+        best, when = _highest(rows, rows.values[:, : self.signals], steps, before)
         top, bottom = best[: self.signals], best[self.signals :]
         t_top, t_bottom = when[: self.signals], when[self.signals :]
         higher, lower = top > self.highest, -bottom < self.lowest
@@ -68,17 +66,24 @@ class Extremes:
 
 
 def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) -> tuple[Floats, Floats]:
-    """The highest value of each signal in these rows, and when, where it may be above that of `before`.
+    """The highest value of each signal, and of its negative, in these rows, and when: where it is above `before`.
 
-    `values` [2 signals, rows] has each signal and its negative. Searched is round the best row of every stretch.
+    `values` is [rows, signals]. Every stretch of rows tells its highest value; where that comes near to the highest so
+    far, the row it is in is looked up and searched round. The negative of a signal is one more signal here, since a
+    call costs more than a column.
     """
-    columns = np.arange(len(values))
-    rows_of = _best_rows(values)
-    best = values[columns[:, None], rows_of]
+    signals = values.shape[1]
+    best = np.concatenate([_of_stretches(np.fmax, values), -_of_stretches(np.fmin, values)])
     best[np.isnan(best)] = -np.inf
-    when = rows.t[rows_of]
     signal, stretch = np.nonzero(_near(best, before))
-    row, value, t = rows_of[signal, stretch], best[signal, stretch], when[signal, stretch]
+    column, sign = signal % signals, np.where(signal < signals, 1.0, -1.0)
+
+    def taken(of: Integers, at: Integers) -> Floats:
+        """The places `of`: what they look at in these rows [of, rows]."""
+        return np.asarray(sign[of, None] * values[at, column[of, None]])
+
+    row, value = _first_best(taken, stretch, len(values))
+    t = rows.t[row]
     for which in steps:
         for begins in (True, False):
             step = np.searchsorted(which[:, 0], row, side="right") - 1
@@ -87,24 +92,34 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
             of = np.flatnonzero((step >= 0) & (row <= which[step, -1]))
             if len(of):
                 at = which[step[of]]
-                peak, share = peak_of_curves(values[signal[of, None], at])
+                peak, share = peak_of_curves(taken(of, at))
                 t0, t1 = rows.t[at[:, 0]], rows.t[at[:, -1]]
                 _raise_to(value, t, of, peak, t0 + share * (t1 - t0))
-    _raise_to(value, t, *peak_of_neighbours(rows, values, row, signal))
+    _raise_to(value, t, *peak_of_neighbours(rows, taken, row))
+    when = np.full(best.shape, np.nan)
     best[signal, stretch], when[signal, stretch] = value, t
-    first = best.argmax(axis=1)
+    columns, first = np.arange(len(best)), best.argmax(axis=1)
     return best[columns, first], when[columns, first]
 
 
-def _best_rows(values: Floats) -> Integers:
-    """[signals, stretches]: the first row with the highest value, of each stretch of rows; NaN is none."""
-    signals, rows = values.shape
+def _of_stretches(best_of: np.ufunc, values: Floats) -> Floats:
+    """[signals, stretches]: the best of each stretch of rows; NaN is none. Rows are read as they lie in memory."""
+    rows, signals = values.shape
     whole = rows - rows % STRETCH
-    known = np.where(np.isnan(values), -np.inf, values) if np.isnan(values).any() else values
-    found = known[:, :whole].reshape(signals, -1, STRETCH).argmax(axis=2)
+    found = best_of.reduce(values[:whole].reshape(-1, STRETCH, signals), axis=1)
     if whole < rows:
-        found = np.concatenate([found, known[:, whole:].argmax(axis=1)[:, None]], axis=1)
-    return np.asarray(found + STRETCH * np.arange(found.shape[1]))
+        found = np.concatenate([found, best_of.reduce(values[whole:], axis=0)[None]])
+    return np.asarray(found.T)
+
+
+def _first_best(taken: Taken, stretch: Integers, rows: int) -> tuple[Integers, Floats]:
+    """Of places that look at these stretches: the first row with the highest value, and that value."""
+    at = np.minimum(STRETCH * stretch[:, None] + np.arange(STRETCH), rows - 1)
+    every = np.arange(len(stretch))
+    seen = taken(every, at)
+    seen[np.isnan(seen)] = -np.inf
+    first = seen.argmax(axis=1)
+    return at[every, first], seen[every, first]
 
 
 def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:
@@ -121,7 +136,7 @@ def _raise_to(best: Floats, when: Floats, of: Integers, value: Floats, t: Floats
     best[of[higher]], when[of[higher]] = value[higher], t[higher]
 
 
-def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, signal: Integers) -> tuple[Integers, Floats, Floats]:
+def peak_of_neighbours(rows: Rows, taken: Taken, row: Integers) -> tuple[Integers, Floats, Floats]:
     """Of ends of short steps: the peaks of parabolas through highest rows and their neighbours; of which, and when.
 
     Only where five rows lie on one: where their three second differences agree.
@@ -134,7 +149,7 @@ def peak_of_neighbours(rows: Rows, values: Floats, row: Integers, signal: Intege
     inner, at, t, gaps = inner[plain], at[plain], t[plain], gaps[plain]
     if not len(inner):
         return inner, np.empty(0), np.empty(0)
-    v = values[signal[inner, None], at]
+    v = taken(inner, at)
     slopes = (v[:, 1:] - v[:, :-1]) / gaps
     bends = (slopes[:, 1:] - slopes[:, :-1]) / (gaps[:, :-1] + gaps[:, 1:])
     spread = bends.max(axis=1) - bends.min(axis=1)
