@@ -170,7 +170,7 @@ class Jaws(Component):
 
 
 class Stopper(Composite):
-    """Jaws on deck that hold a rope or chain up to `capacity` while `engaged`, and let it slide beyond.
+    """Holds a rope or chain on deck up to `capacity` while `engaged`, and lets it slide beyond.
 
     The rope sticks to the jaws as in any dry contact; opened, they leave it alone. Limits: the jaws do not tighten by
     the pull of the rope itself; a shark jaw that can only break has a capacity above what the rope bears.

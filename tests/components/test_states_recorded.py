@@ -35,6 +35,8 @@ TOLD_BY = {
     "RuckTrip": {"broken_for": "waiting", "trips": "tripped"}, "RuckingHose": {"folded": "compressed"},
     "SampledSensor": {"signal": "signal"}, "SignalLag": {"told": "signal"}, "Spool": {"position": "opening"},
     "TensionTorque": {"held": "torque"}, "TensionTrim": {"summed": "integral", "held": "reference"},
+    "MovingTail": {"pull": "elastic"}, "RopeTail": {"pull": "elastic"}, "WebAccumulator": {"pull": "elastic"},
+    "WebSpan": {"pull": "elastic"}, "WholeSpan": {"pull": "elastic"},
     "Volume": {"log_pressure": "pressure"}, "ZeroTensionHold": {"holds": "holding", "passed": "reference"},
 }  # fmt: skip
 NOT_TOLD = {
