@@ -235,13 +235,13 @@ def point_at_instance(memory: Memory, own: Instance) -> None:
     inertia, back = np.asarray(own.guard_inertia), np.asarray(own.rebound, np.float64)
     of_run = {
         "absolute": own.absolute, "relative": own.relative, "cap": own.cap,
-        "guard_tolerance": np.array(own.guard_tolerance, np.float64),
         "column_scale": np.minimum(own.absolute + own.relative * np.abs(own.initial), own.cap),
         "guard_inertia": inertia, "rebound": back,
     }  # fmt: skip
     for name, values in of_run.items():
         memory.point(name, values, np.float64)
     memory.point("zones", own.zones, np.int64)
+    memory.array["guard_tolerance"][:] = own.guard_tolerance  # a step sets those of limits: they belong to its state
     memory.number["first_sample"] = int(own.samples)
     memory.number["rebounds"] = int(back.any())
     memory.number["mean_at"] = own.mean.ctypes.data if len(own.mean) else 0

@@ -26,8 +26,8 @@ from fairlead.integrate.memory.layout import FLAT, INDICES, LAYOUT, LINKED, LINK
 BUFFERS = ("row_t", "row_values", "row_side", *(f"event_{of}" for of in ("t", "machine", "before", "after", "guard",
            "position")))  # fmt: skip
 """Arrays for what is recorded."""
-OF_INSTANCE = ("zones", "guard_inertia", "rebound", "absolute", "relative", "cap", "column_scale", "guard_tolerance")
-"""Arrays that the instance of the problem has."""
+OF_INSTANCE = ("zones", "guard_inertia", "rebound", "absolute", "relative", "cap", "column_scale")
+"""Arrays that the instance of the problem has, and no step writes to but for its zones."""
 SCRATCH = ("zones_history", "patterns_met")
 """Arrays that hold nothing between two steps, and are long."""
 LINE = 64
