@@ -116,8 +116,9 @@ def _rigid(name: str, part: Any, machine: Machine, run: Observed) -> str:
 
 
 def _source(name: str, part: Any, machine: Machine, run: Observed) -> str:
-    right = in_time(part.get("force", part.get("torque")), run.t, run.side)
-    return "" if right is None else _unlike(name, "applied", right, run)
+    what = "force" if "force" in part else "torque"
+    right = in_time(part.get(what), run.t, run.side)
+    return "" if right is None else _unlike(name, what, right, run)
 
 
 def in_time(wave: Any, t: np.ndarray, side: np.ndarray) -> np.ndarray | None:

@@ -27,7 +27,7 @@ FORCES: dict[str, tuple[str, dict[str, int]]] = {
     "TorsionSpring": ("torque", {"a": 1, "b": -1}), "RotationalDamper": ("torque", {"a": 1, "b": -1}),
     "Backlash": ("torque", {"a": -1, "b": 1}), "Contact": ("friction", {"a": 1, "b": -1}),
     "Clutch": ("torque", {"a": 1, "b": -1}), "Brake": ("torque", {"shaft": -1}), "Bearing": ("torque", {"shaft": -1}),
-    "ForceSource": ("applied", {"flange": 1}), "TorqueSource": ("applied", {"shaft": 1}),
+    "ForceSource": ("force", {"flange": 1}), "TorqueSource": ("torque", {"shaft": 1}),
     "EndStop": ("force", {"a": 1, "b": -1}), "RigidStop": ("force", {"a": -1, "b": 1}),
     "Cam": ("force", {"follower": 1}), "Crank": ("force", {"slider": 1}),
 }  # fmt: skip
