@@ -125,7 +125,8 @@ class Result(results.Result):
         from fairlead.report.plot import plot
 
         listed = [name for one in names if one is not None for name in _each(one)]
-        return plot(self, self.chosen(listed or None), title, between, file)
+        chosen = self.chosen(None if all(one is None for one in names) else listed)
+        return plot(self, chosen, title, between, file)
 
 
 def _each(names: str | Iterable[str]) -> Iterable[str]:

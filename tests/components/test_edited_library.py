@@ -10,7 +10,7 @@ from fairlead.errors import ModelError
 SPRING = """
 from fairlead.component import Component, Parameter, Translational
 
-class Spiral(Component):
+class Volute(Component):
     \"\"\"A spring.\"\"\"
     a, b = Translational(), Translational()
     stiffness = Parameter("N/m", "Stiffness.", default=10.0)
@@ -20,12 +20,12 @@ class Spiral(Component):
         return -force, force
 """
 SCENE = """schema: 1
-name: spiral
+name: volute
 components:
   wall: {type: Ground}
   body: {type: Mass, mass: 1 kg, position: 1 m}
-  spiral: {type: Spiral}
-connections: [[wall.flange, spiral.a], [spiral.b, body.flange]]
+  volute: {type: Volute}
+connections: [[wall.flange, volute.a], [volute.b, body.flange]]
 run: {stop: 0.1 s, accuracy: 1e-8}
 """
 
@@ -46,8 +46,8 @@ def test_an_edit_counts_at_the_next_load(tmp_path, folder):
     file.write_text(SPRING.replace("1.0*p.stiffness", "2.0*p.stiffness"))  # as long, within the same second
     assert ends(scene, library) == pytest.approx(swing(20.0), abs=1e-6)
     assert first == before.run(out=None)["body.x"][-1] == pytest.approx(swing(10.0), abs=1e-6)
-    file.write_text(SPRING.replace("Spiral", "Coil"))
-    with pytest.raises(ModelError, match="no component type Spiral"):
+    file.write_text(SPRING.replace("Volute", "Coil"))
+    with pytest.raises(ModelError, match="no component type Volute"):
         fairlead.load(scene, libraries=(str(library),)).check()
 
 

@@ -150,7 +150,7 @@ def test_sources_tell_what_they_give_by_the_name_of_their_port(tmp_path):
 OF_THEIR_OWN = {
     "tension": "a force that pulls both ends towards each other", "friction": "what friction gives",
     "size": "without sign", "pull": "what a tail pulls with", "drag": "what water gives", "load": "what gravity gives",
-    "skew": "the part of a loss that turns with the load",
+    "skew": "the part of a loss that turns with the load", "elastic": "a pull without what damps it",
 }  # fmt: skip
 """Outputs that say more than their port does."""
 TAKEN = {"HeatActuator.given": "its input is called heat"}

@@ -37,6 +37,7 @@ from fairlead.system.numbering.loops import cut
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.tolerances import scales
 from fairlead.system.numbering.unknowns import Numbering, nominal_given
+from fairlead.system.start.driven import overridden
 from fairlead.system.start.places import placed
 from fairlead.system.start.speeds import started
 
@@ -63,6 +64,8 @@ def refreshed(old: System, flat: FlatModel) -> System:
         made = replace(build(flat, numbering, blocks, tables, old.machine_names, begin), narrows=old.narrows)
     else:
         made = _with_numbers(old, flat, numbering, blocks, tables, begin)
+    if faults := overridden(made):
+        raise ModelError(faults)
     return started(placed(made, initially), initially)
 
 
