@@ -86,15 +86,19 @@ def read_text(file: Path, where: Location | None = None) -> tuple[str, bytes]:
     try:
         with file.open("rb") as stream:
             data = stream.read(MOST_BYTES + 1)
+            size = os.fstat(stream.fileno()).st_size
     except OSError as error:
         raise ModelError([Fault(where or place, f"cannot read {display(file)}: {error.strerror}")]) from None
-    return text_of(data, place), data
+    return text_of(data, place, size), data
 
 
-def text_of(data: bytes, place: Location) -> str:
-    """The text of the bytes of a file; raises ModelError when they are too many or binary."""
+def text_of(data: bytes, place: Location, size: int = 0) -> str:
+    """The text of the bytes of a file; raises ModelError when they are too many or binary.
+
+    `size` is that of the file, where its bytes were not all read [bytes].
+    """
     if len(data) > MOST_BYTES:
-        megabytes = len(data) / 1e6
+        megabytes = max(size, len(data)) / 1e6
         what = f"this file has {megabytes:.1f} MB; a netlist has at most {MOST_BYTES / 1e6:g} MB"
         raise ModelError([Fault(place, what, "Put data into a CSV table.")])
     try:
