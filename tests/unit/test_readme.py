@@ -50,7 +50,7 @@ def test_the_readme_shows_commands_of_every_verb() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("line", commands())
+@pytest.mark.parametrize("line", [one for one in commands() if shlex.split(one)[1] != "view"])  # it ends at Ctrl-C
 def test_every_command_ends_well(line: str, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     words = shlex.split(line.partition(">")[0])[1:]
