@@ -15,6 +15,7 @@ from tests.integrate.test_room_linear import algebraic
 
 NONE, CROSSING, COMPANION = 0, 1, 2
 NEVER = 1e308
+BUMPS = ("left", "left_g", "top", "top_g", "right", "right_g", "asks", "rise", "fall", "guard", "places")
 
 
 @functools.cache
@@ -60,6 +61,7 @@ def step_of(*guards, tolerance=1e-9):
     count = len(guards)
     given = {"g_left": [f(0.0) for f in guards], "g_right": [f(1.0) for f in guards], "g": [f(0.0) for f in guards]}
     others = {name: np.zeros(count) for name in ("g_probe", "g_early", "g_late", "g_since", "g_end", "g_ahead")}
+    others |= {f"bump_{of}": np.zeros(count) for of in BUMPS}
     at = memory(
         {"n": 1, "n_guards": count, "h": 1.0, "t_release": np.inf}, y=[0.0], y_end=[1.0], D=np.zeros(3),
         y_probe=[0.0], guard_tolerance=[tolerance] * count, guard_machine=[-1] * count, fired=[0] * count,
@@ -114,6 +116,54 @@ def test_a_guard_that_rises_above_zero_and_falls_again_inside_fires_where_it_ros
 def test_a_guard_that_comes_near_and_turns_does_not_fire(below):
     at, _kept = step_of(lambda y: -below - (y - 0.5) ** 2)
     assert crossed()(at, 1.0) == NONE
+
+
+def hump(rng, height):
+    """A smooth guard below zero at both ends whose top has this height: one hump, early or late, broad or narrow."""
+    middle, width, size = rng.uniform(0.15, 0.85), rng.uniform(0.1, 0.4), 10.0 ** rng.uniform(-6, 6)
+    return lambda y: size * (height - np.expm1(0.5 * ((y - middle) / width) ** 2))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_of_many_humps_the_first_that_reaches_zero_is_found_whatever_their_order(seed):
+    rng = np.random.default_rng(seed)
+    guards = [hump(rng, height) for height in (*rng.uniform(1e-3, 0.05, 3), *rng.uniform(-0.3, -1e-3, 20))]
+    grid = np.linspace(0.0, 1.0, 200001)
+    reached = [grid[guard(grid) >= 0.0] for guard in guards]
+    first = min(places[0] for places in reached if places.size)
+    for order in (np.arange(23), rng.permutation(23)):
+        at, _kept = step_of(*(guards[k] for k in order))
+        assert crossed()(at, 1.0) == CROSSING
+        assert at.number["cut_at"] == pytest.approx(first, abs=6e-6)
+        fired = at.array["fired"][: int(at.number["n_fired"])]
+        assert [reached[order[i]][0] for i in fired] == [first]
+
+
+@pytest.mark.parametrize("many", [10, 100])
+def test_humps_that_lie_side_by_side_are_followed_with_the_same_evaluations(many):
+    """Their tops lie between 0.4 and 0.6. Three evaluations are for the ends."""
+
+    def evaluations(count):
+        at, _kept = step_of(*(
+            lambda y, middle=middle: -0.02 - (y - middle) ** 2 * (1.0 + y) for middle in np.linspace(0.4, 0.6, count)
+        ))  # fmt: skip
+        assert crossed()(at, 1.0) == NONE
+        return int(at.number["guards"]) - 3
+
+    assert evaluations(many) <= 3 * evaluations(1)
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_a_hump_beside_an_end_that_the_cubic_looks_for_in_the_middle_is_found(late):
+    """It leaves -1e-3 with the slope that the cubic takes from there to a third; its own top is at a twentieth."""
+
+    def guard(y):
+        y = 1.0 - y if late else y
+        return -1e-3 + 0.1 * y * math.exp(-y / 0.05) - 0.3 * y**4
+
+    at, _kept = step_of(guard)
+    assert crossed()(at, 1.0) == CROSSING
+    assert guard(float(at.number["cut_at"])) == pytest.approx(0.0, abs=1e-15)
 
 
 def test_a_guard_that_leaves_zero_downwards_and_comes_back_fires_where_it_comes_back():

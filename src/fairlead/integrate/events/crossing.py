@@ -3,7 +3,7 @@
 Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1;
 exactly zero at t0 does not fire. A guard that starts at zero and dips below it counts as below from
 there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
-extremum is tested. Companion rule: a guard above its tolerance that never was below zero means that
+extremum is tested (bumps.py). Companion rule: a guard above its tolerance that never was below zero means that
 the zones at t0 were wrong (the caller settles from there).
 The limit of a force that holds fires where it goes on beyond its tolerance: a load that comes to its limit and no
 further is held (limits.py).
@@ -15,35 +15,14 @@ All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of
 
 from __future__ import annotations
 
-from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.bumps import NEAR, earliest_bump
+from fairlead.integrate.events.guards import guards_at
 from fairlead.integrate.events.limits import ROUNDING, weigh_limits
-from fairlead.integrate.events.settling import RISE, look_ahead
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
-from fairlead.integrate.point.interpolant import interpolate
-from fairlead.integrate.record.between import take_slip_away
 
 NONE, CROSSING, COMPANION = 0, 1, 2
-NEAR = 2.0**-10
-"""Distance in theta over which the slope of a guard at an end of the step is taken."""
-
 ALWAYS = 2.0
 """Theta, beyond the step, up to which a guard counts as below zero that does so in the whole of it."""
-
-HIGHEST = 4.0 / 27.0
-"""Largest value of x (1 - x)^2, which is how far a cubic rises above its ends for a unit of slope at one of them."""
-
-
-@compiled
-def guards_at(m, theta, h, at_g):
-    """Guards at theta on the interpolant."""
-    problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
-    if theta == 1.0:
-        evaluate_guards(problem, run, guards, run.t_land if run.landing == 1 else point.t + h, point.at_y_end, at_g)
-    else:
-        interpolate(point, theta, point.at_y_probe)
-        if m.recorder.rows_slip == 1:
-            take_slip_away(problem, point, m.linear, m.stepping.exchange, point.t + theta * h, point.at_y_probe)
-        evaluate_guards(problem, run, guards, point.t + theta * h, point.at_y_probe, at_g)
 
 
 @compiled
@@ -183,108 +162,6 @@ def collect_fired(guards, crossed):
             fired[guards.n_fired] = i
             guards.n_fired += 1
     return CROSSING
-
-
-@compiled
-def earliest_bump(m, h):
-    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none.
-
-    A guard at its limit that falls by y' and y'' of the point, as settled, and is below it at the end does not rise:
-    the interpolant of a long step is rough at its start.
-    """
-    run, guards = m.run, m.events.guards
-    ng = guards.n_guards
-    end = reals(guards.at_g_end, ng)
-    g, early, late = reals(guards.at_g, ng), reals(guards.at_g_early, ng), reals(guards.at_g_late, ng)
-    tolerance, ahead = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_ahead, ng)
-    rising = False
-    for i in range(ng):
-        rising = rising or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i])
-    if not rising:
-        return 1.0
-    guards_at(m, 1.0 - NEAR, h, guards.at_g_late)
-    found, looked = 1.0, False
-    for i in range(ng):
-        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
-            if run.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
-                if not looked:
-                    look_ahead(m.problem, run, m.point, m.events)
-                    copy(reals(guards.at_g_probe, ng), ahead)
-                    looked = True
-                if g[i] - ahead[i] > RISE * tolerance[i]:
-                    continue
-            rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
-            if max(g[i], end[i]) + 1.25 * HIGHEST * (rise - fall) < 0.0:
-                continue
-            top, height = hermite_top(g[i], end[i], rise, fall)
-            # A quarter of the bump is the margin for what a cubic does not see.
-            if height + 0.25 * (height - max(g[i], end[i])) >= 0.0:
-                # Just switched, a guard is at its limit within rounding: there, only a bump that leaves
-                # its tolerance is a crossing and not the error of the interpolant.
-                floor = tolerance[i] if g[i] >= -tolerance[i] else 0.0
-                found = min(found, climb(m, h, i, top, floor))
-    return found
-
-
-@compiled
-def hermite_top(g0, g1, s0, s1):
-    """Where, and how high, the cubic with these end values and slopes (s0 > 0 > s1) is largest on [0, 1]."""
-    lower, upper = 0.0, 1.0
-    for _ in range(30):
-        middle = 0.5 * (lower + upper)
-        slope = (
-            s0
-            + 2.0 * middle * (3.0 * (g1 - g0) - 2.0 * s0 - s1)
-            + 3.0 * middle * middle * (s0 + s1 - 2.0 * (g1 - g0))
-        )
-        if slope > 0.0:
-            lower = middle
-        else:
-            upper = middle
-    x = 0.5 * (lower + upper)
-    height = g0 + x * (s0 + x * ((3.0 * (g1 - g0) - 2.0 * s0 - s1) + x * (s0 + s1 - 2.0 * (g1 - g0))))
-    return x, height
-
-
-@compiled
-def climb(m, h, i, top, floor):
-    """Follow guard i to its maximum by parabolas from a first guess; where it reaches `floor`, else 1."""
-    guards = m.events.guards
-    ng = guards.n_guards
-    probe = reals(guards.at_g_probe, ng)
-    a, ga = 0.0, reals(guards.at_g, ng)[i]
-    b, gb = 1.0, reals(guards.at_g_end, ng)[i]
-    x = min(max(top, NEAR), 1.0 - NEAR)
-    guards_at(m, x, h, guards.at_g_probe)
-    gx = probe[i]
-    for _ in range(8):
-        if gx >= floor:
-            return x
-        p = (b - x) * (gx - ga)
-        q = (x - a) * (gb - gx)
-        if not p - q > 0.0:
-            return 1.0
-        left, right = (gx - ga) / (x - a), (gb - gx) / (b - x)
-        slope, bend = (left * (b - x) + right * (x - a)) / (b - a), (left - right) / (b - a)
-        # The parabola through the points rises above the middle one by slope^2/(4 bend); what it does not see, no more.
-        if gx + 0.5 * slope * slope / bend < floor:
-            return 1.0
-        new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
-        new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))
-        if abs(new - x) < 1e-3 * (b - a):
-            new = x + (1e-2 * (b - x) if b - x > x - a else -1e-2 * (x - a))
-        guards_at(m, new, h, guards.at_g_probe)
-        if probe[i] > gx:
-            if new > x:
-                a, ga = x, gx
-            else:
-                b, gb = x, gx
-            x, gx = new, probe[i]
-        elif new > x:
-            b, gb = new, probe[i]
-        else:
-            a, ga = new, probe[i]
-    return 1.0
 
 
 @compiled

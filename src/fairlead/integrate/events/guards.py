@@ -1,8 +1,10 @@
-"""Values of all guards, as the loop sees them: a machine that is held in its zone has none."""
+"""Values of all guards, as the loop sees them, at a point or along a step: a machine that is held in its zone has none."""
 
 from __future__ import annotations
 
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.record.between import take_slip_away
 
 OUT_OF_FORCE = -1.0
 
@@ -20,3 +22,16 @@ def evaluate_guards(problem, run, guards, t, at_y, at_g):
         for i in range(problem.n_guards):
             if machine[i] >= 0 and blocked[machine[i]] > t:
                 g[i] = OUT_OF_FORCE
+
+
+@compiled
+def guards_at(m, theta, h, at_g):
+    """Guards at theta on the interpolant."""
+    problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
+    if theta == 1.0:
+        evaluate_guards(problem, run, guards, run.t_land if run.landing == 1 else point.t + h, point.at_y_end, at_g)
+    else:
+        interpolate(point, theta, point.at_y_probe)
+        if m.recorder.rows_slip == 1:
+            take_slip_away(problem, point, m.linear, m.stepping.exchange, point.t + theta * h, point.at_y_probe)
+        evaluate_guards(problem, run, guards, point.t + theta * h, point.at_y_probe, at_g)

@@ -28,7 +28,10 @@ BUFFERS = ("row_t", "row_values", "row_side", *(f"event_{of}" for of in ("t", "m
 """Arrays for what is recorded."""
 OF_INSTANCE = ("zones", "guard_inertia", "rebound", "absolute", "relative", "cap", "column_scale")
 """Arrays that the instance of the problem has, and no step writes to but for its zones."""
-SCRATCH = ("zones_history", "patterns_met")
+SCRATCH = (
+    "zones_history", "patterns_met", "bump_left", "bump_left_g", "bump_top", "bump_top_g", "bump_right",
+    "bump_right_g", "bump_asks", "bump_rise", "bump_fall", "bump_guard", "bump_places",
+)  # fmt: skip
 """Arrays that hold nothing between two steps, and are long."""
 LINE = 64
 """Bytes of a line of the processor's cache; every array begins one."""

@@ -14,9 +14,13 @@ GUARDS = Struct(
         "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
         "g_ahead": "n_guards", "g_late": "n_guards", "g_since": "n_guards", "g_end": "n_guards",
         "guard_tolerance": "n_guards", "guard_inertia": "n_guards", "blocked_until": "n_zones",
+        # guards whose tops are looked for: three places, what they have there, the next place (bumps.py)
+        "bump_left": "n_guards", "bump_left_g": "n_guards", "bump_top": "n_guards", "bump_top_g": "n_guards",
+        "bump_right": "n_guards", "bump_right_g": "n_guards", "bump_asks": "n_guards",
+        "bump_rise": "n_guards", "bump_fall": "n_guards",
     },
     indices={
-        "fired": "n_guards",
+        "fired": "n_guards", "bump_guard": "n_guards", "bump_places": "n_guards",
     },
 )  # fmt: skip
 """Guards at the point, along a step and at its end; which of them fired."""

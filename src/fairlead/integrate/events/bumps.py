@@ -1,0 +1,231 @@
+"""Guards that are below zero at both ends of a trial step and may rise to it between.
+
+A guard that leaves the start upwards and comes to the end downwards has a top inside. Where the cubic through its ends
+and slopes may reach zero, the top is looked for by parabolas:
+
+    a < x < b     three places, x above both others: the next is the top of the parabola through them
+    a < b         no such place is known: that of the parabola that leaves the higher end by its slope, to the other
+    given up      where the parabola, and as much again for what it does not see, stays below zero
+    found         where zero is reached; locate() then closes in on the way up to there
+
+An evaluation gives all guards at once, and elements that lie side by side swing alike. So all that may reach zero are
+followed together: the next place is the earliest that any of them asks for, and each takes from it what it tells of its
+own top. Followed one by one, 800 elements of a line were evaluated sixty times in a step.
+
+What asks for a place behind one already found is left: if it reaches zero before that place, it is above zero there.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from fairlead.integrate.events.guards import guards_at
+from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.settling import RISE, look_ahead
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
+
+NEAR = 2.0**-10
+"""Distance in theta over which the slope of a guard at an end of the step is taken."""
+HIGHEST = 4.0 / 27.0
+"""Largest value of x (1 - x)^2, which is how far a cubic rises above its ends for a unit of slope at one of them."""
+MARGIN = 0.25
+"""Share of a bump that may be missing from the cubic through its ends."""
+MOST_PLACES = 9
+"""Places that one guard asks for before it counts as one that does not reach zero."""
+ALIKE = 0.05
+"""Share of a bracket by which a place may lie beside the one that was asked for, and do."""
+TOO_NEAR, TOO_NEAR_ASKED = 0.1, 1e-3
+"""Share of a bracket that a place has to lie beside its top to be taken as a new end of it; the same of one that was
+asked for. Slopes over less would be those of rounding."""
+
+
+@compiled
+def earliest_bump(m, h):
+    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none.
+
+    A guard at its limit that falls by y' and y'' of the point, as settled, and is below it at the end does not rise:
+    the interpolant of a long step is rough at its start.
+    """
+    run, guards = m.run, m.events.guards
+    ng = guards.n_guards
+    end = reals(guards.at_g_end, ng)
+    g, early, late = reals(guards.at_g, ng), reals(guards.at_g_early, ng), reals(guards.at_g_late, ng)
+    tolerance, ahead = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_ahead, ng)
+    rising = False
+    for i in range(ng):
+        rising = rising or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i])
+    if not rising:
+        return 1.0
+    guards_at(m, 1.0 - NEAR, h, guards.at_g_late)
+    followed, looked = 0, False
+    for i in range(ng):
+        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
+            rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
+            if max(g[i], end[i]) + (1.0 + MARGIN) * HIGHEST * (rise - fall) < 0.0:
+                continue
+            if run.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
+                if not looked:
+                    look_ahead(m.problem, run, m.point, m.events)
+                    copy(reals(guards.at_g_probe, ng), ahead)
+                    looked = True
+                if g[i] - ahead[i] > RISE * tolerance[i]:
+                    continue
+            top, height = hermite_top(g[i], end[i], rise, fall)
+            if height + MARGIN * (height - max(g[i], end[i])) >= 0.0:
+                follow(guards, followed, i, top, rise, fall)
+                followed += 1
+    return climb(m, h, followed) if followed > 0 else 1.0
+
+
+@compiled
+def hermite_top(g0, g1, s0, s1):
+    """Where, and how high, the cubic with these end values and slopes (s0 > 0 > s1) is largest on [0, 1].
+
+    Its slope s0 + 2 p x + 3 q x^2 has one root there, as it is above zero at 0 and below at 1; the formula that
+    does not subtract what is alike holds for q of either sign, and for none.
+    """
+    p, q = 3.0 * (g1 - g0) - 2.0 * s0 - s1, s0 + s1 - 2.0 * (g1 - g0)
+    x = min(s0 / (sqrt(max(p * p - 3.0 * q * s0, 0.0)) - p), 1.0)
+    return x, g0 + x * (s0 + x * (p + x * q))
+
+
+@compiled
+def follow(guards, k, i, top, rise, fall):
+    """Guard i is the k-th to be followed, from a first guess of where its top is and its slopes at the ends."""
+    ng = guards.n_guards
+    left, left_g = reals(guards.at_bump_left, ng), reals(guards.at_bump_left_g, ng)
+    right, right_g = reals(guards.at_bump_right, ng), reals(guards.at_bump_right_g, ng)
+    middle, asked = reals(guards.at_bump_top, ng), reals(guards.at_bump_asks, ng)
+    which, places = indices(guards.at_bump_guard, ng), indices(guards.at_bump_places, ng)
+    which[k], places[k] = i, 0
+    reals(guards.at_bump_rise, ng)[k], reals(guards.at_bump_fall, ng)[k] = rise, fall
+    left[k], left_g[k] = 0.0, reals(guards.at_g, ng)[i]
+    right[k], right_g[k] = 1.0, reals(guards.at_g_end, ng)[i]
+    middle[k], asked[k] = -1.0, min(max(top, NEAR), 1.0 - NEAR)
+
+
+@compiled
+def climb(m, h, followed):
+    """Follow so many guards to their tops together; the first place at which one reaches zero, else 1."""
+    guards = m.events.guards
+    ng = guards.n_guards
+    asked, probe = reals(guards.at_bump_asks, ng), reals(guards.at_g_probe, ng)
+    which, places = indices(guards.at_bump_guard, ng), indices(guards.at_bump_places, ng)
+    found = 1.0
+    while True:
+        x = found
+        for k in range(followed):
+            x = min(x, asked[k])
+        if x >= found:
+            return found
+        guards_at(m, x, h, guards.at_g_probe)
+        for k in range(followed):
+            if asked[k] >= found:
+                continue
+            if probe[which[k]] >= floor_of(guards, which[k]):
+                found = x
+                break
+            if does(guards, k, x):
+                places[k] += 1
+            tell(guards, k, x, probe[which[k]])
+            if places[k] >= MOST_PLACES:
+                asked[k] = 1.0
+
+
+@compiled
+def does(guards, k, x):
+    """Whether x is as good as the place that the k-th guard asks for."""
+    ng = guards.n_guards
+    width = reals(guards.at_bump_right, ng)[k] - reals(guards.at_bump_left, ng)[k]
+    return abs(reals(guards.at_bump_asks, ng)[k] - x) <= ALIKE * width
+
+
+@compiled
+def floor_of(guards, i):
+    """What guard i has to reach: zero; its tolerance, if it begins at zero within that.
+
+    Just switched, a guard is at its limit within rounding: there, only a bump that leaves its tolerance is a crossing
+    and not the error of the interpolant.
+    """
+    tolerance = reals(guards.at_guard_tolerance, guards.n_guards)[i]
+    return tolerance if reals(guards.at_g, guards.n_guards)[i] >= -tolerance else 0.0
+
+
+@compiled
+def tell(guards, k, x, value):
+    """What the k-th guard that is followed has at x: a narrower bracket, and the next place it asks for; 1 for none."""
+    ng = guards.n_guards
+    left, left_g = reals(guards.at_bump_left, ng), reals(guards.at_bump_left_g, ng)
+    right, right_g = reals(guards.at_bump_right, ng), reals(guards.at_bump_right_g, ng)
+    top, top_g, asked = reals(guards.at_bump_top, ng), reals(guards.at_bump_top_g, ng), reals(guards.at_bump_asks, ng)
+    own, floor = does(guards, k, x), floor_of(guards, indices(guards.at_bump_guard, ng)[k])
+    if top[k] < 0.0 and value <= max(left_g[k], right_g[k]):
+        if own:
+            asked[k] = leave_higher_end(guards, k, x, value, floor)
+        return
+    if top[k] < 0.0:
+        top[k], top_g[k] = x, value
+    else:
+        beside = (TOO_NEAR_ASKED if own else TOO_NEAR) * (right[k] - left[k])
+        if not left[k] < x < right[k] or abs(x - top[k]) < beside:
+            return
+        higher, behind = value > top_g[k], x > top[k]
+        if higher == behind:  # a new left end: the top so far, or this place
+            left[k], left_g[k] = (top[k], top_g[k]) if higher else (x, value)
+        else:
+            right[k], right_g[k] = (top[k], top_g[k]) if higher else (x, value)
+        if higher:
+            top[k], top_g[k] = x, value
+    asked[k] = next_place(left[k], left_g[k], top[k], top_g[k], right[k], right_g[k], floor)
+
+
+@compiled
+def leave_higher_end(guards, k, x, value, floor):
+    """Keep that side of x on which the parabola from an end, by its slope there, to x is higher; its top, or 1.
+
+    Where x is not above an end, the top that the slope there promises is on the way to x. An end that is cut off here
+    has no known slope, and promises none.
+    """
+    ng = guards.n_guards
+    left, left_g = reals(guards.at_bump_left, ng), reals(guards.at_bump_left_g, ng)
+    right, right_g = reals(guards.at_bump_right, ng), reals(guards.at_bump_right_g, ng)
+    rise, fall = reals(guards.at_bump_rise, ng), reals(guards.at_bump_fall, ng)
+    ahead, up = top_after_end(left_g[k], rise[k], value, x - left[k])
+    back, up_there = top_after_end(right_g[k], -fall[k], value, right[k] - x)
+    if max(left_g[k] + 2.0 * up, right_g[k] + 2.0 * up_there) < floor:
+        return 1.0
+    if left_g[k] + up >= right_g[k] + up_there:
+        place = left[k] + ahead
+        right[k], right_g[k], fall[k] = x, value, 0.0
+    else:
+        place = right[k] - back
+        left[k], left_g[k], rise[k] = x, value, 0.0
+    nearest = NEAR * (right[k] - left[k])
+    return min(max(place, left[k] + nearest), right[k] - nearest)
+
+
+@compiled
+def top_after_end(g, slope, value, way):
+    """How far from an end, and how much above it, the parabola with this slope there is highest; none above: -inf."""
+    if value > g or slope <= 0.0:
+        return 0.0, -inf
+    return 0.5 * slope * way * way / (slope * way + g - value), 0.25 * (slope * way) ** 2 / (slope * way + g - value)
+
+
+@compiled
+def next_place(a, ga, x, gx, b, gb, floor):
+    """The top of the parabola through three places, well inside and not at x; 1 where it stays below the floor."""
+    p = (b - x) * (gx - ga)
+    q = (x - a) * (gb - gx)
+    if not p - q > 0.0:
+        return 1.0
+    left, right = (gx - ga) / (x - a), (gb - gx) / (b - x)
+    slope, bend = (left * (b - x) + right * (x - a)) / (b - a), (left - right) / (b - a)
+    # The parabola through the points rises above the middle one by slope^2/(4 bend); what it does not see, no more.
+    if gx + 0.5 * slope * slope / bend < floor:
+        return 1.0
+    new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
+    new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))
+    if abs(new - x) < 1e-3 * (b - a):
+        new = x + (1e-2 * (b - x) if b - x > x - a else -1e-2 * (x - a))
+    return new
