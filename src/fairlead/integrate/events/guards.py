@@ -1,4 +1,4 @@
-"""Values of all guards, as the loop sees them, at a point or along a step: a machine that is held in its zone has none."""
+"""Values of all guards, at a point or along a step, as the loop sees them: a machine held in its zone has none."""
 
 from __future__ import annotations
 
