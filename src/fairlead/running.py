@@ -13,6 +13,7 @@ from fairlead.analysis.record.counts import unreasonable
 from fairlead.analysis.record.creep import WorstCreep
 from fairlead.analysis.record.energy import Ledger, judged, resolved
 from fairlead.analysis.record.event_rows import EventRows
+from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.released_together import ReleasedTogether
@@ -75,7 +76,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
                       WindUp.of(system, recording.recorded if told else []),
-                      together, progress, interruption, event_rows, settings.accuracy, peaks)  # fmt: skip
+                      together, GaveWay(system), progress, interruption, event_rows, settings.accuracy,
+                      peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
         for controller in outcome.problem.controllers:
             controller.end()
@@ -88,7 +90,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.dwell
         rounded = [said for said in (rounded_in_impacts(system, summary["lost"]),) if said]
-        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *rounded]
+        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.gave_way.remarks(), *rounded]
         summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
@@ -197,6 +199,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "projected": _projected(outcome, watch.system),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
+        "gave_way": watch.gave_way.plain(),
         "strains": watch.strains.summary(),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip

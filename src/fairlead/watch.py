@@ -14,6 +14,7 @@ from fairlead.analysis.record.creep import WorstCreep
 from fairlead.analysis.record.energy import Ledger
 from fairlead.analysis.record.event_rows import EventRows, Rows
 from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.limits import Limits
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
@@ -47,6 +48,7 @@ class Watch:
     below: BelowWeight
     wind_up: WindUp
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
+    gave_way: GaveWay
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
     event_rows: EventRows | None  # what of events is kept; None: everything
@@ -99,6 +101,7 @@ class Watch:
         self.sink.events(self._named(block.events))
         if self.together is not None:
             self.together.watch(block.events)
+        self.gave_way.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.strains.watch(block.t, block.values)
         self.below.watch(block.values)
@@ -128,6 +131,7 @@ class Watch:
 
     def finish(self) -> None:
         """Write what still waits; no block follows."""
+        self.gave_way.finish()
         if (rest := self.steps.rest()) is not None and len(rest.t):
             self._take_steps(rest)
         if (rest := self.batches.rest()) is not None:

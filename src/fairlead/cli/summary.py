@@ -16,6 +16,7 @@ def print_summary(run: Mapping[str, Any], directory: object) -> None:
 
 def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, str]]:
     """(what, value with unit) of each row."""
+    from fairlead.analysis.record import gave_way
     from fairlead.analysis.record.below_weight import rows_of_table
 
     return [
@@ -31,6 +32,7 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         *_lost(run.get("lost")),
         *_changed_starts(run.get("changed_starts")),
         *_together(run.get("released_together")),
+        *gave_way.rows_of_table(run.get("gave_way")),
         *rows_of_table(run.get("below_weight")),
         *_against_statics(run.get("against_statics")),
         *_ruck(run.get("ruck")),

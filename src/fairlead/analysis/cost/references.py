@@ -153,9 +153,8 @@ class References:
         return Reference(f"rodas at accuracy {self.runs.tight:g}", tight, spread, sensitive=sensitive)
 
     def tell_ties(self, timed: Timed) -> None:
-        """Say that a reference is one of several solutions, where contacts came to their limits together."""
-        said = f"The reference is one of several: {timed.ties} came to their limits together, and had one been first, "
-        said += "others might hold."
+        """Say that a reference is one of several solutions, where contacts leave open what follows."""
+        said = f"The reference is one of several: {timed.ties}"
         if timed.ties and said not in self.remarks:
             self.remarks.append(said)
 

@@ -47,7 +47,7 @@ class Timed:
     switches: int = 0
     reached: float = 0.0  # s, simulated
     creep: float | None = None  # m/s, the worst of all contacts
-    ties: str = ""  # the first contacts that came to their limits together, and when; nothing where none did
+    ties: str = ""  # which contacts leave open what follows, when and why; nothing where none do
     repeats: int = 1
     beside: float | None = None  # s, CPU time of the scene as it is when it was run in turns with this
     scatter: float = SCATTER  # of the ratio of the two times
@@ -160,7 +160,7 @@ def _summary(result: Any, names: Sequence[str], span: tuple[float, float], membe
     done = Timed(result.status, steps=run["steps"], switches=run["switches"], reached=reached, creep=creep)
     if result.status != "finished":
         return replace(done, reason=str(run.get("sentence", "")))
-    done = replace(done, ties=_ties(run.get("released_together")))
+    done = replace(done, ties=_ties(run.get("released_together")) or _gave_way(run.get("gave_way")))
     events = tuple((event.t, event.component, event.zone_from, event.zone_to) for event in result.events)
     return replace(done, values=sampled(result, names, span, members), events=events)
 
@@ -169,7 +169,16 @@ def _ties(found: Mapping[str, Any] | None) -> str:
     if not found or not found["count"]:
         return ""
     first = found["first"][0]
-    return f"{', '.join(first['contacts'])} at t = {first['t']:.4g} s"
+    named = f"{', '.join(first['contacts'])} at t = {first['t']:.4g} s"
+    return f"{named} came to their limits together, and had one been first, others might hold."
+
+
+def _gave_way(found: Mapping[str, Any] | None) -> str:
+    if not found or not found["count"]:
+        return ""
+    first = found["first"][0]
+    named = f"{first['contact']} at t = {first['t']:.4g} s"
+    return f"{named} gave way while others held it in place, and how they share a load is not determined."
 
 
 def sampled(result: Any, names: Sequence[str], span: tuple[float, float], members: Members) -> NDArray[np.float64]:
