@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
@@ -210,6 +210,9 @@ class Result:
 
     def __len__(self) -> int:
         return len(self._signals)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._signals)
 
     def unit(self, name: str) -> str:
         """Return the SI unit of a signal."""

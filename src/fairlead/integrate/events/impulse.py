@@ -80,7 +80,27 @@ def impact(m):
     if back == REBOUND:
         throw_back(problem, m.run, point, guards)
     change_speeds(problem, point, matrices, back, supports)
+    turn_round(problem, m.run, point, guards)
     return RELEASED if guards.n_fired > 0 else factors_at(problem, point, m.linear, point.at_y, point.at_ft)
+
+
+@compiled
+def turn_round(problem, run, point, guards):
+    """Fire the guards of contacts that slide against the direction of their zones now, before a law is asked there.
+
+    What friction is behind rest means nothing, and need not be finite: some laws are exponential in the speed.
+    """
+    g, inertia = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_inertia, guards.n_guards)
+    tolerance, fired = reals(guards.at_guard_tolerance, guards.n_guards), indices(guards.at_fired, guards.n_guards)
+    evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g_probe)
+    before = guards.n_fired
+    for i in range(guards.n_guards):
+        new = inertia[i] > 0.0 and g[i] > tolerance[i]
+        for k in range(before):
+            new = new and fired[k] != i
+        if new:
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
 
 
 @compiled
