@@ -75,42 +75,6 @@ def test_a_contact_that_slides_in_name_only_holds_again_when_its_share_is_less(s
     assert result["one.friction"][-1] == pytest.approx(0.25)
 
 
-TWO_WAYS = """
-    components:
-      floor: {{type: Ground}}
-      block: {{type: Mass, mass: 1.3 kg, velocity: 0.4 m/s}}
-      other: {{type: Mass, mass: 0.7 kg, velocity: 0 m/s}}
-      push: {{type: ForceSource, force: 9 N}}
-      {contacts}
-    connections: [[floor.flange, below.a, aside.a], [block.flange, push.flange, below.b, between.b],
-                  [other.flange, aside.b, between.a]]
-    run: {{stop: 1 s, accuracy: 1e-6, engine: {engine}}}
-    record: {{every: 10 ms}}
-"""
-
-
-@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
-@pytest.mark.parametrize("first", range(3))
-def test_what_comes_to_rest_on_two_ways_at_once_is_held_on_both(simulate: Scene, engine: str, first: int) -> None:
-    """The block slides on the floor and on a body that rests there: both slips are its speed, and end as one.
-
-    Whichever is caught first, the other has no slip any more, whose sign could tell that it ended (by rounding that
-    happens where the speed ends slowly: network 18 of tests/invariance). The rest is one with the least squares of its
-    three forces: below 9 N - s, aside and between s each, so s = 3 N.
-    """
-    pads = [
-        "below: {type: Contact, normal_force: 14 N, curve: {curve: coulomb, stiction: 0.5, coulomb: 0.4}}",
-        "between: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, stiction: 0.6, coulomb: 0.5}}",
-        "aside: {type: Contact, normal_force: 50 N, curve: 0.5}",
-    ]
-    contacts = "\n      ".join(pads[first:] + pads[:first])
-    result = simulate(TWO_WAYS.format(contacts=contacts, engine=engine))
-    last = {"aside": "held"} | {event.component: event.zone_to for event in result.events}
-    assert last == dict.fromkeys(("below", "between", "aside"), "held")
-    for name, force in (("below", 6.0), ("between", 3.0), ("aside", 3.0)):
-        assert result[f"{name}.friction"][-1] == pytest.approx(force, rel=1e-6)
-
-
 RING = """
     components:
       {masses}

@@ -116,7 +116,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     CIRCLE_COEF,  # float64 (circles, CIRCLE_COEFS)  coefficients of a and b, sense, factor g
     CIRCLE_ZONES,  # int64 (., CIRCLE_ZONE)  by zone: whether it holds, the guard on the slip that ends it (or -1)
     CIRCLE_SEEN,  # int64 (circles,)     zone for which the rest was found
-    CIRCLE_STILL,  # int64 (circles,)    STILL_TRIED or STILL_CAUGHT for a contact that slides in name only, else 0
+    CIRCLE_STILL,  # int64 (circles,)    1 for a contact that slides in name only
     CIRCLE_BODIES,  # int64 (bodies, BODY)
     CIRCLE_PINS,  # float64 (bodies,)    factor of a share that is pinned to zero
     CIRCLE_NODES,  # int64 (nodes, NODE)  what it hangs on; the node above in its union, what that hangs on, size
@@ -204,4 +204,3 @@ CARRIED_X, CARRIED_V, CARRIER_X, CARRIER_V, CARRIER_A, CARRIED_ROW = range(6)
 RATIO_X, OFFSET_X, RATIO_V, RATIO_MASS, INVERSE_BOND, CARRIED_COEFS = range(6)
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on
-STILL_TRIED, STILL_CAUGHT = 1, 2  # a contact that slides in name only: it let go, or others caught it

@@ -2,11 +2,7 @@
 
 Bodies that contacts hold together are a union, found anew whenever one of those contacts changes its zone:
 every node of it knows one above it and its own speed over that of the other; the top node knows what the union
-hangs on.
-
-A contact that slides in name only (still, in this file) has been tried as held and let go, or was caught by others: it
-came to rest because they did. Then it is tried as held too, like any contact whose slip ends; its share may be between
-its sliding friction and its stiction, where both would go on. Written in the subset of Python of `lowering.py`.
+hangs on. Written in the subset of Python of `lowering.py`.
 """
 
 from __future__ import annotations
@@ -15,25 +11,20 @@ from __future__ import annotations
 def unite(ctx, t, y):
     """Join nodes over the contacts that hold, smaller unions under larger ones.
 
-    A circle round which the speeds agree only at rest (gears) holds its union at rest. A contact that is in another
-    zone than it was seen in counts as tried.
+    A circle round which the speeds agree only at rest (gears) holds its union at rest.
     """
     zones, partials, at = i8(ctx[ZONES]), f8(ctx[PARTIALS]), ctx[CIRCLE_AT]
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     seen, nodes, ratio = i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_NODES]), f8(ctx[CIRCLE_RATIO])
-    still = i8(ctx[CIRCLE_STILL])
     for k in range(0, ctx[N_CIRCLE_NODES]):
         nodes[NODE * k + NODE_ABOVE] = k
         nodes[NODE * k + NODE_UNION_HANGS_ON] = nodes[NODE * k + NODE_HANGS_ON]
         nodes[NODE * k + NODE_SIZE] = 1
     for j in range(0, ctx[N_CIRCLES]):
         row, own = CIRCLE * j, CIRCLE_COEFS * j
-        zone = 0
+        seen[j] = 0
         if pairs[row + CIRCLE_MACHINE] >= 0:
-            zone = zones[pairs[row + CIRCLE_MACHINE]]
-        if zone != seen[j]:
-            still[j] = STILL_TRIED
-        seen[j] = zone
+            seen[j] = zones[pairs[row + CIRCLE_MACHINE]]
         held = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_HOLDS]
         partials[at + j] = held * coef[own + COEF_FACTOR]
         a, b, slip_a, slip_b = pairs[row + CIRCLE_A], pairs[row + CIRCLE_B], coef[own + COEF_A], coef[own + COEF_B]
@@ -70,19 +61,15 @@ def look_around(ctx, t, y):
         while nodes[NODE * b + NODE_ABOVE] != b:
             slip_b = slip_b * ratio[b]
             b = nodes[NODE * b + NODE_ABOVE]
-        in_name = 0
+        still[j] = 0
         guard = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_GUARD]
         if guard >= 0:
             if a == b and abs(slip_a + slip_b) <= 1e-9 * (abs(slip_a) + abs(slip_b)):
-                in_name = 1
+                still[j] = 1
             if a == b and nodes[NODE * a + NODE_UNION_HANGS_ON] == AT_REST:
-                in_name = 1
+                still[j] = 1
             # A share that is wrong waits until every acceleration is right.
-            inertia[guard] = (1.0 - (1.0 - 1e-9) * in_name) / coef[own + COEF_FACTOR]
-        if in_name == 0:
-            still[j] = 0
-        elif still[j] == 0:
-            still[j] = STILL_CAUGHT
+            inertia[guard] = (1.0 - (1.0 - 1e-9) * still[j]) / coef[own + COEF_FACTOR]
     bodies, pins = i8(ctx[CIRCLE_BODIES]), f8(ctx[CIRCLE_PINS])
     for k in range(0, ctx[N_CIRCLE_BODIES]):
         partials[at + ctx[N_CIRCLES] + k] = 0.0
@@ -128,20 +115,15 @@ def add_shares(ctx, t, y):
 
 
 def guard_shares(ctx, t, y, g):
-    """The guards that end sliding in name: the slip speed that what is missing to the limit would build up in tau.
-
-    Of one that was caught by others, the speed that all of its friction would.
-    """
+    """The guards that end sliding in name: the slip speed that what is missing to the limit would build up in tau."""
     regroup(ctx, t, y)
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     z, seen, still, tau = f8(ctx[Z]), i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_STILL]), f8(ctx[TAU])
     for j in range(0, ctx[N_CIRCLES]):
         row, own = CIRCLE * j, CIRCLE_COEFS * j
-        if still[j] > 0:
+        if still[j] == 1:
             force = coef[own + COEF_SENSE] * y[pairs[row + CIRCLE_FORCE]]
             a, b = pairs[row + CIRCLE_SHARE_A], pairs[row + CIRCLE_SHARE_B]
             share = coef[own + COEF_A] * z[a] + coef[own + COEF_B] * z[b]
             guard = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_GUARD]
             g[guard] = tau[0] * coef[own + COEF_FACTOR] * (abs(force) - sign(force) * share)
-            if still[j] == STILL_CAUGHT:
-                g[guard] = tau[0] * coef[own + COEF_FACTOR] * abs(force)
