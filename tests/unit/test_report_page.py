@@ -17,7 +17,7 @@ import fairlead
 from fairlead.cli import app
 from fairlead.report import page
 from fairlead.report.page import packing
-from fairlead.report.page.signals import signal_data
+from fairlead.report.page.signals import first_panels, signal_data
 from fairlead.report.page.slow import slowest
 from fairlead.report.page.verdict import verdict
 from fairlead.report.page.write import library
@@ -201,14 +201,14 @@ def test_a_killed_run_has_a_page_that_says_so(tmp_path: Path) -> None:
 
 
 
-def changed(folder: Path, *changes: tuple[str, str, str, int]) -> Result:
+def changed(folder: Path, *changes: tuple[str, str, str, int], steps: int = 40) -> Result:
     """A run in which parts went from one zone to another and back, so many times in all."""
     run = RunDirectory.create(folder / "run", SIGNALS[:1], {})
     run.append(np.linspace(0, 1, 3), np.zeros((3, 1)), np.zeros(3))
     for part, one, other, times in changes:
         for k in range(times):
             run.event(k / 100, part, *((one, other) if k % 2 == 0 else (other, one)), "changes")
-    run.finish("finished", {"steps": 40})
+    run.finish("finished", {"steps": steps})
     return Result.open(folder / "run")
 
 
@@ -225,6 +225,28 @@ def test_one_contact_that_made_a_run_slow_is_named_once(tmp_path: Path) -> None:
     said = slowest(changed(tmp_path, ("pad", "held", "forward", 7), ("stop", "free", "touching", 2)))
     assert said.startswith("By kind of part, pad changed zone most: 78 % of 9 changes, then stop with 22 %. A zone")
     assert said.count("pad") == 1
+
+
+def test_a_panel_that_nobody_asked_for_draws_none_flat_beside_another(tmp_path: Path) -> None:
+    reaches = {"roll.left": 500.0, "roll.radius": 0.3, "edge.x": 260.0, "core.radius": 0.2, "web.x": 90.0, "rest.x": 0}
+    run = RunDirectory.create(tmp_path / "run", [Signal(name, "m", "") for name in reaches], {})
+    t = np.linspace(0, 1, 5)
+    run.append(t, np.outer(t, list(reaches.values())), np.zeros(5))
+    run.finish("finished", {})
+    panels = first_panels(Result.open(tmp_path / "run"))
+    assert panels == [
+        {"title": "left, x (3 of 6; add others above)", "families": ["roll.left", "edge.x", "web.x"]}
+    ]
+
+
+def test_a_run_with_few_zone_changes_was_not_made_slow_by_them(tmp_path: Path) -> None:
+    seldom = changed(tmp_path, ("drive.lands", "closed", "forward", 2), steps=400)
+    assert slowest(seldom) == "No contact did: parts changed zone twice in 400 steps, in drive.lands."
+
+
+def test_a_valve_that_opens_forward_neither_sticks_nor_slides(tmp_path: Path) -> None:
+    said = slowest(changed(tmp_path, ("drive.lands", "closed", "forward", 9)))
+    assert said.startswith("Only drive.lands changed zone, 9 times. A zone change is a part that goes over to another")
 
 
 def test_zones_of_ones_own_are_no_words_of_friction(tmp_path: Path) -> None:

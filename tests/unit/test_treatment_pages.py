@@ -28,6 +28,18 @@ def test_the_table_of_stepping_is_the_one_that_check_goes_by():
     assert path.read_text(encoding="utf-8") == text, "run python docs/make.py pages"
 
 
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::fairlead.RunWarning")
+def test_every_run_behind_a_figure_of_the_documentation_ends(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch):
+    """`make docs` stops where one does not, as once where a treatment that does not work used its steps up."""
+    make, keeps = made(), DOCS / "figures"
+    monkeypatch.setattr(make, "FIGURES", tmp_path)
+    make.figures()
+    drawn = {one.name for one in tmp_path.iterdir()}
+    assert {"steps.png", "compare.png", "literal.png"} < drawn
+    assert drawn <= {one.name for one in keeps.iterdir()}
+
+
 BUNDLED = {w: m for w, m in known_types()["Contact"].members.items() if m.__module__.startswith("fairlead.")}
 
 

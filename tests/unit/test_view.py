@@ -20,7 +20,7 @@ from fairlead.view import View
 from fairlead.view.completion import Completion
 from fairlead.view.draft import Draft
 from fairlead.view.place import place_in
-from fairlead.view.workers import Checker
+from fairlead.view.workers import Helper
 
 BELT = (Path(fairlead.__file__).parents[2] / "models" / "belt.yaml").read_text(encoding="utf-8")
 WRONG = BELT.replace("stiffness: 100 N/m", "stifness: 100 N/m")
@@ -126,9 +126,9 @@ def test_a_text_without_mistakes_has_none(view: View) -> None:
 
 
 def test_a_check_that_takes_too_long_is_given_up_and_the_next_one_is_made() -> None:
-    checker = Checker(patience=0.0)
+    checker = Helper("check", patience=0.0)
     try:
-        told = checker.check({"file": "x.yaml", "text": BELT, "set": {}, "libraries": [], "allow_fmu": False})
+        told = checker.ask({"file": "x.yaml", "text": BELT, "set": {}, "libraries": [], "allow_fmu": False})
         assert "longer than" in told["faults"][0]["said"]
         assert checker._worker is None
     finally:
@@ -137,7 +137,9 @@ def test_a_check_that_takes_too_long_is_given_up_and_the_next_one_is_made() -> N
 
 @pytest.fixture(scope="module")
 def completion() -> Completion:
-    return Completion(known_types())
+    """Of a few types: the schema of all takes seconds."""
+    known = known_types()
+    return Completion({name: known[name] for name in ("Ground", "Spring", "Mass", "Contact")})
 
 
 def offered(completion: Completion, text: str) -> list[str]:
@@ -163,6 +165,9 @@ HEAD = "schema: 1\ncomponents:\n  wall: {type: Ground}\n  s: {type: Spring, stif
         ("components:\n  p: {type: Contact, curve: {curve: str|", "stribeck", "coulomb"),
         ("components:\n  p: {type: Contact, curve: {curve: stribeck, vel|", "velocity: ", "type: "),
         ("run: {sto|", "stop: ", "start: "),
+        ("run:\n  stop: 3 |", "3 min", "3 m"),
+        ("run: {stop: 2 s, max_step: 5 m|", "5 ms", "5 mm"),
+        ("record: {every: 10 |", "10 ms", "10 N"),
         ("run:\n  engine: |", "stepping", "stop: "),
         (HEAD + "connections:\n  - [s|", "s.a", "wall.flange"),
         (HEAD + "connections: [[wall.flange, s.a], [m|", "m.flange", "s.b"),
@@ -174,6 +179,58 @@ def test_what_may_stand_at_the_cursor_is_offered(completion: Completion, text: s
     found = offered(completion, text)
     assert wanted in found
     assert unwanted not in found
+
+
+HANGS = "while True:\n    pass\n"
+PRINTS = "print('hello'); import sys; sys.stdout.write('{')\n"
+LEAVES = "import os; os._exit(3)\n"
+
+
+@pytest.fixture
+def helper():
+    made = Helper("complete", patience=60.0)
+    yield made
+    made.end()
+
+
+def completed(helper: Helper, text: str, *libraries: Path) -> Any:
+    given = {"file": "x.yaml", "set": {}, "libraries": [str(one) for one in libraries], "allow_fmu": False}
+    return helper.ask({**given, "text": text.replace("|", ""), "cursor": text.index("|")})
+
+
+@pytest.mark.slow
+def test_a_library_is_executed_in_a_process_that_may_hang_print_or_die(helper: Helper, tmp_path: Path) -> None:
+    tutorial = (Path(fairlead.__file__).parents[2] / "docs" / "tutorial" / "parts.md").read_text(encoding="utf-8")
+    own = tutorial.partition("<!-- file: parts.py -->\n```python\n")[2].partition("```")[0]
+    libraries = {}
+    for name, text in {"hangs": HANGS, "prints": own + PRINTS, "leaves": LEAVES}.items():
+        libraries[name] = tmp_path / f"{name}.py"
+        libraries[name].write_text(text, encoding="utf-8")
+    text = "components:\n  s: {type: Fus|"
+    assert own
+    assert completed(helper, text)["items"] == []
+    assert [one["text"] for one in completed(helper, text, libraries["prints"])["items"]] == ["Fuse"]
+    assert "code 3" in completed(helper, text, libraries["leaves"])["faults"][0]["said"]
+    helper._patience = 5.0
+    assert "longer than 5 s" in completed(helper, text, libraries["hangs"])["faults"][0]["said"]
+    helper._patience = 60.0
+    assert [one["text"] for one in completed(helper, "run: {sto|")["items"]] == ["stop: "]
+
+
+@pytest.mark.slow
+def test_the_page_is_offered_every_type_and_its_server_has_loaded_none() -> None:
+    script = (
+        "import sys; from fairlead.view import View; view = View('belt')\n"
+        "from fairlead.view.server import _complete\n"
+        "text = 'components:\\n  s: {type: RuckT'\n"
+        "print([one['text'] for one in _complete(view, {}, text)['items']])\n"
+        "print([name for name in sys.modules if name.startswith('fairlead.components')]); view.close()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+    offers, loaded = done.stdout.splitlines()
+    assert offers == "['RuckTrip']"
+    assert loaded == "[]"
 
 
 def test_what_is_offered_is_told_about(completion: Completion) -> None:
@@ -214,6 +271,7 @@ def test_a_bundled_model_is_not_saved() -> None:
         draft.save(draft.text)
 
 
+@pytest.mark.slow
 def test_a_run_leaves_its_page_and_the_file_alone(view: View, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert does(view, "run", text=BELT.replace("stop: 40 s", "stop: 1 s"))["begun"]
     state = ended(view)
@@ -259,6 +317,7 @@ def ended(view: View) -> dict[str, Any]:
     return view.runner.state
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 def test_ctrl_c_ends_it_and_leaves_nothing_behind(folder: Path, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "fairlead", "view", str(folder / "belt.yaml")]

@@ -50,4 +50,4 @@ def say(schema: dict[str, Any], model: type[BaseModel]) -> None:
         field = model.model_fields.get(name)
         known = schema.get("properties", {}).get(field.alias or name) if field else None
         if known is not None and field is not None and field.description is None:
-            known["description"] = text
+            known["description"] = f"{text} {known.get('description', '')}".strip()  # and how to write the quantity

@@ -33,7 +33,9 @@ MOST_COUNTED = 10**12  # steps or switches of a budget; a processor needs weeks 
 # Text with a unit (or an expression in braces) or a bare number comes in, an SI float is kept.
 Seconds = Annotated[float, BeforeValidator(lambda value: written(value, "s")), _schema_of("s")]
 Metres = Annotated[float, BeforeValidator(lambda value: written(value, "m")), _schema_of("m")]
-Number = Annotated[float, BeforeValidator(lambda value: written(value, "1")), _schema_of("1")]
+Number = Annotated[
+    float, BeforeValidator(lambda value: written(value, "1")), WithJsonSchema({"type": ["number", "string"]})
+]
 Count = Annotated[int, BeforeValidator(whole), Field(gt=0, le=MOST_COUNTED)]
 Duration = Annotated[Seconds, Field(gt=0)]
 

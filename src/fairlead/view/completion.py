@@ -67,7 +67,8 @@ class Completion:
     def _units(self, text: str, place: Place) -> Iterator[tuple[str, str]]:
         """The number that is typed with every unit that fits."""
         found = QUANTITY.match(place.prefix)
-        declared = BARE.search(self._about(self._below(self._nodes(text, place), str(place.key)), whole=True))
+        nodes = self._open(self._below(self._nodes(text, place), str(place.key)), {})
+        declared = BARE.search("\n".join(str(node.get("description", "")) for node in nodes))
         if not found or not declared:
             return
         try:
@@ -117,9 +118,9 @@ class Completion:
                 inner += [node[branch] for branch in ("then" if holds else "else",) if branch in node]
             yield from self._open(inner, words)
 
-    def _about(self, nodes: Iterable[Schema], whole: bool = False) -> str:
+    def _about(self, nodes: Iterable[Schema]) -> str:
         said = next((node["description"] for node in self._open(nodes, {}) if node.get("description")), "")
-        return str(said) if whole else str(said).split("\n", 1)[0]
+        return str(said).split("\n", 1)[0]
 
 
 def _ports(kind: Any) -> tuple[str, ...]:

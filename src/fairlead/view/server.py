@@ -19,12 +19,10 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
 
-from fairlead.component.registry import known_types
 from fairlead.errors import FairleadError, UsageError
 from fairlead.report.page import PAGE_FILE
-from fairlead.view.completion import Completion
 from fairlead.view.draft import Draft
-from fairlead.view.workers import Checker, Runner
+from fairlead.view.workers import Helper, Runner
 
 HERE = "127.0.0.1"
 PARTS = Path(__file__).parent / "parts"
@@ -43,7 +41,7 @@ class View:
         self._given = {"file": str(self.draft.file), "set": dict(settings or {}), "libraries": list(libraries),
                        "allow_fmu": allow_fmu}  # fmt: skip
         self._folder = tempfile.TemporaryDirectory(prefix="fairlead-view-", ignore_cleanup_errors=True)
-        self.checker, self.runner = Checker(), Runner(self._tidy)
+        self.checker, self.completer, self.runner = Helper("check"), Helper("complete"), Runner(self._tidy)
         self.token = secrets.token_urlsafe(24)
         try:
             self._server = _Server((HERE, port), functools.partial(_Handler, self))
@@ -59,7 +57,8 @@ class View:
 
     def serve(self) -> None:
         """Answer until `close` is called or an exception ends it."""
-        threading.Thread(target=lambda: self.completion, daemon=True).start()  # all types are read in for it
+        begin = {**self.request(""), "cursor": 0}
+        threading.Thread(target=self.completer.ask, args=(begin,), daemon=True).start()  # all types are read in for it
         self._server.serve_forever(poll_interval=0.2)
 
     def close(self) -> None:
@@ -67,12 +66,8 @@ class View:
         self._server.server_close()
         self.runner.end()
         self.checker.end()
+        self.completer.end()
         self._folder.cleanup()
-
-    @functools.cached_property
-    def completion(self) -> Completion:
-        """What may stand in the netlist."""
-        return Completion(known_types(self.libraries))
 
     def request(self, text: str) -> dict[str, Any]:
         """What a worker is asked about a text."""
@@ -212,12 +207,14 @@ class _Handler(BaseHTTPRequestHandler):
 
 
 def _check(view: View, _: Any, text: str) -> Any:
-    return view.checker.check(view.request(text)) or {"newer": True}
+    return view.checker.ask(view.request(text)) or {"newer": True}
 
 
 def _complete(view: View, given: Any, text: str) -> Any:
     cursor = given.get("cursor")
-    return view.completion.at(text, cursor if isinstance(cursor, int) else len(text))
+    cursor = cursor if isinstance(cursor, int) else len(text)
+    answer = view.completer.ask({**view.request(text), "cursor": cursor})
+    return answer if answer and "items" in answer else {"begin": cursor, "items": []}  # why not is what checks tell
 
 
 def _run(view: View, _: Any, text: str) -> Any:

@@ -1,8 +1,9 @@
-"""What `fairlead view` has done in a process of its own: a netlist checked, or run and put on a page.
+"""What `fairlead view` has done in a process of its own: a netlist checked, completed, or run and put on a page.
 
     python -m fairlead.view.work     reads one request a line from standard input, answers in lines of JSON
 
     {"do": "check", "file", "text", "set", "libraries", "allow_fmu"}    -> {"faults": [...], "warnings": [...]}
+    {"do": "complete", ..., "cursor"}    -> {"begin", "items": [{"text", "about"}, ...]}
     {"do": "run", ..., "out": FOLDER}    -> {"fraction", "t"} as it goes, then {"status", "sentence"} or {"faults"}
 
 A fault is {"line", "column", "here", "said"}: `here` when it stands in the netlist itself, `said` as `fairlead check`
@@ -11,27 +12,31 @@ says it.
 
 from __future__ import annotations
 
+import functools
 import json
+import os
 import pathlib
 import sys
 import time
 import warnings
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from fairlead.errors import FairleadError, Fault, ModelError, RunWarning
 from fairlead.netlist.files import display
 
 if TYPE_CHECKING:
     from fairlead.simulate import Model
+    from fairlead.view.completion import Completion
 
+_answers: TextIO = sys.stdout
 PAUSE = 0.1  # s between two words on how far a run is
 
 
 def answer(asked: dict[str, Any]) -> None:
     """Do what is asked and say what came of it."""
     try:
-        say(_check(asked) if asked["do"] == "check" else _run(asked))
+        say(WORK[asked["do"]](asked))
     except ModelError as error:
         say({"faults": told(error.faults, asked["file"]), "warnings": []})
     except FairleadError as error:
@@ -40,8 +45,8 @@ def answer(asked: dict[str, Any]) -> None:
 
 def say(words: dict[str, Any]) -> None:
     """A line for the one who asked."""
-    sys.stdout.write(json.dumps(words) + "\n")
-    sys.stdout.flush()
+    _answers.write(json.dumps(words) + "\n")
+    _answers.flush()
 
 
 def told(faults: Iterable[Fault], file: str) -> list[dict[str, Any]]:
@@ -59,6 +64,18 @@ def _model(asked: dict[str, Any]) -> Model:
 
 def _check(asked: dict[str, Any]) -> dict[str, Any]:
     return {"faults": [], "warnings": told(_model(asked).check(), asked["file"])}
+
+
+def _complete(asked: dict[str, Any]) -> dict[str, Any]:
+    return _completion(tuple(asked["libraries"])).at(asked["text"], asked["cursor"])
+
+
+@functools.cache
+def _completion(libraries: tuple[str, ...]) -> Completion:
+    from fairlead.component.registry import known_types
+    from fairlead.view.completion import Completion
+
+    return Completion(known_types(libraries))
 
 
 def _run(asked: dict[str, Any]) -> dict[str, Any]:
@@ -84,8 +101,14 @@ def _run(asked: dict[str, Any]) -> dict[str, Any]:
     return {"status": result.status, "sentence": str(result.run.get("sentence") or "")}
 
 
+WORK = {"check": _check, "complete": _complete, "run": _run}
+
+
 def main() -> None:
-    """Answer until nobody asks any more."""
+    """Answer until nobody asks any more. What a library prints does not mix with the answers."""
+    global _answers
+    _answers = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     for line in sys.stdin:
         answer(json.loads(line))
 

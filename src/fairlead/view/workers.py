@@ -1,4 +1,7 @@
-"""The processes that check and run: one that stays and checks, and one for a run, which can be stopped."""
+"""The processes that work for the page: one that stays and checks, one that stays and completes, one for a run.
+
+Code of libraries is executed in these alone. Each has a time limit or can be stopped, and the page stays when it dies.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +17,9 @@ from collections.abc import Callable
 from typing import Any
 
 COMMAND = (sys.executable, "-m", "fairlead.view.work")
-PATIENCE = 60.0  # s for a check: a first one compiles the laws of its components
-SLOW = "The check was given up: it took longer than {:g} s."
+PATIENCE = 60.0  # s for a text: a first check compiles the laws of its components
+SLOW = "The netlist was given up: its {} took longer than {:g} s."
+NOUNS = {"check": "check", "complete": "completion"}
 GONE = "The process that worked on it ended unexpectedly (code {})."
 
 
@@ -65,15 +69,16 @@ class Worker:
         self._lines.put("")
 
 
-class Checker:
-    """Checks texts, one at a time; of several that wait only the last is checked."""
+class Helper:
+    """Has one kind of work done, one text at a time; of several that wait only the last."""
 
-    def __init__(self, patience: float = PATIENCE) -> None:
+    def __init__(self, do: str, patience: float = PATIENCE) -> None:
+        self._do = do
         self._worker: Worker | None = None
         self._patience = patience
         self._turn, self._newest = threading.Lock(), 0
 
-    def check(self, request: dict[str, Any]) -> dict[str, Any] | None:
+    def ask(self, request: dict[str, Any]) -> dict[str, Any] | None:
         """What `work` answers; None when a newer text has come meanwhile."""
         self._newest += 1
         mine = self._newest
@@ -81,18 +86,18 @@ class Checker:
             if mine != self._newest:
                 return None
             self._worker = self._worker or Worker()
-            self._worker.ask({**request, "do": "check"})
+            self._worker.ask({**request, "do": self._do})
             try:
                 answer = self._worker.answer(self._patience)
             except queue.Empty:
                 self.end()
-                return failure(SLOW.format(self._patience))
+                return failure(SLOW.format(NOUNS[self._do], self._patience))
             if answer is None:
                 return failure(GONE.format(self.end()))
             return answer
 
     def end(self) -> int:
-        """End the process; the next check has another one."""
+        """End the process; the next text has another one."""
         worker, self._worker = self._worker, None
         return worker.end() if worker else 0
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 MOST_PANELS = 4
 MOST_DRAWN = 4
 """Families in a panel that nobody asked for."""
+FARTHER = 20.0
+"""How many times as far one family may go as another in such a panel."""
 MOST_BUCKET = 2**20
 
 
@@ -68,20 +70,36 @@ def first_panels(result: Result) -> list[dict[str, Any]]:
         units = {known[name][0].unit for name in names}
         if names and len(units) == 1:
             panels.append({"title": plot["title"], "families": list(dict.fromkeys(names))})
-    return (panels or _by_unit(known))[:MOST_PANELS]
+    return (panels or _by_unit(result, known))[:MOST_PANELS]
 
 
-def _by_unit(known: Mapping[str, list[Signal]]) -> list[dict[str, Any]]:
+def _by_unit(result: Result, known: Mapping[str, list[Signal]]) -> list[dict[str, Any]]:
     units: dict[str, list[str]] = {}
     for name, each in known.items():
         if not name.startswith("energy."):
             units.setdefault(each[0].unit, []).append(name)
-    return [{"title": _title(names), "families": names[:MOST_DRAWN]} for names in units.values()]
+    sizes = {name: _size(result, each) for name, each in known.items()}
+    drawn = [(_alike(names, sizes)[:MOST_DRAWN], len(names)) for names in units.values()]
+    return [{"title": _title(names, of), "families": names} for names, of in drawn]
 
 
-def _title(names: list[str]) -> str:
-    said = ", ".join(dict.fromkeys(name.rpartition(".")[2].replace("_", " ") for name in names[:MOST_DRAWN]))
-    return f"{said} ({MOST_DRAWN} of {len(names)}; add others above)" if len(names) > MOST_DRAWN else said
+def _alike(names: list[str], sizes: Mapping[str, float]) -> list[str]:
+    """Those that a panel can show together, so that none is drawn flat beside another: the largest such group."""
+    seen = [name for name in names if sizes[name] > 0] or names
+    groups = [[name for name in seen if sizes[one] <= sizes[name] <= FARTHER * sizes[one]] for one in seen]
+    return max(groups, key=lambda group: min(len(group), MOST_DRAWN))
+
+
+def _size(result: Result, members: list[Signal]) -> float:
+    """How far a family goes from its lowest to its highest value; 0 where nothing moves."""
+    found = [result.extremes(one.name) for one in members]
+    values = [v for one in found for v in (one.lowest, one.highest) if math.isfinite(v)]
+    return max(values) - min(values) if values else 0.0
+
+
+def _title(names: list[str], of: int) -> str:
+    said = ", ".join(dict.fromkeys(name.rpartition(".")[2].replace("_", " ") for name in names))
+    return f"{said} ({len(names)} of {of}; add others above)" if len(names) < of else said
 
 
 def worst_rows(result: Result) -> list[dict[str, Any]]:

@@ -20,6 +20,10 @@ CHANGES = {
     "stick": ("stuck",), "slide": ("forward", "backward"), "touch": ("off",), "ruck": ("ruck",), "go slack": ("slack",),
 }  # fmt: skip
 """What a part begins or ceases to do, by what its zones mean."""
+SLIDING = {"forward", "backward"}
+"""Of a contact; a valve may be open forward, but it neither sticks nor parts."""
+FEW = 0.02
+"""Zone changes a step below which they are not what made a run slow."""
 TIMES = {"compile_time": "reading and compiling", "solve_time": "stepping", "wall_time": "all together"}
 
 
@@ -61,13 +65,23 @@ def slowest(result: Result) -> str:
     roles = _roles(result)
     (first, n), *others = kinds.most_common(2)
     changes = f"{total} change{'s' * (total > 1)}"
+    taken = result.run.get("steps") or 0
+    if total < FEW * taken:
+        who = f", {'in' if not others else 'most of them in'} {first}{roles.get(first, '')}"
+        return f"No contact did: parts changed zone {_times(total)} in {taken} steps{who}."
     kind = f"By kind of part, {first}{roles.get(first, '')} changed zone most: {_percent(n, total)} of {changes}"
+    if not others:
+        kind = f"Only {first}{roles.get(first, '')} changed zone, {_times(total)}"
     kind += "".join(f", then {name}{roles.get(name, '')} with {_percent(m, total)}" for name, m in others)
-    steps = f" All together: {result.run['steps']} steps." if result.run.get("steps") else ""
+    steps = f" All together: {taken} steps." if taken else ""
     return (
         f"{kind}.{_single(counts, zones, roles, first)} A zone change is a part that {_changes(zones)}. A step ends at "
         f"each, and short ones follow.{steps}"
     )
+
+
+def _times(n: int) -> str:
+    return {1: "once", 2: "twice"}.get(n, f"{n} times")
 
 
 def _single(counts: Counter[str], zones: Mapping[str, set[str]], roles: Mapping[str, str], said: str) -> str:
@@ -88,7 +102,9 @@ def _busiest_contact(counts: Counter[str], zones: Mapping[str, set[str]]) -> str
 
 def _changes(zones: Mapping[str, set[str]]) -> str:
     """What the parts of this run do when they change zone, in words."""
-    seen = {meaning(zone) for each in zones.values() for zone in each}
+    met = [{meaning(zone) for zone in each} for each in zones.values()]
+    of_contacts = [each for each in met if each & {"stuck", "off"} or each >= SLIDING]
+    seen = set[str]().union(*of_contacts, *(each - SLIDING for each in met))
     does = [word for word, means in CHANGES.items() if seen & set(means)]
     if not does:
         return "goes over to another branch of its law"

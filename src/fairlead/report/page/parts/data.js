@@ -92,5 +92,12 @@ function thinned(run, values, k, from, to, most) {
   return {x, y};
 }
 
-const shown = (value, unit = "") => !Number.isFinite(value) ? "no value" :
-  `${Math.abs(value) >= 1e5 || (value !== 0 && Math.abs(value) < 1e-3) ? value.toExponential(2) : +value.toPrecision(4)}${unit && unit !== "1" ? " " + unit : ""}`;
+// Large and small values get a prefix where their unit takes one: 18 MPa, 0.177 mrad.
+const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1e-3, "m"], [1e-6, "\u00b5"]];
+const shown = (value, unit = "") => {
+  if (!Number.isFinite(value)) return "no value";
+  const size = Math.abs(value), behind = unit && unit !== "1" ? " " + unit : "", digits = one => `${+one.toPrecision(4)}`;
+  if (size === 0 || (size >= 1e-3 && size < 1e5)) return digits(value) + behind;
+  const [scale, prefix] = PREFIXES.find(([scale]) => size >= scale) || [0, ""];
+  return scale && size < 1e12 && /^(Pa|N|W|J|Hz|m|s|V|A|rad)\b(?!\^)/.test(unit) ? `${digits(value / scale)} ${prefix}${unit}` : value.toExponential(2) + behind;
+};

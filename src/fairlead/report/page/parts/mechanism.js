@@ -5,6 +5,7 @@ class MechanismView {
     const first = async name => name ? (await this.run.values(name)).first[0] : null;
     for (const b of this.m.boxes) {
       b.xs = await first(b.x); b.angles = await first(b.angle); b.row = null;
+      if (b.angles) b.w += 26; // room for its wheel
       for (const z of this.run.zones.families) for (const r of z.rows)
         if (!z.inner && (z.name === b.name || (z.name.startsWith(b.name + ".") && r.element < 0)) && (!b.row || r.t.length > b.row.t.length)) b.row = r;
       b.values = [];
@@ -84,8 +85,8 @@ class MechanismView {
     }
     if (b.angles) { const a = this.value(b.angles, t), r = Math.min(h / 2 - 3, 15); ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath(); ctx.arc(x - w / 2 + r + 4, y, r, 0, 7);
       for (const q of [0, 2.0944, 4.1888]) { ctx.moveTo(x - w / 2 + r + 4, y); ctx.lineTo(x - w / 2 + r + 4 + r * Math.cos(a + q), y + r * Math.sin(a + q)); } ctx.stroke(); }
-    const size = Math.max(10, Math.min(12.5, 12 * z)), left = b.angles ? 14 * z : 0; ctx.textAlign = "center"; ctx.fillStyle = css("ink"); ctx.font = `600 ${size}px system-ui, sans-serif`;
-    const small = h < 26, fitted = text => { let one = text; for (let n = text.length - 1; n > 2 && ctx.measureText(one).width > w - left + 12; n--) one = `${text.slice(0, Math.ceil(n / 2) - 1)}\u2026${text.slice(-Math.floor(n / 2))}`; return one; };
+    const size = Math.max(10, Math.min(12.5, 12 * z)), left = b.angles ? 2 * Math.min(h / 2 - 3, 15) + 6 : 0; ctx.textAlign = "center"; ctx.fillStyle = css("ink"); ctx.font = `600 ${size}px system-ui, sans-serif`;
+    const small = h < 26, fitted = text => { let one = text; for (let n = text.length - 1; n > 2 && ctx.measureText(one).width > w - left - 4; n--) one = `${text.slice(0, Math.ceil(n / 2) - 1)}\u2026${text.slice(-Math.floor(n / 2))}`; return one; };
     ctx.fillText(fitted(b.name), x + left / 2, small ? y + 4 : y - 2); ctx.font = `${size - 1.5}px system-ui, sans-serif`; ctx.fillStyle = css("soft");
     if (!small) ctx.fillText(fitted(zone === null ? b.type : this.run.zones.words[zone].name), x + left / 2, y + size);
     b.values.slice(0, b.lines).forEach((v, k) => { const text = `${v.name} ${shown(this.value(v.v, t), v.unit)}`; ctx.font = "11px system-ui, sans-serif"; ctx.lineWidth = 3; ctx.strokeStyle = css("card");
