@@ -31,7 +31,7 @@ def figure3(found: Characteristic) -> Figure:
     for zone in SLIDES:
         ax.plot(*found.branches[zone], color=COLOURS[0])
     ax.plot([0, 0], [-found.breakaway, found.breakaway], color="black", linewidth=2)
-    ax.annotate("stiction", (0, found.breakaway), xytext=(8, 4), textcoords="offset points", fontsize=8)
+    ax.annotate("stiction", (0, found.breakaway), xytext=(-8, -4), ha="right", textcoords="offset points", fontsize=8)
     reach = max(float(np.abs(found.branches[zone][0]).max()) for zone in SLIDES)
     ax.set_xlim(-reach / 3, reach / 3)
     ax.set_xlabel("relative velocity [m/s]")
@@ -58,11 +58,12 @@ def figure5(p: Any, normal: float) -> Figure:
     V, A = np.meshgrid(v, af)
     figure: Figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
     ax: Any = figure.add_subplot(projection="3d")
-    ax.plot_surface(1e3 * V, A, prism(p, normal, V, A), cmap="viridis", linewidth=0, rcount=161, ccount=161)
+    ax.plot_surface(1e3 * V, A, prism(p, normal, V, A) / 1e3, cmap="viridis", linewidth=0, rcount=161, ccount=161)
     ax.set_xlabel("relative velocity [mm/s]")
     ax.set_ylabel("applied force [N]")
-    ax.set_zlabel("viscous coefficient [N s/m]")
+    ax.set_zlabel("viscous coefficient [kN s/m]")
     ax.view_init(28, -58)
+    ax.set_box_aspect(None, zoom=0.85)  # room for the words on the axes, which the layout does not count
     figure.suptitle("Figure 5: viscous friction over relative velocity and applied force", x=0.01, ha="left")
     return figure
 
