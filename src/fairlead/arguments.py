@@ -18,6 +18,7 @@ from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, 
 from fairlead.quantities import QuantityError, si
 
 NAN = "Look where it comes from: an empty cell of a table is nan, and 0/0."
+NONE = 'Give a value, or "null" for a parameter as if it were not given; a part is left out in the netlist.'
 ONE = "Give one value; for several make a model of each, in a loop."
 
 
@@ -99,7 +100,8 @@ class Arguments:
             if not isinstance(key, str):
                 self._wrong(name, key, "is no name of a parameter or a setting", 'Write it as {"run.stop": "5 s"}.')
             elif not _is(one, str | int | float):
-                self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", ONE)
+                way_out = NONE if one is None else ONE
+                self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", way_out)
             elif one != one:
                 self._wrong(f"{name}[{shown(key)}]", one, "is not a number", NAN)
 

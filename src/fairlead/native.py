@@ -29,6 +29,7 @@ import pathlib
 import platform
 import struct
 import sys
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -115,12 +116,30 @@ def load_or_compile(key: str, build: Callable[[], Build]) -> Native:
     warns (CacheWarning) and compiles.
     """
     folder = cache_folder()
+    entry = folder / f"{key}.native" if folder is not None else None
+    stored = _read(entry) if entry is not None else None
+    if stored is not None:
+        return _load(*stored, cached=True)
+    begun = time.perf_counter()
+    try:
+        return _made(key, build, folder)
+    finally:
+        _spent[0] += time.perf_counter() - begun
+
+
+def spent_compiling() -> float:
+    """Seconds that this process has spent compiling, or waiting for another that compiles the same."""
+    return _spent[0]
+
+
+_spent = [0.0]
+
+
+def _made(key: str, build: Callable[[], Build], folder: pathlib.Path | None) -> Native:
+    """Machine code that was not on disk a moment ago."""
     if folder is None:
         return _load(*_compiled(build()), cached=False)
     entry = folder / f"{key}.native"
-    stored = _read(entry)
-    if stored is not None:
-        return _load(*stored, cached=True)
     with _alone(folder / f"{key}.lock"):
         stored = _read(entry) if entry.exists() else None
         if stored is not None:

@@ -281,7 +281,8 @@ _ROOTS = {"meter": (1.0, 0), "gram": (1e-3, 1), "kilogram": (1.0, 1), "second": 
 # Offered beside the table when a unit is unknown, and spellings that pint would take for something else
 # (its Nm is a nautical mile, so a torque typed without the * would pass for a length).
 _PREFIXED = ("kN", "mm", "cm", "km", "kg", "ms", "kPa", "MPa", "kJ", "kW", "mrad", "kHz")
-_MISREAD = {"Nm": "N*m", "kNm": "kN*m", "Nmm": "N*mm", "Ns": "N*s", "kn": "kN, or knot", "kmh": "km/h"}
+_MISREAD = {"Nm": "N*m", "kNm": "kN*m", "Nmm": "N*mm", "Ns": "N*s", "kn": "kN, or knot", "kmh": "km/h",
+            "per": "%"}
 
 
 def kind(unit: str) -> str:

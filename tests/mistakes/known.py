@@ -6,7 +6,9 @@ _COMMAND: dict[str, str] = {}
 
 _COMPONENT: dict[str, str] = {}
 
-_PYTHON: dict[str, str] = {}
+_PYTHON: dict[str, str] = {
+    "margins of a signal without a limit": "Python's own TypeError: how many arguments, not which",
+}
 
 KNOWN = {
     f"{kind}: {name}": reason

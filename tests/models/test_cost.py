@@ -1,5 +1,6 @@
 """`fairlead cost`: what it says of a scene whose motion is known in closed form, and that its advice holds."""
 
+import importlib
 import json
 from types import SimpleNamespace
 
@@ -8,12 +9,13 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
+import fairlead.analysis.cost.timed_run as timed_runs
 from fairlead.analysis.cost.boxed_runs import BoxedRuns
 from fairlead.analysis.cost.choice import choose, front, knee
 from fairlead.analysis.cost.cost import cost
 from fairlead.analysis.cost.deviation import OutputError
 from fairlead.analysis.cost.kept_runs import KeptRuns
-from fairlead.analysis.cost.ladder import Equations, Ladder, Rung
+from fairlead.analysis.cost.ladder import Equations, Ladder, Rung, own_equations, rungs
 from fairlead.analysis.cost.mesh_errors import MeshErrors, order_of
 from fairlead.analysis.cost.meshes import Mesh
 from fairlead.analysis.cost.references import References
@@ -351,7 +353,7 @@ def test_a_scene_whose_reference_takes_too_long_is_studied_over_less_time(monkey
     """Instead of an empty table."""
     def run(self, settings, cap, names=None, members=None):
         if self.span[1] > 2 and settings.get("run.accuracy") == "1e-07":
-            return Timed("budget", "too slow", reached=1.0)
+            return Timed("budget", "too slow", reached=2.5)
         t = np.linspace(0, 1, 1001).reshape(-1, 1)
         return Timed("finished", wall=0.1, cpu=0.1, values=np.tile(np.sin(t), (1, len(names or self.names))))
 
@@ -363,16 +365,67 @@ def test_a_scene_whose_reference_takes_too_long_is_studied_over_less_time(monkey
     assert not any("No reference" in one for one in found.remarks)
 
 
-@pytest.mark.parametrize(("takes", "more"), [(2.0, 0.0), (40.0, 40.0)])
-def test_loading_counts_in_the_budget_and_compiling_does_not(monkeypatch, takes, more):
-    """One step that takes 40 s has compiled an engine, which is done once for a machine."""
-    clock = [100.0]
+class Machine:
+    """A machine with a clock of its own, on which all takes `slow` times as long as on a quiet one.
 
-    def step(*_, **__):
-        clock[0] += takes
+    There a model takes a second to make, what a run takes beside its steps two, and the steps of the whole scene ten;
+    the first run compiles for a minute.
+    """
 
-    monkeypatch.setattr("fairlead.analysis.cost.boxed_runs.timed_run", step)
-    monkeypatch.setattr("fairlead.analysis.cost.boxed_runs.time", SimpleNamespace(perf_counter=lambda: clock[0]))
-    runs = BoxedRuns(None, "", ["a.x"], (0.0, 1.0), 60.0, 1e-7, KeptRuns(None), end=160.0)
-    runs._warm_up({"run.engine": "rodas"})
-    assert runs.end == 160.0 + more
+    def __init__(self, monkeypatch, slow):
+        self.now, self.slow, self.compiled, self.runs = 100.0, slow, 0.0, 0
+        clock = SimpleNamespace(perf_counter=lambda: self.now, process_time=lambda: self.now / slow)
+        for name in ("cost", "boxed_runs", "timed_run", "references"):
+            module = importlib.import_module(f"fairlead.analysis.cost.{name}")
+            monkeypatch.setattr(module, "time", clock, raising=False)
+            monkeypatch.setattr(module, "spent_compiling", lambda: self.compiled, raising=False)
+        monkeypatch.setattr(timed_runs, "_once", self.run)
+        monkeypatch.setattr(timed_runs, "_summary", lambda result, *_: result.timed)
+
+    def load(self, more):
+        self.now += self.slow
+        return belt(more)
+
+    def run(self, model, cap, settings):
+        if not self.runs:
+            self.compiled, self.now = self.compiled + 60.0, self.now + 60.0
+        self.runs += 1
+        share = model.netlist.run.stop / 4.0
+        wanted = 10.0 * self.slow * share
+        steps = min(wanted, cap)
+        self.now += 2.0 * self.slow + steps
+        status, reached = "finished" if steps == wanted else "budget", model.netlist.run.stop * steps / wanted
+        values = np.tile(np.linspace(0, 1, 1001).reshape(-1, 1), (1, 2))
+        timed = Timed(status, steps=10, reached=reached, values=values if status == "finished" else np.empty((0, 0)))
+        return SimpleNamespace(run={"solve_time": steps}, timed=timed), 1.0
+
+
+@pytest.mark.parametrize("slow", [0.3, 1.0, 2.0, 3.0, 5.0, 10.0])
+def test_a_busy_machine_makes_fewer_runs_and_not_a_longer_study(monkeypatch, slow):
+    """The budget is kept, compiling apart; what there was no time for is named."""
+    machine = Machine(monkeypatch, slow)
+    found = cost(machine.load, budget=120.0, signals=["block.x", "block.v"])
+    assert machine.now - 100.0 - machine.compiled <= 120.0
+    assert machine.compiled == 60.0
+    begun = [row.rung.label for row in found.rows]
+    assert not set(begun) & set(found.left_out)
+    own = [rung for rung in rungs(own_equations(belt({})), Ladder(), belt({})) if rung.engine == "rodas"]
+    assert {rung.label for rung in own} <= {*begun, *found.left_out}
+    if slow <= 3.0:
+        assert found.reference is not None
+        assert found.rows[0].timed.finished
+
+
+def test_no_run_of_one_study_is_made_twice(monkeypatch):
+    """Nothing need be kept on disk for that: the reference of a treatment serves all its lines."""
+    machine, asked = Machine(monkeypatch, 0.1), []
+
+    def run(model, cap, settings):
+        words = {name: value for name, value in settings.items() if name != "run.stop"}
+        asked.append((model.netlist.digest, model.netlist.run.stop, tuple(sorted(words.items()))))
+        return machine.run(model, cap, settings)
+
+    monkeypatch.setattr(timed_runs, "_once", run)
+    monkeypatch.setattr(timed_runs, "BRIEF", 0.0)
+    cost(machine.load, budget=1000.0, signals=["block.x", "block.v"])
+    assert len(asked) == len(set(asked)) > 10

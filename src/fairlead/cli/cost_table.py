@@ -13,6 +13,7 @@ COLUMNS = (
     "equations", "engine", "accuracy", "numerical", "modelling", "elements", "worst output", "at end", "at worst",
     "switches", "late by", "CPU", "wall", "set-up",
 )  # fmt: skip
+NAMED = 6  # of the runs that were not begun
 LEFT = ("equations", "engine", "worst output")
 
 
@@ -94,8 +95,10 @@ def _below(study: "Study") -> list[str]:
             lines.append(f"{reference.dissent[0].upper()}{reference.dissent[1:]}.")
     lines += [*study.remarks, *study.unfinished()]
     if study.left_out:
-        lines.append(f"{'Interrupted' if study.interrupted else 'Out of budget'}; not begun: {len(study.left_out)} "
-                     "runs. The same command goes on from here.")  # fmt: skip
+        left, more = study.left_out[:NAMED], len(study.left_out) - NAMED
+        named = "; ".join(left) + (f"; and {more} more" if more > 0 else "")
+        lines.append(f"{'Interrupted' if study.interrupted else 'Out of budget'}; not begun: {named}. The same command "
+                     "goes on from here.")  # fmt: skip
     best = knee(front(study))
     if best is not None:
         lines.append(f"Knee: {best.rung.label}.")

@@ -258,6 +258,8 @@ def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
             return Fault(Location(file, number + 1, len(lines[number]) - len(lines[number].lstrip()) + 1), *said)
     context = f" {error.context}" if error.context else ""
     what = f"not YAML: {error.problem}{context}"
+    if line.strip():
+        what += f", in `{shown(line.strip())}`"
     return Fault(place, what, _advice(line, mark.column))
 
 

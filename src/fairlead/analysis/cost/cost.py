@@ -15,18 +15,19 @@ made tighter are sensitive to everything; then means and standard deviations ove
 
 All columns come first, each from two refinements at least: references at two accuracies or by two engines, a creep and
 a tenth of it, elements of twice and of half the size; then the other lines. A scene that takes more than a twenty-fifth
-of the budget, or an eightieth where it has elements, is studied over the part of its time that it reaches in that; over
+of the budget, or a fiftieth where it has elements, is studied over the part of its time that it reaches in that; over
 half of it, where its references do not finish.
 """
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from fairlead.analysis.cost.boxed_runs import BoxedRuns, Note
+from fairlead.analysis.cost.boxed_runs import USUAL, BoxedRuns, Note
 from fairlead.analysis.cost.compared_outputs import outputs
 from fairlead.analysis.cost.deviation import switching
 from fairlead.analysis.cost.kept_runs import KeptRuns
@@ -42,16 +43,20 @@ from fairlead.analysis.cost.ladder import (
 )
 from fairlead.analysis.cost.mesh_errors import MeshErrors
 from fairlead.analysis.cost.meshes import mesh_settings
-from fairlead.analysis.cost.references import References
+from fairlead.analysis.cost.references import FIRST_TIGHT, References
 from fairlead.analysis.cost.study import Reference, Row, Study
 from fairlead.analysis.cost.timed_run import Load
 from fairlead.arguments import Arguments
+from fairlead.native import spent_compiling
 
 TIGHTER = 1e-2  # accuracy of references over the smallest of the ladder
 TIGHTEST = 1e-9
-PROBE, PROBE_OF_ELEMENTS = 0.04, 0.0125  # share of the budget in which a scene must finish, or it is studied over less
+PROBE, PROBE_OF_ELEMENTS = 0.04, 0.02  # share of the budget in which a scene must finish, or it is studied over less
 KEPT = 0.97  # of the budget is for runs, the rest for reading, the table and the figure
-HALVINGS = 2  # of the time that is studied, while no reference finishes
+CLOSING = 1.0  # times what reading the scene took: what these take on a machine that has other work
+FIRST = 2  # lines of the scene as it is, its own accuracy and the loosest, come before all columns
+HALVINGS = 2  # how often less time is studied, to half of it or to about what the first tight run REACHED
+REACHED = 0.8  # of that
 
 
 def cost(
@@ -67,14 +72,16 @@ def cost(
     asked = Arguments("cost")
     seconds = asked.above_zero("budget", budget, "s")
     asked.refuse()
-    end = time.perf_counter() + KEPT * seconds
+    begun, compiled = time.perf_counter(), spent_compiling()
     ladder = checked(ladder or Ladder())
     model = load({})
     names, units, all_names = outputs(model, signals)
+    loaded = time.perf_counter() - (spent_compiling() - compiled)
+    end = begun + seconds - max((1 - KEPT) * seconds, CLOSING * (loaded - begun))
     span = (model.netlist.run.start, model.netlist.run.stop)
     tight = max(TIGHTEST, TIGHTER * min(ladder.accuracies))
     runs = BoxedRuns(load, model.netlist.digest, names, span, seconds, tight, kept or KeptRuns(None),
-                     tuple(libraries), full, note or (lambda _: None), end=end)  # fmt: skip
+                     tuple(libraries), full, note or (lambda _: None), end=end, compiled=compiled)  # fmt: skip
     made = Study(model.netlist.name, span, True, names, units)
     references = References(runs, units, made.remarks)
     meshes = MeshErrors(made, runs, references, model, ladder, all_names)
@@ -109,7 +116,8 @@ class _Climb:
         self.made.reference = self._reference(own)
         lines = list(rungs(own, self.ladder, self.model))
         first = lines[0].engine if lines else ""
-        self._climb(own, self.made.reference, [rung for rung in lines if rung.engine == first])
+        mine = [rung for rung in lines if rung.engine == first]
+        self._climb(own, self.made.reference, mine[:FIRST])
         self._exact(own)
         if not own.exact:
             for equations in [one for one in others if one.axis == "creep"][-1:]:
@@ -117,6 +125,7 @@ class _Climb:
         self.meshes.measure(own)
         for equations in others:
             self._begin(equations)
+        self._climb(own, self.made.reference, mine)
         self._climb(own, self.made.reference, [rung for rung in lines if rung.engine not in (first, "ida")])
         for equations in others:
             self._climb(equations, self._reference_of(equations))
@@ -136,21 +145,22 @@ class _Climb:
 
     def _reference(self, own: Equations) -> Reference | None:
         """That of the scene; over less time where it takes too long."""
-        found = self.references.of_scene(own)
-        for _ in range(HALVINGS):
-            left = self.runs.end - time.perf_counter()
-            if found is not None or self.runs.full or left < self.runs.budget / 2:
-                break
+        for attempt in range(HALVINGS + 1):
+            first = attempt < HALVINGS and not self.runs.full
+            found = self.references.of_scene(own, FIRST_TIGHT * self.runs.budget if first else math.inf)
+            if found is not None or not first or self.runs.left() < self.runs.budget / 2:
+                return found
             self.references.remarks.pop()  # why there is none
             start, stop = self.runs.span
-            self._shorten(start + (stop - start) / 2)
-            found = self.references.of_scene(own)
-        return found
+            reached = REACHED * (self.references.reached - start)
+            self._shorten(start + min((stop - start) / 2, reached if reached > 0 else math.inf))
+        return None
 
     def _shorten(self, stop: float) -> None:
-        """Study the time up to there only."""
-        self.runs.span = self.made.span = (self.runs.span[0], stop)
-        self.made.whole = False
+        """Study the time up to about there only."""
+        start, before = self.runs.span
+        self.runs.span = self.made.span = (start, min(before, start + float(f"{stop - start:.1g}")))
+        self.made.whole = self.runs.whole = False
 
     def _choose_span(self) -> None:
         """Shorten the time that is studied when the scene as it is takes too long."""
@@ -158,22 +168,22 @@ class _Climb:
         if self.runs.full:
             return
         share = PROBE_OF_ELEMENTS if mesh_settings(self.model) else PROBE
-        probe = self.runs.run({"run.engine": "rodas"}, share * self.runs.budget)
+        probe = self.runs.run({"run.engine": USUAL}, share * self.runs.budget)
         start, stop = self.runs.span
-        self.runs.usual = probe.wall if probe is not None else 0.0
+        self.runs.usual = probe.cpu if probe is not None else 0.0
         if probe is None or probe.status != "budget" or probe.reached <= start:
             return
-        reached = float(f"{0.9 * (probe.reached - start):.1g}")
-        self._shorten(min(start + reached, stop))
+        self._shorten(min(start + 0.9 * (probe.reached - start), stop))
 
     def _climb(self, equations: Equations, reference: Reference | None, lines: Sequence[Rung] | None = None) -> None:
         """All lines of one set of equations; an engine that was too slow is not asked to be more exact."""
-        slow: set[str] = set()
+        before = [row for row in self.made.rows if row.rung.equations == equations]
+        slow = {row.rung.engine for row in before if row.timed.status == "budget"}
         for rung in rungs(equations, self.ladder, self.model) if lines is None else lines:
             if any(row.rung == rung for row in self.made.rows):
                 continue
             self.runs.note(rung.label)
-            timed = None if rung.engine in slow else self.runs.run(rung.settings, self.runs.patience())
+            timed = None if rung.engine in slow else self.runs.run(rung.settings, self.runs.patience(rung.engine))
             if timed is None:
                 if rung.engine not in slow and rung.label not in self.made.left_out:
                     self.made.left_out.append(rung.label)

@@ -62,6 +62,8 @@ class MeshErrors:
         possible = self._possible()
         found = list(possible)
         if not found or found[-1].finer <= 1:
+            if other_meshes(self.model, self.ladder) and not self.runs.has_time_for({"": ""}):
+                self.references.complain("other elements", None)
             return
         finest, coarser = found[-1], [Mesh("", {}, 1.0), *found[:-1]]
         kept, columns = self._shared(coarser, possible, finest)
@@ -131,8 +133,10 @@ class MeshErrors:
 
     def _names_of(self, mesh: Mesh) -> list[str]:
         """What a mesh records; nothing, and a remark, where a scene cannot be divided so."""
+        if not self.runs.has_time_for(mesh.settings):
+            return []
         try:
-            return recorded_of_meshes(self.runs.load(mesh.settings))
+            return recorded_of_meshes(self.runs.models(mesh.settings, self.runs.span)[0])
         except FairleadError as error:
             self.study.remarks.append(f"{mesh.label} is left out. {str(error).splitlines()[0]}")
             return []

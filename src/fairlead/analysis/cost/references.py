@@ -6,7 +6,7 @@
 
     Otherwise runs of rodas at a hundred and ten times the accuracy tell whether it converges at all. If not, the
     scene is sensitive to everything. If it does, the next engine is asked too, and the two that agree best are
-    the reference: the third is said to dissent.
+    the reference: the third is said to dissent. A scene that is not studied whole does with two that agree to PASSABLE.
 """
 
 from __future__ import annotations
@@ -25,8 +25,10 @@ from fairlead.analysis.cost.timed_run import Timed
 BDF = 0.01  # share of the budget that the scene may take for ida to be tried as a reference: it is slow at switches
 CONVERGING = 0.5  # the spread of tight runs over that of less tight ones; with more they do not converge
 LOST = 0.1  # rms over the range: so far apart two motions are as good as unrelated, however far looser runs are
+PASSABLE = 1e-2  # spread with which a scene must do that the budget does not let be studied whole: no third is asked
 ENOUGH = 3  # engines asked when two do not agree
-SLOWER, WORTH_WAITING = 4.0, 2.0  # times rodas, s: an engine that takes longer is no reference
+FIRST_TIGHT = 0.06  # share of the budget in which the first tight run must finish: a study needs half a dozen such runs
+SLOWER, WORTH_WAITING = 4.0, 2.0  # times rodas, s: an engine that takes longer, and more than that, is no reference
 SCATTER = 2.0  # a few runs of a sensitive scene lie nearer to each other than others may
 LOOSER, TIMES = 10.0, 2  # what is tried when a tight run does not finish, and how often
 
@@ -38,10 +40,11 @@ class References:
     runs: BoxedRuns
     units: list[str]
     remarks: list[str]
+    reached: float = math.nan  # s, simulated, by a first tight run that was cut off
 
-    def of_scene(self, equations: Equations) -> Reference | None:
-        """Tight runs by two engines, or three where two do not agree; None when rodas does not finish."""
-        runs = self.finished(equations)
+    def of_scene(self, equations: Equations, cap: float = math.inf) -> Reference | None:
+        """Tight runs by two engines, or three where two do not agree; None when rodas does not finish in `cap` s."""
+        runs = self.finished(equations, cap)
         engine, first = next(runs)
         if first is None:
             return None
@@ -50,10 +53,13 @@ class References:
         for engine, timed in runs:
             assert timed is not None
             found[engine] = timed
-            if self.apart(timed, first)[0] <= AGREE or len(found) == ENOUGH:
+            apart = self.apart(timed, first)[0]
+            if apart <= AGREE or len(found) == ENOUGH:
                 break
             if len(found) == 2 and not self.converges(equations, first):
                 return self.sensitive(equations, found)
+            if apart <= PASSABLE and not (self.runs.whole or self.runs.full):
+                break
         if len(found) == 1 and (again := self._again(equations)) is not None:
             spread, name = self.apart(again, first)
             label = f"rodas at accuracy {self.runs.tight:g} and {LOOSER:g} times that, other engines being too slow"
@@ -68,22 +74,24 @@ class References:
     def _looser(self, equations: Equations, times: float) -> dict[str, str]:
         return {**equations.settings, "run.engine": "rodas", "run.accuracy": f"{min(times * self.runs.tight, 1e-2):g}"}
 
-    def finished(self, equations: Equations) -> Iterator[tuple[str, Timed | None]]:
+    def finished(self, equations: Equations, most: float = math.inf) -> Iterator[tuple[str, Timed | None]]:
         """Engines with their tight runs: rodas, even if it failed, then the others that finish."""
-        first = self._first(equations)
+        first = self._first(equations, most)
         yield "rodas", first
-        cap = math.inf if first is None or self.runs.full else max(WORTH_WAITING, SLOWER * first.wall)
+        worth = max(WORTH_WAITING, FIRST_TIGHT * self.runs.budget)
+        cap = math.inf if first is None or self.runs.full else max(worth, SLOWER * first.wall)
         here = [e for e in reversed(engines_here()) if e == "stepping" or (e == "ida" and self.brief())]
         for engine in [*here, "rodas3p"]:
             timed = self.runs.tightly(equations, engine, cap)
             if timed is not None and timed.finished:
                 yield engine, timed
 
-    def _first(self, equations: Equations) -> Timed | None:
+    def _first(self, equations: Equations, cap: float) -> Timed | None:
         """rodas, at the tightest accuracy at which it finishes; from there on all references are had at that."""
         wanted = self.runs.tight
         for _ in range(TIMES + 1):
-            timed = self.runs.tightly(equations, "rodas")
+            timed = self.runs.tightly(equations, "rodas", cap)
+            self.reached = timed.reached if timed is not None and timed.status == "budget" else math.nan
             if timed is not None and timed.finished:
                 if self.runs.tight > wanted:
                     self.remarks.append(f"References at {self.runs.tight:g}: at {wanted:g} rodas did not finish.")
@@ -97,7 +105,7 @@ class References:
 
     def brief(self) -> bool:
         """Whether ida can be asked in time."""
-        return self.runs.full or self.runs.usual < BDF * self.runs.budget
+        return self.runs.full or (self.runs.whole and self.runs.usual < BDF * self.runs.budget)
 
     def best_pair(self, found: dict[str, Timed]) -> Reference:
         """The two that are nearest to each other; rodas is the solution if it is one of them."""

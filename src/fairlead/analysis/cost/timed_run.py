@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 import statistics
-import tempfile
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -23,13 +22,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.errors import FairleadError, RunWarning
+from fairlead.native import spent_compiling
 
 GRID = 1000  # intervals between the common times
 REPEATS = 5
+OF_A_RUN = ("run.engine", "run.accuracy", "run.method")  # settings that one compiled model can be run with
+AT_HAND = 5  # models that are kept compiled
+ANOTHER = 2.0  # times what the others took: another model, which may have more elements
 BRIEF = 0.2  # s; when the runs together took longer, their time is known well enough
 TURNS, FEWEST_TURNS = 9, 3
 SCATTER = 0.15  # of the ratio of two times that were taken one after the other, on a machine that others share
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
+Left = Callable[[float], float]  # s that it took to make a model -> s that a run of it may take
 Members = Mapping[str, Sequence[str]]  # an output -> the signals whose mean it is, where it is of another mesh
 
 
@@ -76,25 +80,64 @@ def on_grid(settings: Mapping[str, str], span: tuple[float, float]) -> dict[str,
     return {**settings, "run.stop": repr(span[1]), "record.every": repr(every)}
 
 
+class Models:
+    """The compiled models of a study: one for all engines and accuracies, the few that were used last."""
+
+    def __init__(self, load: Load) -> None:
+        self.load = load
+        self.made: dict[tuple[object, ...], tuple[Any, float]] = {}
+
+    def __call__(self, settings: Mapping[str, str], span: tuple[float, float]) -> tuple[Any, float]:
+        """The model with these settings but those of a run, over a span; and the seconds it took, compiling apart.
+
+        Raises FairleadError for a scene that cannot be built.
+        """
+        key = _key(settings, span)
+        if key not in self.made:
+            begun, compiled = time.perf_counter(), spent_compiling()
+            others = {name: value for name, value in settings.items() if name not in OF_A_RUN}
+            model = self.load(on_grid(others, span))
+            assert model.system is not None  # compiled here, so that it counts as set-up
+            setup = time.perf_counter() - begun - (spent_compiling() - compiled)
+            self.made[key] = model, setup
+        self.made[key] = found = self.made.pop(key)
+        while len(self.made) > AT_HAND:
+            del self.made[next(iter(self.made))]
+        return found
+
+    def takes(self, settings: Mapping[str, str], span: tuple[float, float]) -> float:
+        """Seconds that making it may take, by what others took: 0 where it is at hand."""
+        if _key(settings, span) in self.made:
+            return 0.0
+        return ANOTHER * max((setup for _, setup in self.made.values()), default=0.0)
+
+
+def _key(settings: Mapping[str, str], span: tuple[float, float]) -> tuple[object, ...]:
+    return (span, *sorted((name, value) for name, value in settings.items() if name not in OF_A_RUN))
+
+
 def timed_run(
-    load: Load, settings: Mapping[str, str], names: Sequence[str], span: tuple[float, float], cap: float,
-    members: Members | None = None, repeats: int = REPEATS,
+    load: Load | Models, settings: Mapping[str, str], names: Sequence[str], span: tuple[float, float], cap: float,
+    members: Members | None = None, repeats: int = REPEATS, left: Left = lambda _: math.inf,
 ) -> Timed:  # fmt: skip
     """Run a scene over a span with at most `cap` seconds of wall time; repeat it when it is brief.
 
-    A scene that cannot be built is a Timed with the reason. KeyboardInterrupt passes through, also when a run
-    was interrupted in its middle.
+    `left` tells how long a run may take yet, given what it took to make the model: no run begins after that, and one
+    that is under way stops. A scene that cannot be built is a Timed with the reason. KeyboardInterrupt passes
+    through, also when a run was interrupted in its middle.
     """
     begun = time.perf_counter()
+    models = load if isinstance(load, Models) else Models(load)
     try:
-        model = load(on_grid(settings, span))
-        assert model.system is not None  # compiled here, so that it counts as set-up
+        model, setup = models(settings, span)
     except FairleadError as error:
         return Timed("not started", _first_line(error), cap)
-    setup = time.perf_counter() - begun
     first, walls, cpus = None, [], []
     for _ in range(repeats):
-        result, cpu = _once(model, cap)
+        allowed = min(cap, left(setup))
+        if allowed <= 0:
+            break
+        result, cpu = _once(model, allowed, settings)
         if isinstance(result, str):
             return Timed("not started", result, cap, setup)
         walls.append(result.run["solve_time"])
@@ -102,10 +145,12 @@ def timed_run(
         first = first or _summary(result, names, span, members or {})
         if not first.finished or sum(walls) > BRIEF or (time.perf_counter() - begun) > cap:
             break
-    assert first is not None
+    if first is None:
+        return Timed("budget", "the budget was used up before", 0.0, setup)
     return replace(
-        first, cap=cap, setup=setup, wall=statistics.median(walls), cpu=statistics.median(cpus), repeats=len(walls)
-    )
+        first, cap=min(cap, allowed) if not first.finished else cap, setup=setup, wall=statistics.median(walls),
+        cpu=statistics.median(cpus), repeats=len(walls),
+    )  # fmt: skip
 
 
 def in_turns(
@@ -123,7 +168,7 @@ def in_turns(
         if turn >= FEWEST_TURNS and time.perf_counter() - begun > allowed:
             break
         for model, times in zip(models, cpus, strict=True):
-            result, share = _once(model, cap)
+            result, share = _once(model, cap, {})
             if isinstance(result, str):
                 return math.nan, math.nan, math.inf
             times.append(result.run["solve_time"] * share)
@@ -133,24 +178,21 @@ def in_turns(
     return middle * beside, beside, (high - low) / 2
 
 
-def _once(model: Any, cap: float) -> tuple[Any, float]:
+def _once(model: Any, cap: float, settings: Mapping[str, str]) -> tuple[Any, float]:
     """The result of one run, all of it in memory, and the share of the processor it had; or why there is none."""
-    with tempfile.TemporaryDirectory(prefix="fairlead-cost-") as folder:
-        wall, cpu = time.perf_counter(), time.process_time()
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", RunWarning)
-                result = model.run(out=f"{folder}/run", force=True, max_wall=cap, check=False)
-        except FairleadError as error:
-            return _first_line(error), 0.0
-        share = (time.process_time() - cpu) / max(time.perf_counter() - wall, 1e-9)
-        if result.status == "interrupted":
-            raise KeyboardInterrupt
-        result.columns()
-        assert result.t is not None
-        assert result.side is not None
-        assert result.events is not None
-        return result, min(share, 1.0)
+    words: dict[str, Any] = {name.partition(".")[2]: value for name, value in settings.items() if name in OF_A_RUN}
+    words |= {"accuracy": float(words["accuracy"])} if "accuracy" in words else {}
+    wall, cpu = time.perf_counter(), time.process_time()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RunWarning)
+            result = model.run(out=None, max_wall=cap, check=False, **words)
+    except FairleadError as error:
+        return _first_line(error), 0.0
+    share = (time.process_time() - cpu) / max(time.perf_counter() - wall, 1e-9)
+    if result.status == "interrupted":
+        raise KeyboardInterrupt
+    return result, min(share, 1.0)
 
 
 def _summary(result: Any, names: Sequence[str], span: tuple[float, float], members: Members) -> Timed:
