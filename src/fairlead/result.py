@@ -57,16 +57,17 @@ class Result(results.Result):
         """What the run has to say: what `check` would remark, chatter, an open energy ledger, broken limits."""
         return remarks(self.run)
 
-    def margins(self) -> Table:
+    def margins(self, line: str = "*") -> Table:
         """How near the lines came to what they bear, by station and over the run, with time and place of the worst.
 
+        `line` picks lines by name or pattern; one that fits none raises UsageError.
         Columns: line, station ("line" over all of it), quantity, value, unit, margin (what it bears over what it had;
         None where nothing is asked), t [s], signal, place [m]. What was not recorded is named under the table. Raises
         DamagedResultsError.
         """
         from fairlead.analysis.margins.result_tables import margins
 
-        return margins(self)
+        return margins(self, line)
 
     def rucks(self) -> Table:
         """Whether each line that is watched for rucking does: where and when first, or its margin.

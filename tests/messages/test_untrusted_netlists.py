@@ -181,6 +181,9 @@ def test_a_decimal_comma_is_named(tmp_path):
     said = refused(tmp_path, line(force="'1,5 kN'"))
     assert "a.yaml:5:36: hand.force = 1,5 kN is not a quantity." in said
     assert "\n    Write a decimal point, not a comma: 1.5 kN." in said
+    said = refused(tmp_path, line(force="'{1,5*2} kN'"))
+    assert "a.yaml:5:36: hand.force: {1,5*2}: a comma stands only between the arguments of a function" in said
+    assert "\n    Write a decimal point, not a decimal comma." in said
 
 
 def test_escapes_of_others_do_not_reach_the_terminal(tmp_path):

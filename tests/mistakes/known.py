@@ -6,9 +6,7 @@ _COMMAND: dict[str, str] = {}
 
 _COMPONENT: dict[str, str] = {}
 
-_PYTHON: dict[str, str] = {
-    "margins of a signal without a limit": "Python's own TypeError: how many arguments, not which",
-}
+_PYTHON: dict[str, str] = {}
 
 KNOWN = {
     f"{kind}: {name}": reason

@@ -64,8 +64,21 @@ def test_bristles_tell_their_stiffness(answer):
     assert found["stiffness"] == "2.5e+05 N/m (bristles)"  # 5 N in 20 um
 
 
+def test_a_curve_needs_no_braces(answer):
+    with_braces, without = (
+        record(answer("friction", curve, "--method", "binding", "--normal", "10 N", "--json"))
+        for curve in ("{curve: viscous, coulomb: 0.3, rate: 1}", "curve: viscous, coulomb: 0.3, rate: 1")
+    )
+    assert with_braces == without
+
+
 def test_a_text_that_is_no_curve_and_a_method_that_is_none_are_usage_errors(answer):
-    assert answer("friction", "{curve: tustin}").exit_code == 2
+    lacking = answer("friction", "{curve: tustin}")
+    assert lacking.exit_code == 1
+    assert "curve.stiction is missing; curve tustin needs it.\n    Coefficient at rest." in lacking.output
+    treatment = answer("friction", "hold")
+    assert treatment.exit_code == 2
+    assert "--method hold" in treatment.output
     wrong = answer("friction", "0.4", "--method", "bindng")
     assert wrong.exit_code == 2
     assert "binding" in wrong.output

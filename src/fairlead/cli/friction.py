@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 from collections import ChainMap
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -62,8 +63,11 @@ def contacts_of(
     subject: str, settings: list[str], libraries: list[str], method: str
 ) -> tuple[dict[str, "Values"], list["Fault"]]:
     """Contacts by name, and remarks on them; equal ones share an entry, named by the first and how many follow."""
-    if subject.startswith("{") or subject.replace(".", "", 1).isdigit():
+    if _is_curve(subject):
+        subject = f"{{{subject}}}" if subject.startswith("curve") else subject
         return {subject: _of_curve(subject, libraries, method)}, []
+    if subject in _treatments(libraries):
+        raise typer.BadParameter(f"{subject} treats a curve: name that, and add --method {subject}.")
     import fairlead
     from fairlead.analysis.remarks.widths import too_wide
     from fairlead.analysis.treatments.treatments import contacts
@@ -87,26 +91,38 @@ def pressed(values: "Values") -> float | None:
     return values.path(stands) if isinstance(stands, str) else stands
 
 
+def _is_curve(subject: str) -> bool:
+    """True for a number and for a curve in words, with or without its braces."""
+    return bool(re.match(r"\{|curve *:", subject)) or subject.replace(".", "", 1).isdigit()
+
+
 def _of_curve(text: str, libraries: list[str], method: str) -> "Values":
     from fairlead.component.given import Part
-    from fairlead.component.parameters import make
-    from fairlead.component.registry import known_types
-    from fairlead.component.scene import is_head
-    from fairlead.errors import did_you_mean
+    from fairlead.component.parameters import read
+    from fairlead.errors import Location, ModelError, did_you_mean
     from fairlead.netlist.yaml12 import read_yaml
 
-    heads = [kind for kind in known_types(libraries).values() if is_head(kind) and _is_pressed(kind)]
-    members, method = dict(ChainMap(*(head.members for head in heads))), method or heads[0].default_word
+    members = _treatments(libraries)
+    method = method or next(iter(members.values())).default_word
     if method not in members:
         raise typer.BadParameter(f"there is no method {method!r}. {did_you_mean(method, members)}")
     (part,) = (name for name, one in members[method].declaration.parameters.items() if isinstance(one, Part))
     tree, faults = read_yaml(f"{part}: {text}", part)
     if tree is None or faults:
         raise typer.BadParameter(f"{text!r} is not a curve: {'; '.join(map(str, faults))}")
-    try:
-        return make(members[method], **tree.plain())
-    except ValueError as error:
-        raise typer.BadParameter(f"{text!r} is not a curve: {error}") from error
+    values, faults = read(members[method], tree.entries, method, Location("SUBJECT"), pathlib.Path())
+    if values is None or faults:
+        raise ModelError(faults)
+    return values
+
+
+def _treatments(libraries: list[str]) -> dict[str, Any]:
+    """Members of the families of contacts, by method."""
+    from fairlead.component.registry import known_types
+    from fairlead.component.scene import is_head
+
+    heads = [kind for kind in known_types(libraries).values() if is_head(kind) and _is_pressed(kind)]
+    return dict(ChainMap(*(head.members for head in heads)))
 
 
 def _is_pressed(head: "type[Family]") -> bool:

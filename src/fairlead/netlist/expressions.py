@@ -169,6 +169,9 @@ def operands(node: ast.expr) -> list[ast.expr]:
         return node.args
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitXor):
         raise ExpressionError("^ is not a power here", "Write ** for a power.")
+    if isinstance(node, ast.Tuple):
+        what = "a comma stands only between the arguments of a function"
+        raise ExpressionError(what, "Write a decimal point, not a decimal comma.")
     raise ExpressionError(f"{shown(ast.unparse(node))} is not arithmetic", ALLOWED)
 
 

@@ -23,7 +23,8 @@ from fairlead.results.store import SERIES_FILE
 
 FINISHED = "finished"
 REPLACEABLE = (run_file.KILLED, "failed")
-WAY_OUT = "Choose another directory with --out, or replace it with --force."
+WAY_OUT = "Choose another directory (--out, in Python out=), or replace it (--force, in Python force=True)."
+END_IT = "End that process, or choose another directory (--out, in Python out=)."
 
 
 class Claim:
@@ -105,7 +106,7 @@ def _refuse_what_would_be_lost(path: Path, *, ours: bool) -> None:
 def _told_running(path: Path, record: Mapping[str, Any]) -> str:
     what = f"{path} is being written by process {record.get('process')}"
     if record.get("locked") and run_file.is_here(record):
-        return f"{what}.\n    End that process, or choose another directory with --out."
+        return f"{what}.\n    {END_IT}"
     if run_file.is_here(record):
         return f"{what}, or there is another process of that number by now.\n    {WAY_OUT}"
     return f"{what} of {shown(record.get('host'))}, unless that has ended: it cannot be seen from here.\n    {WAY_OUT}"
@@ -115,8 +116,7 @@ def _told_held(path: Path) -> str:
     record = run_file.read(path) or {}
     who = f"process {record['process']}" if record.get("process") else "another process"
     return (
-        f"{path} is being written by {who}, which --force does not replace.\n"
-        "    End that process, or choose another directory with --out."
+        f"{path} is being written by {who}, which is not replaced (--force, in Python force=True).\n    {END_IT}"
     )
 
 

@@ -169,5 +169,5 @@ def _disk(path: Path) -> Iterator[None]:
             reason = f"{reason} ({Path(named).name})"
         raise FairleadError(
             f"Results cannot be written to {path}: {reason}.\n"
-            "    Make room or choose another directory with --out; what was written before is kept."
+            "    Make room or choose another directory (--out, in Python out=); what was written before is kept."
         ) from error

@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
-from fairlead.arguments import Arguments
 from fairlead.errors import FairleadError, RunWarning, UsageError, did_you_mean, listing, shown
 from fairlead.renamed import of_today
+from fairlead.results.asked import instead_of, refuse_no_path
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
@@ -291,7 +291,7 @@ class Result:
         """
         from fairlead.results.excel import to_excel
 
-        _refuse_no_path("to_excel", path)
+        refuse_no_path("to_excel", path)
         self._refuse_another()
         to_excel(self, path, self.chosen(names), side)
 
@@ -324,7 +324,7 @@ class Result:
         from fairlead.results.export import to_csv
         from fairlead.results.placing import placing
 
-        _refuse_no_path("to_csv", path)
+        refuse_no_path("to_csv", path)
         if self.path is None or Path(path).parent.resolve() != self.path.resolve():
             to_csv(self, path, self.chosen(names))
             return
@@ -378,7 +378,7 @@ class Result:
 
     def _signal(self, name: str) -> Signal:
         if not isinstance(name, str):
-            raise UnknownSignalError(f"{shown(name)} is not the name of a signal, which is a text.{_instead(name)}")
+            raise UnknownSignalError(f"{shown(name)} is not the name of a signal, which is a text.{instead_of(name)}")
         if name in self._signals:
             return self._signals[name]
         if len(old := self._of_old(name)) == 1:
@@ -435,18 +435,3 @@ def _unreadable(path: Path, status: str) -> str:
         f"The run in {path} was {status} before its first rows were written, within its first second; there is nothing "
         f"to read.\n    {way_out}"
     )
-
-
-def _refuse_no_path(called: str, path: object) -> None:
-    asked = Arguments(f"Result.{called}")
-    asked.path("path", path)
-    asked.refuse()
-
-
-def _instead(name: object) -> str:
-    """What to write for several signals, or for some of the values of one."""
-    if isinstance(name, slice):
-        return f'\n    Name it first: result["NAME"][{name.start or ""}:{name.stop or ""}].'
-    if isinstance(name, list | tuple) and name and all(isinstance(one, str) for one in name):
-        return f'\n    Write to_pandas({list(name)}) for a table of them, or one name: result["{name[0]}"].'
-    return ""

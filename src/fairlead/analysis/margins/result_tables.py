@@ -9,7 +9,7 @@ from fairlead.analysis.margins.limits_again import judged
 from fairlead.analysis.margins.margins import LineMargins, StationMargins, Worst
 from fairlead.analysis.margins.margins import margins as of_lines
 from fairlead.analysis.margins.ruck import sentence, verdicts
-from fairlead.errors import UsageError, did_you_mean, listing
+from fairlead.errors import UsageError, did_you_mean, listing, shown
 from fairlead.results import Result
 from fairlead.results.signal import matching
 from fairlead.results.table import Table
@@ -21,15 +21,29 @@ QUANTITIES = {
 """What margins are told of, as `StationMargins` describes it, with units; `hose` and `core` are lowest tensions."""
 
 
-def margins(result: Result) -> Table:
-    """A row for each quantity of each station, and of the whole line. Raises DamagedResultsError."""
-    rows, notes = [], []
-    for line in of_lines(result):
+def margins(result: Result, picked: str) -> Table:
+    """A row for each quantity of each station, and of the whole line. Raises DamagedResultsError, UsageError."""
+    rows, notes, lines = [], [], of_lines(result)
+    names = [line.line for line in lines]
+    if picked != "*" and not (isinstance(picked, str) and matching(names, picked)):
+        raise UsageError(_no_line(result, picked, names))
+    for line in lines:
+        if not matching([line.line], picked):
+            continue
         for station in (*line.stations, line.whole):
             rows += [row for name in QUANTITIES if (row := _row(line, station, name)) is not None]
         notes += [f"record {text}" for text in line.missing]
     columns = ("line", "station", "quantity", "value", "unit", "margin", "t", "signal", "place")
     return Table("margins", columns, ("", "", "", "", "", "", "s", "", "m"), tuple(rows), tuple(notes))
+
+
+def _no_line(result: Result, picked: object, names: list[str]) -> str:
+    """What margins are told of, where nothing has this name."""
+    near = did_you_mean(picked, names) if isinstance(picked, str) else ""
+    there = f"Margins are those of {listing(names)}." if names else "This run has no line."
+    limited = [one.signal for one in judged(result)]
+    more = f"The limits of the netlist, on {listing(limited)}, are in result.limits." if limited else ""
+    return f"margins: {shown(picked)} is not a line. {near} {there} {more}".replace("  ", " ").strip()
 
 
 def _row(line: LineMargins, station: StationMargins, quantity: str) -> tuple[Any, ...] | None:

@@ -162,7 +162,7 @@ class SweepTable:
     def _earlier(self) -> Any:
         """What is there already, if it is of this sweep."""
         table, heading = read(self.folder)
-        way_out = "Choose another folder with --out, or replace it with --force."
+        way_out = "Choose another folder (--out, in Python out=), or replace it (--force, in Python force=True)."
         if heading["scene"] != self.heading.scene:
             what = "of another model, other figures, another budget or another version"
             raise UsageError(f"{self.folder / FILE} has cases {what}.\n    {way_out}")
