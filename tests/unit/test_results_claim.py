@@ -172,7 +172,8 @@ def test_no_files_are_made_of_a_result_in_the_directory_of_the_run_that_replaced
 
 def test_a_run_that_goes_on_is_not_replaced_by_force(tmp_path: Path) -> None:
     run = RunDirectory.create(tmp_path, SIGNALS, {"name": "old"})
-    with pytest.raises(UsageError, match=f"is being written by process {os.getpid()}, which --force does not replace"):
+    told = f"is being written by process {os.getpid()}, which --force .in Python force=True. does not replace"
+    with pytest.raises(UsageError, match=told):
         RunDirectory.create(tmp_path, SIGNALS, {}, force=True)
     run.append([0.0], [[1.0]], [0])
     run.finish("finished", {})

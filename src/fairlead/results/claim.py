@@ -116,7 +116,7 @@ def _told_held(path: Path) -> str:
     record = run_file.read(path) or {}
     who = f"process {record['process']}" if record.get("process") else "another process"
     return (
-        f"{path} is being written by {who}, which is not replaced (--force, in Python force=True).\n    {END_IT}"
+        f"{path} is being written by {who}, which --force (in Python force=True) does not replace.\n    {END_IT}"
     )
 
 
