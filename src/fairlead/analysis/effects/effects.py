@@ -43,11 +43,13 @@ from fairlead.analysis.effects.switches import Switch, all_off, switches
 from fairlead.analysis.effects.weights import by_weight
 from fairlead.arguments import Arguments
 from fairlead.errors import FairleadError, NumericalError, UsageError
+from fairlead.native import spent_compiling
 
 START = 0.1  # of the time that is studied is the start transient, where no other is given
 FEWEST = 20  # common times that a window must have
 SHORTEST = 0.2  # s; with less time left no run is begun
 SLOWER, WORTH_WAITING = 5.0, 1.0  # times the scene as it is, s; a switch that takes longer is cut off
+KEPT, CLOSING = 0.97, 1.5  # of the budget is for runs; times what reading the scene took is for start and table
 FINER = 0.1  # accuracy of the run that tells the floor
 PLANNED, USUAL, EXACT, BESIDE = 0.8, 1.3, 5.0, 1.5
 """What the span is planned with: the share of the budget; what a switch, and the scene as it is with its more exact
@@ -90,7 +92,7 @@ def effects(
     seconds = asked.above_zero("budget", budget, "s")
     first, last = (None if one is None else asked.quantity("window", one, "s") for one in window)
     asked.refuse()
-    end = time.perf_counter() + seconds
+    begun, compiled = time.perf_counter(), spent_compiling()
     model = load({})
     names, units, _ = outputs(model, signals)
     if "*" in signals:
@@ -103,8 +105,10 @@ def effects(
     note("the scene as it is")
     every = by_weight(model, switches(model))
     span = (run.start, run.stop if last is None else last)
-    runner = _Runner(load, kept or KeptRuns(None), model.netlist.digest, tuple(libraries), names, span, end)
-    runner.compiled = {block.kernel.variant for block in model.system.blocks}
+    assert model.system is not None  # compiled here
+    loaded = time.perf_counter() - begun - (spent_compiling() - compiled)
+    end = begun + seconds - max((1 - KEPT) * seconds, CLOSING * loaded)
+    runner = _Runner(load, kept or KeptRuns(None), model.netlist.digest, tuple(libraries), names, span, end, compiled)
     base = runner.base(seconds, len(every) + 1, given=last is not None)
     if not base.finished:
         raise NumericalError(f"{model.netlist.name} itself does not run: {base.reason or base.status}")
@@ -152,7 +156,7 @@ class _Judge:
     def switch(self, switch: Switch, waiting: int) -> None:
         """Make the row of a switch, or say why there is none; `waiting` are to be judged, with this one."""
         runner, found = self.runner, self.found
-        if runner.left < SHORTEST:
+        if runner.left < SHORTEST + runner.beside:
             found.left_out.append(switch.label)
             return
         self.note(switch.label)
@@ -167,9 +171,9 @@ class _Judge:
             return
         patience = max(WORTH_WAITING, SLOWER * found.base.wall)
         left = runner.left
-        timed = runner.run(switch.settings, min(left, patience), made, left / waiting)
+        timed = runner.run(switch.settings, min(max(left - runner.closing, SHORTEST), patience), made, left / waiting)
         if timed.status == "budget":
-            if left < patience:  # not slow, but begun too late
+            if left - runner.closing < patience:  # not slow, but begun too late
                 found.left_out.append(switch.label)
                 return
             timed = replace(timed, reason=f"takes more than {SLOWER:g} times as long; not worth a change.")
@@ -203,23 +207,25 @@ class _Runner:
     names: list[str]
     span: tuple[float, float]
     end: float
+    compiled: float  # s, spent compiling when the study began
     beside: float = 0.0  # s that a run takes beside its steps
-    compiled: set[Any] = field(default_factory=set)  # variants of laws, in this process
+    loading: float = 0.0  # s of that, to load and compile the scene
 
     @property
     def left(self) -> float:
-        """Seconds of the budget."""
-        return self.end - time.perf_counter()
+        """Seconds of the budget; compiling, once for this machine, is outside it."""
+        return self.end + spent_compiling() - self.compiled - time.perf_counter()
+
+    @property
+    def closing(self) -> float:
+        """Seconds that a run takes when its scene is loaded, beside its steps."""
+        return max(0.0, self.beside - self.loading)
 
     def base(self, budget: float, switched: int, *, given: bool) -> Timed:
         """The scene as it is: over its span when that is given, else over what leaves time for all switches."""
-        settings = {"run.max_steps": "1"}
-        for _ in range(2):  # the first one loads or compiles the engine, the second tells what there is beside steps
-            begun = time.perf_counter()
-            timed_run(self.load, settings, [], self.span, budget)
-            self.beside = time.perf_counter() - begun
-            self.end += self.beside
-        self.end -= self.beside
+        begun, compiled = time.perf_counter(), spent_compiling()
+        self.loading = timed_run(self.load, {"run.max_steps": "1"}, [], self.span, budget).setup
+        self.beside = time.perf_counter() - begun - (spent_compiling() - compiled)
         if given:
             base = self.run({}, budget)
             if base.status == "budget":
@@ -237,13 +243,9 @@ class _Runner:
         return base
 
     def loaded(self, settings: Any) -> Any:
-        """The scene with settings; laws that are compiled for the first time on this machine are not counted."""
-        begun = time.perf_counter()
+        """The scene with settings, compiled."""
         model = self.load(on_grid(settings, self.span))
-        fresh = {block.kernel.variant for block in model.system.blocks if not block.kernel.native.cached}
-        if not fresh <= self.compiled:
-            self.end += time.perf_counter() - begun
-            self.compiled |= fresh
+        assert model.system is not None  # compiled here
         return model
 
     def run(self, settings: Any, cap: float, made: Any = None, allowed: float = math.inf) -> Timed:
