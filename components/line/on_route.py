@@ -48,7 +48,7 @@ class OnRoute:
         body, reach = f"{self.line.outer}[{i}]", self.line.mesh.reach(i)
         two = bool(self.line.inner) and i not in self.line.mesh.connectors
         bulkhead = (self.line.bulkheads or {}).get(i) if two else None
-        surfaces = self.route.surfaces if self.line.values.device_friction == "on" else []
+        surfaces = [one for one in self.route.surfaces if self.rubs() or self.sums(one)]
         if i == 0 and any(self.given_by(drum) for drum in self.drums()):  # friction could not change its motion
             surfaces = []
         squeezed = self.clamps(i, body, reach) if surfaces or bulkhead is not None else {}
@@ -64,8 +64,16 @@ class OnRoute:
             self.weight(i, one, reach, bodies)
         self.drag(i, body, reach)
 
+    def rubs(self) -> bool:
+        """Whether the line rubs on devices."""
+        return bool(self.line.values.device_friction == "on")
+
+    def sums(self, surface: Surface) -> str:
+        """The sum of loads that a device keeps, for its bearing, which a line presses on also without friction."""
+        return self.route.machinery[surface.name].total if surface.name in self.route.machinery else ""
+
     def contact(self, surface: Surface, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
-        """Loads and contact of a node with one surface; the name of the contact, none where nothing ever presses."""
+        """Loads and contact of a node with one surface; the name of the contact, none where there is no friction."""
         name = f"outer_{surface.name}" if surface.name else "outer"
         load, told = "", [one.name for one, _ in surface.devices]
         pressed = surface.pressed(self.line.weight)
@@ -80,13 +88,14 @@ class OnRoute:
             load = self.tension_load(f"{name}_load[{i}]", kind, i, body, reach, curved, layers, load)
         if not load:
             return ""
-        two = self.line.inner and i not in self.line.mesh.connectors
-        masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
-        self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
-        self.meter(f"{name}[{i}]")
-        if surface.name in self.route.machinery:
+        if self.rubs():
+            two = self.line.inner and i not in self.line.mesh.connectors
+            masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
+            self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
+            self.meter(f"{name}[{i}]")
+        if self.sums(surface):
             self.tell(surface.name, f"{name}_tells[{i}]", load)
-        return f"{name}[{i}]"
+        return f"{name}[{i}]" if self.rubs() else ""
 
     def tell(self, station: str, name: str, load: str) -> None:
         """Add the load of a node to the sum of a device, if it keeps one."""

@@ -146,6 +146,21 @@ def test_26_a_sheave_with_a_rubbing_bearing_takes_its_torque_over_the_radius(sim
     assert tight - slack == pytest.approx(0.2 * 0.06 * load / 0.5, rel=0.02)
 
 
+@pytest.mark.parametrize("off", ["friction: 0.6", "friction: 0"])
+def test_a_bearing_carries_the_line_also_where_that_does_not_rub_on_the_wheel(simulate, off):
+    """Pulled from outside: J dw/dt = R F - mu r Q, with Q of the tension of a line without friction."""
+    wheel = f"{{{WHEEL.replace('friction: 0.6', off)}, bearing: {{friction: 0.2, radius: 60 mm}}}}"
+    switch = "" if off == "friction: 0" else ", effects: {device_friction: off}"
+    text = hauled(wheel, more=switch).replace(
+        "connections:", "  turn: {type: ForceSource, force: 5 N}\n"
+        "connections:\n  - [turn.flange, route.pulley.rim]")  # fmt: skip
+    result = simulate(text)
+    assert pull(result) == pytest.approx(100, rel=1e-3)
+    taken = 0.2 * 0.06 * 2 * 100 * math.sin(math.pi / 4) / 0.5
+    rim = result["route.pulley.wheel.speed"][-1] * 0.5
+    assert rim == pytest.approx((5 - taken) / (0.5 / 0.5**2) * result.t[-1], rel=0.01)
+
+
 def test_26_a_locked_sheave_is_a_bend(simulate):
     result = simulate(hauled(f"{{{WHEEL.replace('0.6', '0.3')}, turns: locked}}"))
     assert pull(result) == pytest.approx(100 * tension_ratio(0.3, math.pi / 2), rel=5e-3)
