@@ -18,7 +18,7 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 from fairlead.component.registry import known_types
-from fairlead.testing import ContractError, checks, contract
+from fairlead.testing import ContractError, checks, contract, properties
 from fairlead.testing.properties import PROPERTIES
 from tests.slow import is_left
 
@@ -65,9 +65,25 @@ ALL = [
 ]
 
 
+FEWER = {"INSTANCES": 2, "INSTANTS": 6}
+"""Random instances and instants in `make test`; `make test-all` asks as many as `contract(kind)` does."""
+SEARCHING = {"zones_reached", "settles"}  # look for motions until they have them
+
+
 @pytest.mark.parametrize("check", ALL)
-def test_registered_component_keeps(check):
+def test_registered_component_keeps(check, monkeypatch):
+    if quick(check) and check.name not in SEARCHING:
+        for name, fewer in FEWER.items():
+            monkeypatch.setattr(properties, name, fewer)
     check()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", known_types().values())
+def test_every_class_keeps_all_that_is_asked_of_it(kind):
+    for check in checks(kind):
+        if asked(check) and quick(check) and check.name not in SEARCHING:
+            check()
 
 
 def test_every_class_has_its_machine_code_looked_at_by_a_quick_test():
