@@ -64,6 +64,8 @@ def check(*given):
     ("[3]", "a.yaml:4:35: route.stations[0] = 3 is not a map.\n    Write a map with type, one of "),
     ("[null]", "route.stations[0] = nothing"),
     ("[[a]]", "route.stations[0] = a list of 1"),
+    ("[{type: Pulley, angle: 45 deg, radius: 1 m, friction: 0.3, bearing: }]", "stations[0].bearing = nothing is not a "
+     "map.\n    Write it as {friction, radius} with values, or leave bearing out."),
     ("[{}]", "route.stations[0] = an empty map"),
     ("[{type: {a: 1}}]", "route.stations[0]"),
     ("[{type: [Guide]}]", "route.stations[0]"),

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fairlead.component.base import Component, Declared, Family
-from fairlead.component.given import Block, Choice, Parameter, Part, Stations, Table, Waveform
+from fairlead.component.given import REQUIRED, Block, Choice, Parameter, Part, Stations, Table, Waveform
 from fairlead.component.tables import TableError
 from fairlead.errors import Fault, did_you_mean, listing, shown
 from fairlead.netlist.netlist import Value
@@ -148,8 +148,14 @@ def _fault(detail: Any, spot: Spot) -> Fault:
             family = spot.declared.family
             words = listing(family.members)  # type: ignore[attr-defined]
             return Fault(node.where, f"{said} is not a map.", f"Write a map with {family.key}, one of {words}.")  # type: ignore[attr-defined]
-        return Fault(node.where, f"{said} is not a map.", f"Write it as {{{', '.join(spot.siblings)}}} with values.")
+        inner = spot.declared.parameters if isinstance(spot.declared, Block) else spot.siblings
+        out = f", or leave {name} out" if node.content is None and all(map(_may_be_left_out, inner.values())) else ""
+        return Fault(node.where, f"{said} is not a map.", f"Write it as {{{', '.join(inner)}}} with values{out}.")
     return Fault(node.where, f"{said}: {detail['msg'][0].lower()}{detail['msg'][1:]}.", _needed(spot.declared))
+
+
+def _may_be_left_out(declared: Any) -> bool:
+    return getattr(declared, "default", REQUIRED) is not REQUIRED
 
 
 def _told(error: Exception, spot: Spot) -> Fault:
