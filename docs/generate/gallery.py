@@ -14,8 +14,18 @@ from generate.text import flowing
 
 TAKEN = {"single_bend": "page_light.png", "guidance_route": "page_dark.png"}
 """Models with a picture of their page in docs/figures, which a browser takes."""
-DEAR = frozenset({"guidance_route_electric", "guidance_route_ideal", "long_deployment", "long_route"})
-"""Models whose runs take too long for a build: they show their wiring only."""
+DEAR = frozenset({
+    "guidance_route_electric", "guidance_route_ideal", "long_deployment", "long_route", "plant", "electronics",
+})  # fmt: skip
+"""Models that show their wiring only: their runs take too long for a build, or say nothing without their other half."""
+FOLDERS = {"machines": "Whole machines", "hard": "Hard cases, each with a closed form",
+           "coupled": "Two halves that are coupled"}  # fmt: skip
+"""Folders of models below the bundled ones, with their headings."""
+ABOUT = """\
+Every bundled model, with the question that it answers, its command and a picture. The small netlist of a part stands on
+the page of the part ([components](components/index.md)).
+"""
+COUPLED = "python benchmarks/coupled_route.py"
 
 QUESTIONS = {
     "belt": "When does a block on a moving belt stick, and when does it slip?",
@@ -45,20 +55,25 @@ QUESTIONS = {
 def pages(docs: Path, folder: Path) -> dict[str, str]:
     """gallery.md."""
     folder_of = Path(str(fairlead.models.__file__)).parent
-    models = [*sorted(folder_of.glob("*.yaml")), *sorted(folder_of.glob("machines/*.yaml"))]
-    lines = ["# Gallery", "", "Every bundled model, with the question that it answers, its command and a picture.", ""]
-    for model in models:
-        lines += _entry(model, folder / "gallery")
+    lines = ["# Gallery", "", ABOUT, ""]
+    for model in sorted(folder_of.glob("*.yaml")):
+        lines += _entry(model, folder / "gallery", f"fairlead run {model.stem} --report")
+    for below, heading in FOLDERS.items():
+        lines += [f"## {heading}", ""]
+        for model in sorted(folder_of.glob(f"{below}/*.yaml")):
+            file = f"{below}/{model.stem}" if below == "machines" else f"models/{below}/{model.name}"
+            command = COUPLED if below == "coupled" else f"fairlead run {file} --report"
+            lines += _entry(model, folder / "gallery", command, level="###")
     return {"gallery.md": "\n".join(lines)}
 
 
-def _entry(model: Path, folder: Path) -> Iterator[str]:
+def _entry(model: Path, folder: Path, command: str, level: str = "##") -> Iterator[str]:
+    """Question, command, picture and wiring of a model, under a heading of its name."""
     question, told = comment(model)
     wiring(model, folder)
     asked = QUESTIONS.get(model.stem)
-    name = model.stem if model.parent.name != "machines" else f"machines/{model.stem}"
-    yield from (f"## {model.stem}", "", *((f"**{asked}**", "") if asked else ()), question, "")
-    yield from fence("sh", f"fairlead run {name} --report")
+    yield from (f"{level} {model.stem}", "", *((f"**{asked}**", "") if asked else ()), question, "")
+    yield from fence("sh", command)
     if model.stem in TAKEN:
         yield from (f"![The page of {model.stem}](../figures/{TAKEN[model.stem]})", "")
     elif model.stem not in DEAR:

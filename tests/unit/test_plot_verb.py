@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib
@@ -17,7 +18,7 @@ from fairlead.report.printed import WHATS, printed
 from fairlead.report.printed.along import profile
 from fairlead.report.printed.ledger import ledger
 from fairlead.report.printed.paper import figure6, prism
-from fairlead.report.printed.zone_chart import spans, zone_chart
+from fairlead.report.printed.zone_chart import MOST_LABELS, row_labels, spans, zone_chart
 from fairlead.results import Result, RunDirectory, Signal
 
 matplotlib.use("agg")
@@ -139,3 +140,17 @@ def test_friction_of_a_model_is_drawn_for_every_kind_of_contact(tmp_path: Path) 
     drawing = file.read_text(encoding="utf-8")
     for kind in ("line.outer", "line.inner"):  # hose on the bend, core inside the hose
         assert kind in drawing
+
+
+def test_few_rows_of_a_zone_chart_have_their_names_and_of_many_each_kind_has_its_own_and_numbers() -> None:
+    few = ["pad", "line.hose[0]", "line.hose[1]"]
+    assert row_labels(few) == (dict(enumerate(few)), [0, 1])
+    many = [f"line.hose[{k}]" for k in range(100)] + ["pad"] + [f"line.inner[{k}]" for k in range(60)]
+    labels, begin = row_labels(many)
+    assert begin == [0, 100, 101]
+    assert labels[0] == "line.hose[0]"
+    assert labels[4] == "[4]"
+    assert {"pad", "line.inner[0]"} & set(labels.values())
+    places = sorted(labels)
+    assert len(places) <= MOST_LABELS
+    assert min(after - before for before, after in pairwise(places)) >= 4

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
     from fairlead.results import Result
 
-MOST_ROWS = 400
+MOST_ROWS, MOST_LABELS = 400, 48
+EDGE = "#8a94a3"
 HUES = {"stuck": "#0072B2", "forward": "#E69F00", "backward": "#CC79A7", "between": "#7B68C8", "off": "#E4E7EB",
         "slack": "#56B4E9", "ruck": "#D3261A", "sound": "#C3CCD6"}  # fmt: skip
 """Colours by what a zone means, those of the page."""
@@ -37,6 +38,24 @@ def spans(result: Result) -> dict[str, list[Span]]:
     for name, (t, zone) in since.items():
         found[name].append((t, last, zone))
     return found
+
+
+def row_labels(names: Sequence[str]) -> tuple[dict[int, str], list[int]]:
+    """Labels by row, far enough apart to be read, and the rows at which another kind of part begins.
+
+    The first of a kind has its whole name; of those after it that have room, the number: `line.hose[0]`, `[4]`, `[8]`.
+    """
+    kinds = [family(name)[0] for name in names]
+    begin = [k for k, kind in enumerate(kinds) if k == 0 or kind != kinds[k - 1]]
+    apart = -(-len(names) // MOST_LABELS)
+    found: dict[int, str] = {}
+    for first, after in zip(begin, [*begin[1:], len(names)], strict=True):
+        if not found or first - max(found) >= apart:
+            found[first] = names[first]
+        for k in range(first + apart, after - apart + 1, apart):
+            if k - max(found) >= apart:
+                found[k] = names[k] if apart == 1 else f"[{family(names[k])[1]}]"
+    return found, begin
 
 
 def zone_chart(result: Result, names: Sequence[str], times: Sequence[float]) -> Figure:
@@ -63,8 +82,10 @@ def zone_chart(result: Result, names: Sequence[str], times: Sequence[float]) -> 
     hues = {word: HUES.get(meaning(word)) or own[word] for word in words}
     for k, (_, each) in enumerate(rows):
         ax.broken_barh([(a, b - a) for a, b, _ in each], (k - 0.45, 0.9), color=[hues[zone] for *_, zone in each])
-    every = max(1, len(rows) // 50)
-    ax.set_yticks(range(0, len(rows), every), [name for name, _ in rows[::every]], fontsize=6 if every > 1 else 7)
+    labels, begin = row_labels([name for name, _ in rows])
+    ax.set_yticks(list(labels), list(labels.values()), fontsize=7)
+    for k in begin[1:]:
+        ax.axhline(k - 0.5, color=EDGE, linewidth=0.6)
     ax.set_ylim(len(rows) - 0.5, -0.5)
     ax.set_xlim(*(times if len(times) == 2 else (result.t[0], result.t[-1])))
     ax.grid(visible=False, axis="y")
