@@ -21,6 +21,7 @@ def ledger_rows(result: Result) -> list[dict[str, Any]]:
     rows = [("supplied by sources", supplied, "in"), ("dissipated", gone, "out"),
             ("more stored than before", stored, "out")]  # fmt: skip
     rows += [(f"lost in impacts of {name}", value, "out") for name, value in lost[:MOST_LOST]]
-    rows += [("missing", supplied - gone - stored - taken, "gap")]
+    missing = supplied - gone - stored - taken  # small beside what it is the difference of: two digits say all
+    rows += [("missing", float(f"{missing:.2g}"), "gap")]
     most = max(max(abs(value) for _, value, _ in rows), 1e-300)
     return [{"entry": entry, "energy": value, "bar": abs(value) / most, "kind": kind} for entry, value, kind in rows]
