@@ -19,6 +19,8 @@ from fairlead.component import (
     sqrt,
 )  # fmt: skip
 
+ROUND_OFF = 1e-6  # of the tension at rest
+
 
 class BeltSpans(Component):
     """The two free spans of a belt between its places on two pulleys, each stretched by `tension` at rest.
@@ -74,7 +76,10 @@ class BeltDrive(Composite):
     stiffness = Parameter("N/m", "Of both free spans together.", default=1e6, above=0)
     damping = Parameter("N*s/m", "Of both free spans together.", default=100.0, least=0)
     mass = Parameter("kg/m", "Mass of the belt per length.", default=0.0, least=0)
-    round_off = Parameter("N", "Tension over which corners are rounded off.", default=1e-3, above=0)
+    round_off = Parameter(
+        "N", "Tension over which corners are rounded off; a millionth of `tension` when not given.", default=None,
+        above=0,
+    )
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
     hands_on = ("method",)
     upper = Output("N", "Tension of the span that a pulls tight when it drives forward.")
@@ -84,10 +89,11 @@ class BeltDrive(Composite):
     def expand(p, scene):
         """Two rims, the spans between, and friction on the pulley that slips first."""
         word = {} if p.method is None else {"method": p.method}
+        round_off = ROUND_OFF * p.tension if p.round_off is None else p.round_off
         children = {
             "spans": scene.make(
                 BeltSpans, stiffness=p.stiffness, damping=p.damping, tension=p.tension, mass=p.mass,
-                ratio=exp(p.mu * min(p.wrap_a, p.wrap_b)), round_off=p.round_off,
+                ratio=exp(p.mu * min(p.wrap_a, p.wrap_b)), round_off=round_off,
             ),
             "wrap": scene.make(Contact, curve=1.0, **word),
             "rim_a": scene.make(Rack, radius=p.radius_a),

@@ -169,6 +169,17 @@ def with_motor(simulate, name, table, **settings):
     return simulate(text, **{"run.accuracy": "1e-6", **settings})
 
 
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_a_belt_of_any_size_slips_at_the_torque_of_the_textbook(size):
+    """All forces `size` times as large, and what they move: the speeds are the same."""
+    forces = {"belt.tension": f"{200 * size} N", "belt.stiffness": f"{1e6 * size} N/m",
+              "belt.damping": f"{100 * size} N*s/m", "rotor.moment": f"{0.1 * size} kg*m^2",
+              "load.torque.ramp.to": f"{-20 * size} N*m"}  # fmt: skip
+    result = run("belt_drive", **forces)
+    slips = float(result.switches().to_pandas()["first"].min())
+    assert slips * 10 == pytest.approx(2 * 200 * 0.1 * np.tanh(0.3 * np.pi / 2), rel=2e-4)
+
+
 @pytest.mark.parametrize("efficiency", [0.45, pytest.param(0.3, marks=pytest.mark.slow)])
 def test_a_gear_of_less_than_half_keeps_the_load_and_lifts_at_its_share(simulate, efficiency):
     """It lifts at W k/eta + bearing, stops after the motor, and lets down at (1/eta - 2) W k + bearing."""
