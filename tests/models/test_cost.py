@@ -429,3 +429,25 @@ def test_no_run_of_one_study_is_made_twice(monkeypatch):
     monkeypatch.setattr(timed_runs, "BRIEF", 0.0)
     cost(machine.load, budget=1000.0, signals=["block.x", "block.v"])
     assert len(asked) == len(set(asked)) > 10
+
+
+@pytest.mark.parametrize("name", ["valve_motor", "single_bend"])
+@pytest.mark.parametrize("settings", [
+    {}, {"run.engine": "stepping"}, {"run.accuracy": "1e-3"}, {"run.engine": "rodas", "run.method": "rodas3p"},
+])  # fmt: skip
+def test_a_run_has_the_settings_that_it_is_timed_with(name, settings):
+    seen = []
+
+    def load(more):
+        model = fairlead.load(name, set=more)
+        run = model.run
+        model.run = lambda **words: seen.append(run(**words)) or seen[-1]
+        return model
+
+    timed = timed_runs.timed_run(load, settings, [], (0.0, 0.02), 60.0, repeats=1)
+    assert timed.finished, timed
+    (result,) = seen
+    used = result.run["settings"]
+    for setting, value in settings.items():
+        key = setting.partition(".")[2]
+        assert str(used[key]) == str(float(value) if key == "accuracy" else value)

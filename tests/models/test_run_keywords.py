@@ -65,3 +65,18 @@ def test_all_mistakes_are_told_at_once(model):
     with pytest.raises(ModelError) as caught:
         model.run(out=None, acuracy=1e-2, engine="foo", stop="soon")
     assert len(caught.value.faults) == 3
+
+
+def test_a_setting_is_one_also_where_the_scene_has_a_parameter_of_its_name(scene):
+    model = scene("""
+        parameters: {method: hold, stop: 1 kg, accuracy: 20 N}
+        components:
+          block: {type: Mass, mass: "{stop}"}
+          push: {type: ForceSource, force: "{accuracy}"}
+        connections: [[push.flange, block.flange]]
+        run: {stop: 1 s}
+    """)
+    result = model.run(out=None, method="rodas3p", stop="0.5 s", accuracy=1e-6)
+    used = result.run["settings"]
+    assert (used["method"], used["stop"], used["accuracy"]) == ("rodas3p", 0.5, 1e-6)
+    assert result["block.v"][-1] == pytest.approx(10.0)

@@ -59,6 +59,8 @@ def with_keywords(settings: RunSettings, given: Mapping[str, Any], parameters: C
 def _strays(given: Mapping[str, Any], parameters: Collection[str]) -> Iterator[Fault]:
     """What is no setting of a run, but of its record, of the scene or of a part."""
     for name, value in given.items():
+        if name in RunSettings.model_fields:  # also where the scene has a parameter of that name
+            continue
         if name in RecordSettings.model_fields:
             way_out = f'It stands in the block record: load(..., set={{"record.{name}": ...}}).'
         elif name in parameters:
