@@ -5,7 +5,7 @@ from fairlead.components.rotation.gear import Gear
 from fairlead.components.rotation.rubbing import Brake
 from fairlead.components.rotation.torque_sensor import TorqueSensor
 
-from fairlead.component import Component, Composite, Effect, Expansion, Input, Law, Output, Parameter, Rotational
+from fairlead.component import Component, Composite, Effect, Expansion, Input, Law, Output, Parameter, Rotational, sqrt
 
 
 class LoadLoss(Component):
@@ -13,12 +13,15 @@ class LoadLoss(Component):
 
     exempt = {"units": "A torque is handed to a contact at a radius of 1 m, as the force there (docs/drives.md)."}
     efficiency = Parameter("1", "Share of the torque that arrives when a drives b.", above=0, most=1)
-    carried = Input("N*m", "Torque carried, without sign.")
+    round_off = Parameter("N*m", "Torque over which the corner at no load is rounded off.", above=0)
+    carried = Input("N*m", "Torque carried.", signed=True)
     loss = Output("N", "Friction at a radius of 1 m.")
+    pressed = Output("N*m", "The torque carried, without sign.", rounded_by="round_off")
 
     def law(p, carried):
         """In proportion to the load."""
-        return Law(loss=(1 - p.efficiency) * carried)
+        size = sqrt(carried**2 + p.round_off**2) - p.round_off
+        return Law(loss=(1 - p.efficiency) * size, pressed=size)
 
 
 class Gearbox(Composite):
@@ -36,6 +39,8 @@ class Gearbox(Composite):
     play = Parameter("rad", "Angle by which b can turn while a stands still.", default=1e-3, least=0)
     stiffness = Parameter("N*m/rad", "Of the teeth, at shaft b.", default=1e7, above=0)
     damping = Parameter("s/rad", "Share of their torque that is added per speed of approach.", default=10.0, least=0)
+    round_off = Parameter("N*m", "Torque over which the corner of the loss at no load is rounded off.", default=1e-3,
+                          above=0)  # fmt: skip
     backlash = Effect("The teeth have a gap and give way.", "off")
     gear_friction = Effect("Teeth lose torque in proportion to the load.")
     torque = Output("N*m", "Torque carried to b, before losses.")
@@ -57,8 +62,8 @@ class Gearbox(Composite):
             return Expansion(children, [], {"a": "gear.a", "b": "gear.b"})
         joins, shown = [("gear.b", "teeth.a")], {"torque": "teeth.torque"}
         if p.gear_friction == "on":
-            children["loss"] = scene.make(LoadLoss, efficiency=p.efficiency)
+            children["loss"] = scene.make(LoadLoss, efficiency=p.efficiency, round_off=p.round_off)
             children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0)
-            joins += [("teeth.size", "loss.carried"), ("loss.loss", "rubbing.normal"), ("rubbing.shaft", "teeth.b")]
+            joins += [("teeth.torque", "loss.carried"), ("loss.loss", "rubbing.normal"), ("rubbing.shaft", "teeth.b")]
             shown["loss"] = "rubbing.torque"
         return Expansion(children, joins, {"a": "gear.a", "b": "teeth.b"}, shown)

@@ -21,7 +21,7 @@ class ToothLoad(Component):
     round_off = Parameter("N*m", "Torque over which the corner at no load is rounded off.", above=0)
     motor = Input("N*m", "Torque of the motor.", signed=True)
     load = Input("N*m", "Torque of the load, positive when it turns the shaft forward.", signed=True)
-    level = Output("N", "Friction level at a radius of 1 m.")
+    level = Output("N", "Friction level at a radius of 1 m.", rounded_by="round_off")
 
     def law(p, motor, load):
         """Motor and load that pull against each other press the teeth."""

@@ -53,6 +53,7 @@ class ToothLoss(Component):
     carried = Input("N*m", "Torque carried on, before the ratio.", signed=True)
     level = Output("N", "Level of the friction at a radius of 1 m.")
     skew = Output("N*m", "The part of the loss that has no threshold.")
+    pressed = Output("N*m", "Torque carried on, whose size counts.", rounded_by="round_off")
     asked_with = {"efficiency": 0.8}
 
     def law(p, shaft, carried):
@@ -66,7 +67,8 @@ class ToothLoss(Component):
         size = rounded - p.round_off**3 / rounded**2  # zero without load, and never below it with one
         rubs = p.bearing if p.bearing_points is None else p.bearing_points(w)
         skew = (drives - driven) / 2 * carried
-        return Law(shaft=skew, level=(drives + driven) / 2 * size + rubs, skew=skew, dissipated=skew * shaft.speed)
+        return Law(shaft=skew, level=(drives + driven) / 2 * size + rubs, skew=skew, pressed=carried,
+                   dissipated=skew * shaft.speed)  # fmt: skip
 
 
 class LossyGear(Composite):

@@ -32,16 +32,17 @@ class WrapGrip(Component):
     mu = Parameter("1", "Coefficient of friction of web on roller.", above=0)
     wrap = Parameter("rad", "Angle that the web wraps.", least=0)
     nip = Parameter("N", "Force that presses the web to the roller.", default=0.0, least=0)
-    round_off = Parameter("N", "Tension over which corners are rounded off.", default=1e-3, above=0)
+    round_off = Parameter("N", "Tension over which corners are rounded off.", above=0)
     behind = Input("N", "Tension of the web that comes.", default=0.0)
     ahead = Input("N", "Tension of the web that goes.", default=0.0)
     grip = Output("N", "Largest difference of tensions.")
+    least = Output("N", "The smaller tension.", rounded_by="round_off")
 
     def law(p, behind, ahead):
         """Euler's formula on the smaller tension."""
         spread = sqrt((behind - ahead) ** 2 + p.round_off**2) - p.round_off
         least = (behind + ahead - spread) / 2
-        return Law(grip=(exp(p.mu * p.wrap) - 1) * least + p.mu * p.nip)
+        return Law(grip=(exp(p.mu * p.wrap) - 1) * least + p.mu * p.nip, least=least)
 
 
 class WebRoller(Composite, abstract=True):
@@ -62,6 +63,7 @@ class WebRoller(Composite, abstract=True):
     web_mass = Parameter(
         "kg", "Of the web on the roller, with traction on; none when not given.", default=None, above=0
     )
+    round_off = Parameter("N", "Tension over which the corners of `grip` are rounded off.", default=1e-3, above=0)
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
     hands_on = ("method",)
     traction = Effect("The web slips on the roller.", "off")
@@ -79,7 +81,7 @@ def roller(p, scene, nip=0.0, rubs=None):
     children = {
         "roller": scene.make(Inertia, moment=p.moment, **start),
         "rim": scene.make(Rack, radius=p.radius),
-        "grip": scene.make(WrapGrip, mu=p.mu, wrap=p.wrap, nip=nip),
+        "grip": scene.make(WrapGrip, mu=p.mu, wrap=p.wrap, nip=nip, round_off=p.round_off),
     }
     joins, web = [("roller.shaft", "rim.pinion")], "rim.rack"
     told = {"behind": "grip.behind", "ahead": "grip.ahead", "grip": "grip.grip", "speed": "roller.speed"}

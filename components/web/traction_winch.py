@@ -13,6 +13,7 @@ from fairlead.components.web.span import WholeSpan
 
 from fairlead.component import Choice, Composite, Count, Expansion, Input, Output, Parameter, Rotational, Translational
 
+ROUND_OFF = 1e-9  # of the stiffness
 NESTED = sqrt(3) / 2  # height of a layer in the grooves of the one below, in diameters
 
 
@@ -49,6 +50,8 @@ class TractionWinch(Composite):
     step = Parameter("1", "Growth from groove to groove, as a share.", default=0.0, least=-0.01, most=0.01)
     moment = Parameter("kg*m^2", "Moment of inertia of both drums.", above=0)
     tension = Parameter("N", "Of all spans at the start.", default=0.0, least=0, physics=False)
+    round_off = Parameter("N", "Over which the corners of the grip are rounded; 1e-9 of the stiffness if not given.",
+                          default=None, above=0)  # fmt: skip
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
     hands_on = ("method",)
     before = Input("1", "Strain of the rope that comes off the storage drum.", default=0.0)
@@ -64,6 +67,7 @@ class TractionWinch(Composite):
         mu = p.mu if p.groove is None else p.mu / sin(p.groove / 2)
         same = {"stiffness": p.stiffness, "tension": p.tension}
         lies = p.mass * pi * p.radius
+        round_off = ROUND_OFF * p.stiffness if p.round_off is None else p.round_off
         damping = p.damping_ratio * p.distance * sqrt(2 * p.stiffness / p.distance * lies)
         children, joins = {"drums": scene.make(Inertia, moment=p.moment)}, []
         for i in range(n):
@@ -71,7 +75,7 @@ class TractionWinch(Composite):
             children |= {
                 f"span[{i}]": scene.make(WholeSpan, length=length, damping=damping, **same),
                 f"rim[{i}]": scene.make(Rack, radius=p.radius * (1 + p.step) ** i),
-                f"grip[{i}]": scene.make(WrapGrip, mu=mu, wrap=pi),
+                f"grip[{i}]": scene.make(WrapGrip, mu=mu, wrap=pi, round_off=round_off),
                 f"wrap[{i}]": scene.make(Contact, curve=1.0, **word),
                 f"half[{i}]": scene.make(Mass, mass=lies),
             }

@@ -19,6 +19,7 @@ from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.remedy import remedies
 from fairlead.analysis.record.rounded_in_impacts import remark as rounded_in_impacts
+from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.wind_up import WindUp
@@ -76,6 +77,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
                       WindUp.of(system, recording.recorded if told else []),
+                      RoundedOff.of(system, recording.recorded if told else []),
                       together, GaveWay(system), progress, interruption, event_rows, settings.accuracy,
                       peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
@@ -89,8 +91,9 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.dwell
-        rounded = [said for said in (rounded_in_impacts(system, summary["lost"]),) if said]
-        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.gave_way.remarks(), *rounded]
+        inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),) if said]
+        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.gave_way.remarks(),
+                 *inexact]  # fmt: skip
         summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)

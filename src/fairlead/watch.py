@@ -17,6 +17,7 @@ from fairlead.analysis.record.extremes import Extremes
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.limits import Limits
 from fairlead.analysis.record.released_together import ReleasedTogether
+from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.wind_up import WindUp
@@ -47,6 +48,7 @@ class Watch:
     strains: Strains
     below: BelowWeight
     wind_up: WindUp
+    rounded: RoundedOff
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     gave_way: GaveWay
     progress: Callable[[float, float, Any], None] | None
@@ -105,6 +107,7 @@ class Watch:
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.strains.watch(block.t, block.values)
         self.below.watch(block.values)
+        self.rounded.watch(block.values)
         self.wind_up.watch(block.t, block.values, block.events)
         if self.metered is not None:
             self.ledger.watch(block.values[:, self.metered])

@@ -112,6 +112,8 @@ class Output:
     elements there are more and smaller ones, so two meshes are not compared by it. Creep is not compared either.
     STRAIN is that of an element, over its length without load; a run watches it, see `compressible` of a component.
     INTEGRAL is what a controller has gathered; a run tells where it winds up, see `saturates_in`.
+    `rounded_by` is the parameter over which a corner at zero of this output is rounded off; a run tells where the
+    output stays so small that the rounding counts. In a Composite the parameter has the same name.
     `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
     """
 
@@ -119,6 +121,7 @@ class Output:
     doc: str = ""
     role: str = ""
     name: str = ""
+    rounded_by: str = ""
 
 
 @dataclass(frozen=True)

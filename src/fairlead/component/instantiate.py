@@ -23,7 +23,7 @@ from fairlead.component.parameters import read
 from fairlead.component.replies import AnswerError
 from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_head
 from fairlead.component.stand_in import stand_in
-from fairlead.component.values import Values, Variant, variant_of
+from fairlead.component.values import Values, Variant, input_given, variant_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.braces import in_braces
 from fairlead.netlist.limits import MOST_FAULTS
@@ -114,6 +114,7 @@ class Assembly:
     entries: dict[str, Values] = field(default_factory=dict)  # of the components of the netlist
     expansions: dict[str, Expansion] = field(default_factory=dict)  # of composites, however deep
     handed_on: list[HandedOn] = field(default_factory=list)  # where laying passed on parts as they are
+    open_inputs: dict[PortRef, float] = field(default_factory=dict)  # what composites give to inputs left open
     excused: set[PortRef] = field(
         default_factory=set
     )  # ports joined to what could not be read: not open, if unconnected
@@ -248,6 +249,10 @@ def _place(assembly: Assembly, path: str, values: Values, where: Location) -> No
         assembly.joins.append(Join(refs, where))
     for outer, inner in {**expansion.ports, **expansion.outputs}.items():
         assembly.aliases[f"{path}.{outer}"] = _inner(assembly, f"{path}.{inner}")
+    for name, declared in values.type.declaration.inputs.items():  # the outermost composite has the last word
+        given = input_given(values, declared.default)
+        if given is not None and f"{path}.{name}" in assembly.aliases:
+            assembly.open_inputs[assembly.aliases[f"{path}.{name}"]] = given
     if expansion.line is not None:
         assembly.lines[path] = Line(path, values, expansion.line, where)
 

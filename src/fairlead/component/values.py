@@ -17,7 +17,8 @@ from fairlead.component.replies import AnswerError, asked, helper, is_bundled, p
 from fairlead.component.wave import Wave, polynomial, steady
 from fairlead.errors import Fault
 
-__all__ = ["Group", "Values", "Variant", "Wave", "number_given", "parameter", "polynomial", "steady", "variant_of"]
+__all__ = ["Group", "Values", "Variant", "Wave", "input_given", "number_given", "parameter", "polynomial", "steady",
+           "variant_of"]  # fmt: skip
 
 
 class Values:
@@ -72,6 +73,13 @@ def _derived(values: Values, kind: type[Declared], name: str) -> Any:
 def number_given(values: Values, said: str | float) -> float:
     """A number that a declaration gives itself or by the name of a parameter."""
     return float(getattr(values, said) if isinstance(said, str) else said)
+
+
+def input_given(values: Values, default: str | float | None) -> float | None:
+    """What an input is that nothing is joined to; None where it must be joined."""
+    if default is None or (isinstance(default, str) and getattr(values, default) is None):
+        return None
+    return number_given(values, default)
 
 
 def parameter(values: Values, key: str) -> float:

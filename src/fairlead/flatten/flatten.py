@@ -10,6 +10,7 @@ import re
 from fairlead.component.base import Family
 from fairlead.component.friction_block import unheard
 from fairlead.component.instantiate import Assembly, PortRef
+from fairlead.component.values import input_given
 from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel, Group
@@ -98,11 +99,11 @@ def _missing_inputs(flat: FlatModel) -> list[Fault]:
     faults = []
     for instance in flat.instances:
         for name, declared in instance.type.declaration.inputs.items():
-            ref, default = PortRef(instance.path, name), declared.default
-            if ref in flat.sources or ref in flat.assembly.excused:
+            ref = PortRef(instance.path, name)
+            if ref in flat.sources or ref in flat.assembly.excused or ref in flat.assembly.open_inputs:
                 continue
-            if default is None or (isinstance(default, str) and getattr(instance.values, default) is None):
-                give = f", or give {default}" if isinstance(default, str) else ""
+            if input_given(instance.values, declared.default) is None:
+                give = f", or give {declared.default}" if isinstance(declared.default, str) else ""
                 what = f"{flat.assembly.named(ref)}: nothing is connected to this input [{declared.unit}]."
                 faults.append(Fault(instance.where, what, f"Connect an output to it{give}."))
     return faults

@@ -25,7 +25,7 @@ from fairlead.component.class_checks import DeclarationError
 from fairlead.component.given import Waveform
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.terms import terms_of
-from fairlead.component.values import Wave, steady
+from fairlead.component.values import Wave, input_given, steady
 from fairlead.flatten.flat_model import FlatModel
 
 MOST_LINKS = 100  # of a chain of signals; a longer one goes in a circle
@@ -55,9 +55,9 @@ def trace(flat: FlatModel, target: PortRef, links: int = 0) -> Traced | None:
     if instance is None or links > MOST_LINKS:
         return None
     if source is None:
-        default = instance.type.declaration.inputs[target.port].default
-        number = getattr(instance.values, default) if isinstance(default, str) else default
-        return None if number is None else Traced(str(target), wave=steady(float(number)))
+        own = input_given(instance.values, instance.type.declaration.inputs[target.port].default)
+        number = flat.assembly.open_inputs.get(target, own)
+        return None if number is None else Traced(str(target), wave=steady(number))
     says = instance.type.answers
     if says.keeps:
         return Traced(instance.path, kept=float(getattr(instance.values, says.keeps)))

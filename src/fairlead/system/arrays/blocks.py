@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import INPUT, OWN, RATE, TIME, key, rate_of
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
-from fairlead.component.values import number_given, parameter, polynomial
+from fairlead.component.values import input_given, parameter, polynomial
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.kernel import Kernel
 from fairlead.kernels.structure import Structure
@@ -143,8 +143,9 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
     source = flat.sources.get(PortRef(instance.path, name))
     if source is not None:
         return numbering.n + numbering.signals[source], 1.0, 0.0
-    default = instance.type.declaration.inputs[name].default
-    return numbering.zero, 0.0, number_given(instance.values, default if default is not None else 0.0)
+    outer = flat.assembly.open_inputs.get(PortRef(instance.path, name))
+    own = input_given(instance.values, instance.type.declaration.inputs[name].default)
+    return numbering.zero, 0.0, outer if outer is not None else own if own is not None else 0.0
 
 
 def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:

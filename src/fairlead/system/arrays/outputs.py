@@ -46,7 +46,7 @@ def _of_block(block: Block, share: Share) -> list[OutputSignal]:
     return [
         OutputSignal(
             f"{instance.path}.{name}", has.outputs[name].unit, has.outputs[name].doc,
-            share.outputs + i * len(s.all_outputs) + k, has.outputs[name].role,
+            share.outputs + i * len(s.all_outputs) + k, has.outputs[name].role, has.outputs[name].rounded_by,
         )
         for i, instance in enumerate(block.instances)
         for k, name in enumerate(s.outputs)

@@ -27,11 +27,12 @@ class OutputSignal:
     doc: str
     at: int  # position among all outputs, or -1 - position in z
     role: str = ""  # what it means to the framework, as its Output declares
+    rounded_by: str = ""  # likewise, the parameter over which its corner at zero is rounded off
 
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """What was chosen by name; and all that is recorded: that, then the ledger, creeps, strains and integrals."""
+    """What was chosen by name; and all that is recorded: that, then the ledger and what every run watches."""
 
     chosen: list[OutputSignal]
     recorded: list[OutputSignal]
@@ -57,7 +58,7 @@ def choose(
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]
-    hidden = [s for s in signals if (s.role in WATCHED or s.at < 0) and s.name not in names]
+    hidden = [s for s in signals if (s.role in WATCHED or s.rounded_by or s.at < 0) and s.name not in names]
     return recording(chosen, chosen + hidden, blocks, counts)
 
 

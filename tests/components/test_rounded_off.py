@@ -1,0 +1,81 @@
+"""Parts whose corner at no load is rounded off: a scene made smaller comes out alike, or the run tells so."""
+
+from __future__ import annotations
+
+import re
+import warnings
+
+import pytest
+
+SCREW = """
+    parameters: {{s: {s}}}
+    components:
+      motor: {{type: TorqueSource, torque: "{{2*s}}"}}
+      rotor: {{type: Inertia, moment: "{{1e-3*s}}"}}
+      part: {{type: LeadScrew, radius: 10 mm, lead: 5 mm, curve: 0.1{more}}}
+      load: {{type: Mass, mass: "{{100*s}}"}}
+      weight: {{type: ForceSource, force: "{{-981*s}}"}}
+    connections:
+      - [motor.shaft, rotor.shaft, part.screw]
+      - [part.nut, load.flange, weight.flange]
+    run: {{stop: 0.3 s, accuracy: 1e-5}}
+"""
+HOIST = """
+    parameters: {{s: {s}}}
+    components:
+      motor: {{type: TorqueSource, torque: "{{8*s}}"}}
+      rotor: {{type: Inertia, moment: "{{0.05*s}}"}}
+      part: {{{part}{more}}}
+      drum: {{type: Rack, radius: 0.1 m}}
+      load: {{type: Mass, mass: "{{80*s}}"}}
+      weight: {{type: ForceSource, force: "{{-784.8*s}}"}}
+    connections:
+      - [motor.shaft, rotor.shaft, part.a]
+      - [part.b, drum.pinion]
+      - [drum.rack, load.flange, weight.flange]
+    run: {{stop: 0.3 s, accuracy: 1e-5}}
+"""
+LOSSY = 'type: LossyGear, ratio: "{{1/30}}", efficiency: 0.45'
+GEARBOX = 'type: Gearbox, ratio: "{{1/30}}", efficiency: 0.6'
+TEETH = """
+    parameters: {{s: {s}}}
+    components:
+      motor: {{type: TorqueSource, torque: "{{8*s}}"}}
+      stub: {{type: Inertia, moment: "{{0.01*s}}"}}
+      sensor: {{type: TorqueSensor}}
+      rotor: {{type: Inertia, moment: "{{0.05*s}}"}}
+      part: {{type: LoadedFriction, dry: 0, by_motor: 0.3{more}}}
+      frame: {{type: Housing}}
+      drum: {{type: Rack, radius: 0.1 m}}
+      load: {{type: Mass, mass: "{{80*s}}"}}
+    connections:
+      - [motor.shaft, stub.shaft, sensor.a]
+      - [sensor.b, rotor.shaft, part.b, drum.pinion]
+      - [sensor.torque, part.motor]
+      - [drum.rack, load.flange]
+      - [frame.shaft, part.a]
+    run: {{stop: 0.3 s, accuracy: 1e-5}}
+"""
+SCENES = {"LeadScrew": SCREW, "LossyGear": HOIST.replace("{part}", LOSSY), "Gearbox": HOIST.replace("{part}", GEARBOX),
+          "LoadedFriction": TEETH}  # fmt: skip
+
+
+def travel(simulate, name: str, s: float, more: str = "") -> tuple[float, list[str]]:
+    """Where the load is at the end [m], and what the run said of rounding."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = simulate(SCENES[name].format(s=s, more=more))
+    return float(result["load.x"][-1]), [said for said in result.remarks if "rounded off" in said]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_small_load_is_told_and_what_is_told_makes_it_come_out_as_the_large_one(simulate, name) -> None:
+    """All forces and masses times s leave the motion as it is."""
+    right, said = travel(simulate, name, 1.0)
+    assert not said
+    wrong, (said,) = travel(simulate, name, 3e-6)
+    assert abs(wrong - right) > 0.02 * abs(right)
+    given = re.search(r"Give part\.(round_off): (\S+) (?:N|N\*m)\.$", said)
+    small, said = travel(simulate, name, 3e-6, f", {given[1]}: {given[2]}")
+    assert not said
+    assert small == pytest.approx(right, rel=1e-2)
