@@ -233,12 +233,54 @@ LEFT_TO_TEST_ALL = (
     "tests/unit/test_describe.py::test_a_held_motion_*",
     "tests/unit/test_friction_verbs.py::test_every_command_of_the_page_*",
     "tests/studies/test_fits.py::test_a_robust_loss_*",
+    # closed forms of whole routes, and what compiles much for one assertion: devices, the single bend and one export
+    # show the same in `make test`
+    "tests/models/test_route_terms.py::*",
+    "tests/unit/test_describe.py::test_every_type_has_a_page_*[Contact]",
+    "tests/components/test_contract.py::test_registered_component_keeps[ThrottledCylinder[oil] *",
+    "tests/components/test_contract.py::test_registered_component_keeps[MaxwellSlip[stribeck] *",
+    "tests/components/test_contract.py::test_registered_component_keeps[WebAccumulator derivatives]",
+    "tests/components/test_contract.py::test_registered_component_keeps[LoopedCore derivatives]",
+    "tests/components/test_contract.py::test_registered_component_keeps[LoopedHose derivatives]",
+    "tests/components/test_contract.py::test_registered_component_keeps[MovingTail derivatives]",
+    "tests/components/test_contract.py::test_registered_component_keeps[ThrottledMotor derivatives]",
+    "tests/components/test_contract_exceptions.py::test_an_exception_*[maxwell_slip *",
+    "tests/components/test_contract_exceptions.py::test_an_exception_*[elastoplastic *",
+    "tests/components/test_contract_exceptions.py::test_an_exception_*[binding dissipates break_backward]",
+    "tests/components/test_one_successor.py::*[maxwell_slip]",
+    "tests/components/test_route_devices.py::test_energy_closes_while_line_*",
+    "tests/components/test_friction_treatments.py::test_a_treatment_that_holds_nothing_*",
+    "tests/fmu/test_tunable.py::test_a_parameter_that_follows_no_law_*[line.element]",
+    "tests/fmu/test_tunable.py::test_a_speed_at_the_start_*",
+    "tests/fmu/test_library.py::test_a_compiler_that_makes_nothing_*",
+    "tests/fmu/test_refusals.py::test_another_start_than_*",
+    "tests/fmu/test_what_is_asked_wrongly.py::test_an_example_that_was_edited_*",
+    "tests/models/test_rigid_sea.py::test_in_steady_tow_*",
+    "tests/models/test_rigid_sea.py::test_line_that_goes_out_and_comes_back_*",
+    "tests/models/test_rigid_sea.py::test_a_margin_longer_*",
+    "tests/models/test_rigid_sea.py::test_strong_damping_*",
+    "tests/models/test_rigid_sea.py::test_effects_tell_*",
+    "tests/models/test_held_networks.py::test_what_settles_is_friction[300-*",
+    "tests/models/test_held_networks.py::test_what_settles_is_friction[20-40-*",
+    "tests/models/test_held_networks.py::test_a_hundred_blocks_*[3e-2-*",
+    "tests/models/test_held_networks.py::test_a_hundred_blocks_*[1e-2-rodas5p]",
+    "tests/models/test_held_networks.py::test_two_settlements_*[rodas]",
+    "tests/models/test_contact_pairs.py::test_*_in_machine_code[Binding aggregate]",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[sandwich-*",
+    "tests/models/test_names_say_nothing.py::test_a_contact_says_how_*",
+    "tests/models/test_effects_advice.py::test_a_switch_that_changes_no_*",
+    "tests/models/test_idle_contacts.py::test_blocks_that_stand_still_*[rodas]",
+    "tests/models/test_jump_inside.py::test_steps_with_many_jumps_*equal]",
+    "tests/models/test_constant_inboard_tension.py::*",
+    "tests/integrate/test_linear.py::test_one_plan_serves_*[2-dense]",
+    "tests/integrate/test_room_crossing.py::test_the_root_of_a_cubic_guard_*",
+    "tests/integrate/test_room_stepping.py::test_rows_that_are_exchanged_*[0]",
 )
 
 
-_PATTERNS = [re.compile(".*".join(map(re.escape, one.split("*"))) + "$") for one in LEFT_TO_TEST_ALL]
+_PATTERN = re.compile("|".join(".*".join(map(re.escape, one.split("*"))) for one in LEFT_TO_TEST_ALL))
 
 
 def is_left(name: str) -> bool:
     """True for a test that is on the list, by the name that pytest prints."""
-    return any(pattern.match(name) for pattern in _PATTERNS)
+    return _PATTERN.fullmatch(name) is not None
