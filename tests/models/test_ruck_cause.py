@@ -82,6 +82,51 @@ def test_a_cause_that_the_numbers_do_not_bear_is_not_told(rucking):
     assert why(found | {"cause": None}) == []
 
 
+@pytest.mark.parametrize(
+    ("inboard", "outboard"),
+    [
+        ([369.1108, 1802.3843], [-99.7667, 948.9211]),
+        ([3691.46, 18023.46], [-997.46, 9489.46]),
+        ([0.46149, 1.80149], [-200.09949, 0.94949]),
+        ([300.4, 700.4], [-99.6, 800.4]),  # the core loses tension as well
+    ],
+)
+def test_figures_of_the_cause_agree_when_a_reader_adds_them(rucking, inboard, outboard):
+    text = dict(why(cause_of(rucking, inboard=inboard, outboard=outboard)))["Why"]
+    number = r"(-?[0-9]+(?:\.[0-9]+)?)"
+    inner, outer = map(float, re.search(rf"tension is {number} N inboard of the bend and {number} N", text).groups())
+    (acts,) = map(float, re.search(rf"These {number} N act", text).groups())
+    left = float((re.search(rf"left with {number} N", text) or re.search(rf"as well: {number} N in all", text))[1])
+    assert inner - outer == pytest.approx(left, abs=1e-9)
+    if passed := re.search(rf"pass {number} N of them", text):
+        assert acts - float(passed[1]) == pytest.approx(left, abs=1e-9)
+    else:
+        assert acts + float(re.search(rf"falls by {number} N", text)[1]) == pytest.approx(left, abs=1e-9)
+    if grows := re.search(rf"grows from {number} to {number} N", text):
+        assert float(grows[2]) - float(grows[1]) == pytest.approx(acts, abs=1e-9)
+
+
+def test_the_verdict_names_the_greatest_compression_and_the_longest_time_of_rucking(rucking):
+    """From the recorded zones of the elements: rows in which none rucks lie outside of that time."""
+    told = dict({one.about: one for one in verdict(rucking)}["The hose rucks"].points)
+    begin, end = re.search(r"From ([0-9.]+) s to (the end of the run|[0-9.]+)", told["When"]).groups()
+    end = rucking.run["end_time"] if end.startswith("the") else float(end)
+    counts = {}
+    for event in rucking.events:
+        if event.component.startswith("line.hose["):
+            counts.setdefault(event.component, []).append((event.t, event.zone_to in ("beyond", "rucking")))
+    spans = [(t, after[k + 1][0] if k + 1 < len(after) else rucking.run["end_time"])
+             for after in counts.values() for k, (t, on) in enumerate(after) if on]  # fmt: skip
+    inside = np.linspace(float(begin), end, 200)  # told to four digits
+    assert all(any(a - 1e-3 <= t <= b + 1e-3 for a, b in spans) for t in inside)
+    tensions = rucking.elements("line.hose[*].tension")
+    most, t = re.search(r"greatest compression is ([0-9.]+) N at t = ([0-9.]+) s", told["How much"]).groups()
+    assert float(most) >= -tensions.values.min() - 0.1  # rounded; rows may miss it
+    assert float(most) == pytest.approx(-tensions.values.min(), rel=2e-2)
+    row = int(tensions.values.min(axis=1).argmin())
+    assert float(t) == pytest.approx(float(tensions["time"][row]), abs=0.011)
+
+
 def test_a_run_without_coefficients_has_no_cause_but_a_verdict(rucking):
     """A run of an earlier version, whose record of its route lacks them."""
     old = fairlead.Result.open(rucking.path)

@@ -18,7 +18,7 @@ from fairlead.cli import app
 from fairlead.report import page
 from fairlead.report.page import packing
 from fairlead.report.page.signals import first_panels, signal_data
-from fairlead.report.page.slow import slowest
+from fairlead.report.page.slow import slow_data, slowest
 from fairlead.report.page.verdict import verdict
 from fairlead.report.page.write import library
 from fairlead.report.page.zones import zone_data
@@ -219,6 +219,15 @@ def test_the_kind_that_made_a_run_slow_comes_before_the_contact_and_both_have_th
     assert said.startswith("By kind of part, line.hose[*] changed zone most: 59 % of 102 changes, then pad[*] with 41")
     assert "Of single contacts it is pad[19]: 4 times, 3.9 %; no contact stands out." in said
     assert "A zone change is a part that begins or ceases to stick, slide or ruck." in said
+
+
+def test_every_part_that_the_verdict_names_stands_in_the_table(tmp_path: Path) -> None:
+    hoses = [(f"line.hose[{k}]", "sound", "beyond", 6) for k in range(30)]
+    ran = changed(tmp_path, *hoses, ("pad[7]", "held", "forward", 4))
+    said, rows = slowest(ran), {one["name"]: one["count"] for one in slow_data(ran)["parts"]}
+    assert "Of single parts it is line.hose[0]: 6 times. Of single contacts it is pad[7]: 4 times" in said
+    assert rows["line.hose[0]"] == 6
+    assert rows["pad[7]"] == 4
 
 
 def test_one_contact_that_made_a_run_slow_is_named_once(tmp_path: Path) -> None:

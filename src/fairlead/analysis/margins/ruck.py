@@ -19,7 +19,8 @@ def verdicts(result: Result) -> list[dict[str, Any]]:
 
     `cause` is what the bend at its place does there (`ruck_cause.py`), None where that cannot be told.
     `margin` is what it bears over the most it had; None where tensions were not recorded, infinity (null in run.json)
-    where it was never compressed. Raises DamagedResultsError.
+    where it was never compressed. Of a line that rucks, `most` has `t`, `element` and place of the greatest
+    compression, where tensions were recorded. Raises DamagedResultsError.
     """
     found = routes(result.named(RUN_FILE), result.run)
     return [_verdict(result, record) for record in found if record["ruck_force"] is not None]
@@ -37,6 +38,8 @@ def _verdict(result: Result, record: dict[str, Any]) -> dict[str, Any]:
     first = next((one for one in result.events
                   if one.zone_to in BEYOND and one.component.startswith(f"{line}.{layer}[")), None)  # fmt: skip
     if first is not None:
+        if lowest is not None:
+            made["most"] = {"t": lowest[1], "element": lowest[2], **_place(result, record, lowest[2], lowest[1])}
         made |= {"rucks": True, "t": first.t, "element": int(first.component.rpartition("[")[2].rstrip("]"))}
     if made["element"] is not None:
         made |= _place(result, record, made["element"], made["t"])
@@ -79,8 +82,8 @@ def sentence(found: dict[str, Any]) -> str:
     if not found["compressed"]:
         return f"{found['line']} does not ruck: it was never compressed"
     when = f"at t = {found['t']:.4g} s, {_where(found)}"
-    most = f"{found['compressed']:.4g} N at most, and it bears {bears}"
-    return f"{found['line']} does not ruck: margin {found['margin']:.2g} ({most}), {when}"
+    most = f"it is compressed by at most {found['compressed']:.4g} N, and an element rucks beyond {bears}"
+    return f"{found['line']} does not ruck: margin {found['margin']:.2g}; {most}; {when}"
 
 
 def _where(found: dict[str, Any]) -> str:

@@ -108,21 +108,23 @@ def why(found: Mapping[str, Any]) -> list[tuple[str, str]]:
         return []
     if not found["rucks"]:
         return _holds(one)
+    one = _rounded(one)
     hose = (one["inboard"][0], one["outboard"][0])
     if max(hose) - min(hose) < LEAST * found["ruck_force"]:
         return [("Why", f"Not told: on both sides of {one['station']} the hose has nearly the same tension "
-                        f"({_n(hose[0])} and {_n(hose[1])} N), so friction there is not the cause.")]  # fmt: skip
-    first = f"Element {found['element']} is the first to pass {_n(-found['ruck_force'])} N."
+                        f"({_f(hose[0])} and {_f(hose[1])} N), so friction there is not the cause.")]  # fmt: skip
+    first = (f"On {one['station']} the compression differs from element to element; element {found['element']} is the "
+             f"first to pass {_n(found['ruck_force'])} N.")  # fmt: skip
     return [("Why", f"{_friction(one, found['t'])} {_shared(one)} {first}"), *_capstan(one), *_way_out(one)]
 
 
 def _friction(one: Mapping[str, Any], t: float) -> str:
     """What the device takes at t."""
     low, high = sorted((sum(one["inboard"]), sum(one["outboard"])))
-    grows = f"from {_n(low)} to {_n(high)} N" if low > 0 else f"by {_n(high - low)} N"
+    grows = f"from {_f(low)} to {_f(high)} N" if low > 0 else f"by {_f(high - low)} N"
     return (
         f"Friction on {one['station']}. At t = {t:.4g} s the line slides over it with mu = "
-        f"{_n(one['friction'][1])}, and its tension grows {grows} there. These {_n(high - low)} N act on the hose, "
+        f"{_n(one['friction'][1])}, and its tension grows {grows} there. These {_f(high - low)} N act on the hose, "
         f"which touches {one['station']}."
     )
 
@@ -136,11 +138,20 @@ def _shared(one: Mapping[str, Any]) -> str:
     if critical is not None and one["friction"][1] > critical:
         limit = (f" They cannot pass on all, for only the core's tension presses them (mu = {_n(inner[0])} while they "
                  f"hold, {_n(inner[1])} while they slide).")  # fmt: skip
+    passed = f"The bulkheads pass {_f(core)} N of them on to the core.{limit} The hose is left with {_f(hose)} N"
+    if core < 0:
+        passed = f"The core's tension falls by {_f(-core)} N there, which the hose bears as well: {_f(hose)} N in all"
     return (
-        f"The bulkheads pass {_n(max(core, 0.0))} N of them on to the core.{limit} The hose is left with {_n(hose)} N: "
-        f"its tension is {_n(one['inboard'][0])} N inboard of {one['station']} and {_n(one['outboard'][0])} N outboard "
-        "of it. Below zero it is pushed together."
+        f"{passed}: its tension is {_f(one['inboard'][0])} N inboard of {one['station']} and {_f(one['outboard'][0])} "
+        "N outboard of it. Below zero it is pushed together."
     )
+
+
+def _rounded(one: Mapping[str, Any]) -> dict[str, Any]:
+    """The cause with all tensions rounded to one digit, so that sums and differences of what is told agree."""
+    most = max(abs(sum(one[side])) for side in ("inboard", "outboard"))
+    digit = 3 - math.floor(math.log10(most)) if most > 0 else 0
+    return {**one, **{side: [round(each, digit) for each in one[side]] for side in ("inboard", "outboard")}}
 
 
 def _capstan(one: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -170,6 +181,11 @@ def _holds(one: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [("Why", f"On {one['station']} mu = {_n(one['friction'][1])} is below {_n(critical)}, up to which "
                     "the bulkheads hold the hose on the core. So both move as one, and the core bears the friction.",
              )]  # fmt: skip
+
+
+def _f(value: float) -> str:
+    """A sum or difference of rounded tensions: all its digits, but not what binary fractions add."""
+    return np.format_float_positional(float(f"{value:.10g}"), trim="-")
 
 
 def _n(value: float) -> str:

@@ -33,7 +33,7 @@ def slow_data(result: Result) -> dict[str, Any]:
     counts, kinds, zones = _counted(result)
     total = counts.total()
     return {
-        "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(counts, total),
+        "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(_shown(counts, zones), total),
         "kinds": _rows(kinds, total, _roles(result)),
         "profile": str(run.get("profile") or ""), "total": total,
         "times": [*((word, run[key]) for key, word in TIMES.items() if run.get(key) is not None), *_rest(run)],
@@ -54,6 +54,15 @@ def _rows(counts: Counter[str], total: int, roles: Mapping[str, str] = MappingPr
         {"name": f"{name}{roles.get(name, '')}", "count": n, "share": n / total, "bar": n / most[0][1]}
         for name, n in most
     ]
+
+
+def _shown(counts: Counter[str], zones: Mapping[str, set[str]]) -> Counter[str]:
+    """The busiest parts, and the busiest contact in place of the last of them where it is none of them."""
+    most, who = dict(counts.most_common(MOST_ROWS)), _busiest_contact(counts, zones)
+    if who is not None and who not in most:
+        most.popitem()
+        most[who] = counts[who]
+    return Counter(most)
 
 
 def slowest(result: Result) -> str:
@@ -92,7 +101,9 @@ def _single(counts: Counter[str], zones: Mapping[str, set[str]], roles: Mapping[
     total, own = counts.total(), family(who)[0]
     few = "; no contact stands out" if counts[who] < STANDS_OUT * total else ""
     role = "" if own == said else roles.get(own, "")
-    return f" Of single contacts it is {who}{role}: {counts[who]} times, {_percent(counts[who], total)}{few}."
+    part = counts.most_common(1)[0][0]
+    first = "" if part == who else f" Of single parts it is {part}: {_times(counts[part])}."
+    return f"{first} Of single contacts it is {who}{role}: {counts[who]} times, {_percent(counts[who], total)}{few}."
 
 
 def _busiest_contact(counts: Counter[str], zones: Mapping[str, set[str]]) -> str | None:
@@ -133,7 +144,8 @@ def _roles(result: Result) -> dict[str, str]:
         if len(layers) > 1:
             found[f"{line}.inner[*]"] = f" ({layers[1]} on {layers[0]})"
         found[f"{line}.outer[*]"] = " (line on its devices)"
-        found |= {f"{line}.{which}_load[*]": " (a node passes on along a bend)" for which in ("inner", "outer")}
+        bend = " (a node comes to the next piece of a bend)"
+        found |= {f"{line}.{which}_load[*]": bend for which in ("inner", "outer")}
         found |= {f"{line}.{layer}[*]": f" (elements of the {layer})" for layer in layers}
     return found
 

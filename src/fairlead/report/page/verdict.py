@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -83,14 +84,11 @@ def _ruck(result: Result) -> Iterator[Sentence]:
 
 def _points(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
     """When, where, how much and why a line rucks, a sentence or two each."""
-    route = f", {_number(found['place'])} m on the route" if found.get("place") is not None else ""
-    station = f" on {found['station']}" if found.get("station") else ""
-    where = f"First in element {found['element']}{station}"
-    where += f" ({_number(found['along'])} m along the line{route})." if found.get("along") is not None else "."
     return [
-        ("When", f"First at t = {_number(found['t'])} s.{_last(result, found)}"), ("Where", where),
-        ("How much", _extent(result, found)),
-    ]  # fmt: skip
+        ("When", f"First at t = {_number(found['t'])} s.{_lasting(result, found)}"),
+        ("Where", f"First in {_element(found)}."),
+        ("How much", f"{_extent(result, found)}{_most(result, found)}".strip()),
+    ]
 
 
 def _mine(result: Result, found: dict[str, Any]) -> list[Event]:
@@ -98,20 +96,73 @@ def _mine(result: Result, found: dict[str, Any]) -> list[Event]:
     return [one for one in result.events if one.component.startswith(f"{found['line']}.") and one.zone_to in BEYOND]
 
 
-def _last(result: Result, found: dict[str, Any]) -> str:
-    mine = _mine(result, found)
-    return f" The last ruck begins at t = {_number(mine[-1].t)} s." if len(mine) > 1 else ""
+def _rucking(result: Result, found: dict[str, Any]) -> list[tuple[float, int]]:
+    """After each change, when it was and how many elements ruck."""
+    who, now, told = {one.component for one in _mine(result, found)}, set[str](), list[tuple[float, int]]()
+    for one in result.events:
+        if one.component in who:
+            now = now | {one.component} if one.zone_to in BEYOND else now - {one.component}
+            told.append((one.t, len(now)))
+    return told
+
+
+def _lasting(result: Result, found: dict[str, Any]) -> str:
+    """The longest stretch in which some element rucks all the time; empty where nothing is known of it."""
+    changes, end = _rucking(result, found), result.run.get("end_time")
+    stretches, begin = list[tuple[float, float]](), None
+    for t, count in dict(changes).items():  # of several at one instant the last counts
+        if count and begin is None:
+            begin = t
+        elif not count and begin is not None:
+            stretches.append((begin, t))
+            begin = None
+    if begin is not None and end is not None:
+        stretches.append((begin, end))
+    if not stretches:
+        return ""
+    longest = max(stretches, key=lambda one: one[1] - one[0])
+    until = "the end of the run" if longest[1] == end else f"{_number(longest[1])} s"
+    one_of = f", the longest of {len(stretches)} such times" if len(stretches) > 1 else ""
+    return f" From {_number(longest[0])} s to {until} some element rucks without a pause{one_of}."
+
+
+def _most(result: Result, found: dict[str, Any]) -> str:
+    """When and where the greatest compression was, and what statics said of it."""
+    most = found.get("most")
+    if most is None or not found["compressed"]:
+        return ""
+    return (f" The greatest compression is {_number(found['compressed'])} N at t = {_number(most['t'])} s, in "
+            f"{_element(most)}.{_estimate(result, found)}")  # fmt: skip
+
+
+def _estimate(result: Result, found: dict[str, Any]) -> str:
+    """What statics says of the greatest compression, and whether that is on the safe side."""
+    one = (result.run.get("against_statics") or {}).get("lowest")
+    if not one or not math.isclose(-one["run"], found["compressed"], rel_tol=1e-6):
+        return ""
+    says = f"{_number(-one['statics'])} N" if one["statics"] < 0 else "no compression at all"
+    if one["too_high"] <= 0:
+        return f" Statics estimates {says}."
+    return f" Statics estimates only {says}, which is on the unsafe side: take the margin from the run."
+
+
+def _element(found: dict[str, Any]) -> str:
+    """An element and where it is."""
+    route = f", {_number(found['place'])} m on the route" if found.get("place") is not None else ""
+    station = f" on {found['station']}" if found.get("station") else ""
+    along = f" ({_number(found['along'])} m along the line{route})" if found.get("along") is not None else ""
+    return f"element {found['element']}{station}{along}"
 
 
 def _extent(result: Result, found: dict[str, Any]) -> str:
     """How much of the line rucks."""
     who = {one.component for one in _mine(result, found)}
-    most, now = 0, set[str]()
-    for one in result.events:
-        if one.component in who:
-            now = now | {one.component} if one.zone_to in BEYOND else now - {one.component}
-            most = max(most, len(now))
-    return f"{len(who)} elements ruck at some time, at most {most} at once." if who else ""
+    if len(who) == 1:
+        return "It is the only element that rucks."
+    if not who:
+        return ""
+    most = max(count for _, count in _rucking(result, found))
+    return f"{len(who)} elements ruck at some time, at most {most} at once."
 
 
 def _slow(result: Result) -> Iterator[Sentence]:

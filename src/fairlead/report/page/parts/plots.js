@@ -263,7 +263,7 @@ function devices(p, line, bottom, top, from, to, colour) {
 /* A map: time to the right, place upward, value as colour. */
 async function map(run, line, name, element) {
   const family = run.family.get(name), values = await run.values(name), box = document.createElement("div"); box.className = "panel";
-  const title = document.createElement("b"); title.textContent = `${name} [${family.unit}], from ${shown(family.min)} to ${shown(family.max)} over the run, between the rows as well`; const at = document.createElement("div"); box.append(title, at); element.append(box);
+  const title = document.createElement("b"); title.textContent = `${name} [${family.unit}], from ${shown(family.min)} to ${shown(family.max)} over the whole run, also between recorded rows`; const at = document.createElement("div"); box.append(title, at); element.append(box);
   const xs = line.positions ? (await run.values(line.positions)).first : null, elements = family.elements, between = xs && values.first.length === xs.length - 1 && elements[0] === 0;
   const W = Math.min(700, Math.max(run.rows, 2)), H = 200, place = (k, i) => !xs ? elements[k] : between ? (xs[elements[k]][i] + xs[elements[k] + 1][i]) / 2 : xs[elements[k]] ? xs[elements[k]][i] : NaN;
   const finite = line.stations.flatMap(s => [s.begin, s.end]).filter(v => v !== null), pad = Math.max(1, .5 * (Math.max(...finite) - Math.min(...finite)));

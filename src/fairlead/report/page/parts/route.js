@@ -241,7 +241,7 @@ class RouteView {
     if (this.values) {
       const row = this.run.row(t); let k = -1, least = Infinity, most = -Infinity, m = -1;
       this.values.forEach((v, i) => { if (v[row] < least) { least = v[row]; k = i; } if (v[row] > most) { most = v[row]; m = i; } });
-      if (k >= 0) told.push(`in the row recorded at ${shown(this.run.times[row], "s")} ${this.by.replace("[*]", "")} goes from ${shown(least, this.family.unit)} (element ${this.family.elements[k]}) to ${shown(most, this.family.unit)} (element ${this.family.elements[m]})`);
+      if (k >= 0) told.push(`sticking, sliding and rucks are those of this instant, but the colours are of the row recorded at ${shown(this.run.times[row], "s")}, where ${this.by.replace("[*]", "")} goes from ${shown(least, this.family.unit)} (element ${this.family.elements[k]}) to ${shown(most, this.family.unit)} (element ${this.family.elements[m]})`);
     }
     return told.join("; ");
   }
@@ -252,5 +252,5 @@ class RouteView {
     if (this.outer.length) told.push(["transparent", "on the side of the device: contacts with it" + (this.inner.length ? "; on the other side: core in hose" : "")]);
     return told;
   }
-  scale() { return this.values ? `Colour: ${this.by}, ${shown(this.low, this.family.unit)} (dark) to ${shown(this.high, this.family.unit)} (bright), which hold 99 % of all values; between the rows as well it went from ${shown(this.family.min, this.family.unit)} to ${shown(this.family.max, this.family.unit)}. The route is to scale; curves are laid into one plane.` : "The route is to scale; curves are laid into one plane."; }
+  scale() { return this.values ? `Colour: ${this.by}, ${shown(this.low, this.family.unit)} (dark) to ${shown(this.high, this.family.unit)} (bright), which hold 99 % of all values; over the whole run, also between recorded rows, it went from ${shown(this.family.min, this.family.unit)} to ${shown(this.family.max, this.family.unit)}. The route is to scale; curves are laid into one plane.` : "The route is to scale; curves are laid into one plane."; }
 }
