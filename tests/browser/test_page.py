@@ -131,6 +131,41 @@ def test_a_link_lands_on_its_section_the_first_time(browser, two_bends, section)
     until(browser, lambda: abs(browser.execute_script(top)) < 40, times=8)  # it comes there, and stays
 
 
+RESIZED = """
+const t = fairlead.clock.t, off = [];
+for (const bar of document.querySelectorAll(".cursor")) {
+  const box = bar.closest(".layer").parentElement, canvas = box.querySelector("*").getBoundingClientRect();
+  const at = bar.getBoundingClientRect().left;
+  if (getComputedStyle(bar).display === "none" || !(at > canvas.left && at < canvas.right)) off.push(at);
+}
+return [document.querySelectorAll(".cursor").length, off.length, document.documentElement.scrollWidth];
+"""
+
+
+def test_the_line_of_time_stays_on_every_plot_when_the_window_becomes_narrow_or_wide(browser, two_bends):
+    show(browser, two_bends, 1440)
+    settled(browser)
+    browser.execute_script("fairlead.clock.set(0.9 * fairlead.clock.end)")
+    for width in (700, 500, 1200):
+        size = {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False}
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        until(browser, lambda width=width: browser.execute_script(RESIZED)[1:] == [0, width], times=3)
+        assert browser.execute_script(RESIZED)[0] > 5
+
+
+def test_no_name_in_a_table_is_broken_on_a_narrow_page(browser, two_bends):
+    show(browser, two_bends, 400)
+    settled(browser)
+    lines = (
+        "return [...document.querySelectorAll('#slow tbody th')].filter(th => !th.textContent.includes(' '))"
+        ".map(th => th.getClientRects()[0].height)"
+    )
+    heights = browser.execute_script(lines)
+    assert len(heights) > 5
+    assert max(heights) < 1.5 * min(heights)
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= 400
+
+
 def test_names_that_are_markup_are_shown_as_text(browser, tmp_path):
     from tests.unit.test_report_page import SIGNALS, Result, RunDirectory
 

@@ -39,7 +39,7 @@ function pictured() {
 
 /* The line that shows the time of the clock over a plot, and clicks that set it. */
 function cursor(box, view) {
-  const bar = document.createElement("div"); bar.className = "cursor"; box.append(bar);
+  const bar = document.createElement("div"), layer = document.createElement("div"); bar.className = "cursor"; layer.className = "layer"; layer.append(bar); box.append(layer);
   const frame = () => view.frame && view.frame.bbox;
   const where = () => { const f = frame(), outer = box.getBoundingClientRect(), inner = view.el.getBoundingClientRect(); return [inner.left - outer.left, inner.top - outer.top, f]; };
   const move = t => {
@@ -56,7 +56,11 @@ function cursor(box, view) {
     const [, , f] = where(), inner = view.el.getBoundingClientRect(), share = (e.clientX - inner.left - f.left) / f.width, high = (e.clientY - inner.top - f.top) / f.height;
     if (share >= 0 && share <= 1 && high >= 0 && high <= 1) { const r = view.frame.x_range; clock.set(r.start + share * (r.end - r.start)); }
   }, true);
-  clock.heard.push(move); span.heard.push(() => move(clock.t)); requestAnimationFrame(() => requestAnimationFrame(() => move(clock.t)));
+  const again = () => move(clock.t), soon = () => requestAnimationFrame(() => requestAnimationFrame(again));
+  clock.heard.push(move); span.heard.push(again); soon();
+  /* Another width of the page: once when the box has it, and again when the plot has laid itself out in it. */
+  new ResizeObserver(soon).observe(box);
+  for (const side of ["inner_width", "inner_height"]) view.model.properties[side].change.connect(soon);
 }
 
 /* The stretch of time that all plots show. Each plot is a document of its own, so each has a range, and they are kept alike. */
