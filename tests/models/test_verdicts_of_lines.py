@@ -55,7 +55,7 @@ def test_a_line_that_does_not_ruck_is_told_its_margin(bundled):
     assert not found["rucks"]
     assert found["margin"] > 40  # it stays below 4 N of compression, docs/validation.md
     assert sentence(found).startswith("line does not ruck: margin ")
-    assert " N, and an element rucks beyond 160 N; at t = " in sentence(found)
+    assert sentence(found).endswith("; an element rucks beyond 160 N")
 
 
 def test_without_recorded_tensions_the_zones_of_the_hose_tell(tmp_path):

@@ -82,8 +82,8 @@ def sentence(found: dict[str, Any]) -> str:
     if not found["compressed"]:
         return f"{found['line']} does not ruck: it was never compressed"
     when = f"at t = {found['t']:.4g} s, {_where(found)}"
-    most = f"it is compressed by at most {found['compressed']:.4g} N, and an element rucks beyond {bears}"
-    return f"{found['line']} does not ruck: margin {found['margin']:.2g}; {most}; {when}"
+    most = f"compressed by at most {found['compressed']:.4g} N, {when}"
+    return f"{found['line']} does not ruck: margin {found['margin']:.2g}; {most}; an element rucks beyond {bears}"
 
 
 def _where(found: dict[str, Any]) -> str:
