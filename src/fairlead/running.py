@@ -14,6 +14,7 @@ from fairlead.analysis.record.creep import WorstCreep
 from fairlead.analysis.record.energy import Ledger, judged, resolved
 from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
+from fairlead.analysis.record.gone import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.released_together import ReleasedTogether
@@ -64,7 +65,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         raise UsageError(f"{fault.what} {fault.way_out}")
     patterns = _patterns(netlist)
     recording = system.recording(patterns)
-    limits = read_limits(netlist.limits, recording.recorded)
+    limits = read_limits(without_gone(system.flat.assembly, netlist.limits), recording.recorded)
     creeping = [signal.name for signal in recording.recorded if signal.role == CREEP]
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system, told=told), "limits": limits.plain()}

@@ -103,6 +103,7 @@ class Assembly:
 
     netlist: Netlist
     scene: Scene
+    types: Mapping[str, type[Declared]] = field(default_factory=dict)
     instances: dict[str, Instance] = field(default_factory=dict)
     joins: list[Join] = field(default_factory=list)
     lines: dict[str, Line] = field(default_factory=dict)
@@ -111,6 +112,7 @@ class Assembly:
     effects: dict[str, dict[str, str]] = field(default_factory=dict)  # component -> its effects, on or off
     broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
     stand_ins: set[str] = field(default_factory=set)  # made with other values, for there are mistakes in their own
+    before_effects: dict[str, None] | None = None  # signals with no effect switched, once it was asked
     entries: dict[str, Values] = field(default_factory=dict)  # of the components of the netlist
     expansions: dict[str, Expansion] = field(default_factory=dict)  # of composites, however deep
     handed_on: list[HandedOn] = field(default_factory=list)  # where laying passed on parts as they are
@@ -167,7 +169,7 @@ def survey(
     Of one that is not `whole`, connections may be missing, so lines and routes that lead nowhere are only echoes.
     """
     scene, faults = sound(netlist, types)
-    assembly = Assembly(netlist, scene)
+    assembly = Assembly(netlist, scene, types)
     for entry in netlist.components.values():
         if len(faults) > MOST_FAULTS:  # nobody mends more in one go
             assembly.broken.add(entry.name)

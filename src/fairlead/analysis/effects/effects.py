@@ -47,6 +47,7 @@ from fairlead.native import spent_compiling
 
 START = 0.1  # of the time that is studied is the start transient, where no other is given
 FEWEST = 20  # common times that a window must have
+HALF = 0.5  # of the time left is the most for the scene as it is, and for its more exact run
 SHORTEST = 0.2  # s; with less time left no run is begun
 SLOWER, WORTH_WAITING = 5.0, 1.0  # times the scene as it is, s; a switch that takes longer is cut off
 KEPT, CLOSING = 0.97, 1.5  # of the budget is for runs; times what reading the scene took is for start and table
@@ -117,7 +118,8 @@ def effects(
     found = Effects(model.netlist.name, runner.span, begin, whole, base, Size.of(model.system))
     judge = _Judge(model, runner, found, units, note)
     try:
-        tight = runner.run({"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}, seconds, allowed=0.0)
+        tight = runner.run({"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}, max(HALF * runner.left, SHORTEST),
+                           allowed=0.0)  # fmt: skip
         if tight.finished:
             found.floors_starting, found.floors = (floors(each) for each in judge.changed(tight))
         for k, switch in enumerate(every):
@@ -237,9 +239,9 @@ class _Runner:
         base = self.kept.get(key, 0.0) or self.run({}, max(share, SHORTEST))
         self.kept.put(key, base)
         start = self.span[0]
-        if base.status == "budget" and base.reached > start:
+        while base.status == "budget" and base.reached > start:  # again where the machine has become slower meanwhile
             self.span = (start, start + float(f"{0.9 * (base.reached - start):.1g}"))
-            base = self.run({}, budget)
+            base = self.run({}, max(HALF * self.left, SHORTEST))
         return base
 
     def loaded(self, settings: Any) -> Any:

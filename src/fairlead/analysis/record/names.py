@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterator
 
+from fairlead.analysis.record.gone import gone
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.component.instantiate import Assembly
@@ -21,9 +21,12 @@ def unknown_signals(assembly: Assembly) -> list[Fault]:
     """Mistakes in `record` and `limits`, told from what the components declare; nothing is compiled for it."""
     signals = signals_of(assembly)
     names = {signal.name: None for signal in signals}
-    unknown = ((value, text) for value, text in recorded_names(assembly) if not picked(names, text))
-    faults = [_no_such(value, text, [*names]) for value, text in itertools.islice(unknown, MOST_FAULTS)]
-    judged = {text: value for text, value in assembly.netlist.limits.items() if not _excused(assembly, text)}
+    unknown = [(value, text) for value, text in recorded_names(assembly) if not picked(names, text)]
+    left_out = set(gone(assembly, [*(text for _, text in unknown), *assembly.netlist.limits]))
+    unknown = [(value, text) for value, text in unknown if text not in left_out]
+    faults = [_no_such(value, text, [*names]) for value, text in unknown[:MOST_FAULTS]]
+    limits = assembly.netlist.limits.items()
+    judged = {text: value for text, value in limits if not _excused(assembly, text) and text not in left_out}
     try:
         read_limits(judged, signals)
     except ModelError as error:

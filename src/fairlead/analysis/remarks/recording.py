@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from fairlead.errors import Fault
+from fairlead.analysis.record.gone import gone, switched_off
+from fairlead.analysis.record.names import recorded_names
+from fairlead.component.instantiate import Assembly
+from fairlead.errors import Fault, listing
 from fairlead.netlist.netlist import Netlist
 
 
@@ -14,3 +17,13 @@ def sparse(netlist: Netlist) -> list[Fault]:
         return []
     what = f"record.every = {every:g} s is longer than the run of {lasts:g} s, of which only both ends are recorded."
     return [Fault(written.where, what, "Record more often, or leave it out to have every step.")]
+
+
+def left_out(assembly: Assembly) -> list[Fault]:
+    """A remark on names in `record` and `limits` that are no signals with the effects that the user switched."""
+    places = {text: value.where for value, text in recorded_names(assembly)}
+    places |= {text: value.where for text, value in assembly.netlist.limits.items()}
+    if not (found := gone(assembly, places)):
+        return []
+    what = f"{listing(found, 3)}: no signal with {switched_off(assembly.netlist)}, so left out of record and limits."
+    return [Fault(places[found[0]], what, "Switch the effect on again to have them.")]

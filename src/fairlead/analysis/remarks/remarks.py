@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fairlead.analysis.remarks.old_names import old_names
-from fairlead.analysis.remarks.recording import sparse
+from fairlead.analysis.remarks.recording import left_out, sparse
 from fairlead.analysis.remarks.unusual import unusual
 from fairlead.analysis.remarks.widths import too_wide
 from fairlead.errors import Fault
@@ -14,10 +14,11 @@ def remarks(flat: FlatModel) -> list[Fault]:
     """What is odd but not wrong.
 
     Contacts too wide, weak clamps, tight curves, winches without line, rigid seas that are not, slow drives, records
-    of nothing but both ends, values that are hardly meant, outputs by a name of old.
+    of nothing but both ends, names that went with an effect, values that are hardly meant, outputs by a name of old.
     """
-    return [*too_wide(flat), *_of_statics(flat), *sparse(flat.assembly.netlist), *unusual(flat.assembly),
-            *old_names(flat.assembly)]  # fmt: skip
+    assembly = flat.assembly
+    return [*too_wide(flat), *_of_statics(flat), *sparse(assembly.netlist), *left_out(assembly), *unusual(assembly),
+            *old_names(assembly)]  # fmt: skip
 
 
 def _of_statics(flat: FlatModel) -> list[Fault]:
