@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 from fairlead.component.base import Composite, Declared, Expansion
+from fairlead.component.called_elsewhere import similar_type
 from fairlead.component.composition import expanded
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import PATH, Input, Output, Port
@@ -176,7 +177,7 @@ def survey(
             continue
         kind = types.get(entry.type)
         if kind is None:
-            near = did_you_mean(entry.type, types) or f"There are {listing(sorted(types), 30)}."
+            near = similar_type(entry.type, types) or f"There are {listing(sorted(types), 30)}."
             what = f"{entry.name}: there is no component type {shown(entry.type)}. {near}"
             faults.append(Fault(entry.type_where, what, "--library adds types from a file of yours."))
         found = read_entry(assembly, kind, entry.parameters, entry.name, entry.where, faults) if kind else None

@@ -13,13 +13,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import cast
 
 from fairlead.component.base import Declared, Family
+from fairlead.component.called_elsewhere import similar_type
 from fairlead.component.scene import is_head
 from fairlead.describe.behaviour import behaviour, functions
 from fairlead.describe.catalogue import catalogue
 from fairlead.describe.columns import heading, paragraph
 from fairlead.describe.interface import beyond, derived_rows, interface, parameter_rows, shared
 from fairlead.describe.specimen import families_of
-from fairlead.errors import UsageError, did_you_mean
+from fairlead.errors import UsageError
 
 ALL_TYPES = "types"
 
@@ -37,7 +38,7 @@ def named(name: str, types: Mapping[str, type[Declared]]) -> type[Declared]:
     kinds = _kinds(types.values())
     if name in types or name in kinds:
         return types[name] if name in types else kinds[name]
-    near = " " + did_you_mean(name, [*types, *kinds])
+    near = " " + similar_type(name, {**types, **kinds})
     lists = f"`fairlead describe {ALL_TYPES}` lists them."
     raise UsageError(f"There is no component type {name}.{near.rstrip()}\n    {lists}")
 
