@@ -49,7 +49,7 @@ class Result(results.Result):
 
     @classmethod
     def of(cls, recorded: results.Result) -> Result:
-        """The same run, with more to ask."""
+        """The run `recorded` by the results room, with more to ask."""
         return cls(recorded.path, recorded.run, recorded._series, recorded._given_events)
 
     @property
@@ -117,11 +117,11 @@ class Result(results.Result):
         self, *names: str | Iterable[str] | None, title: str = "",
         between: tuple[float | str, float | str] | None = None, file: str | Path | None = None,
     ) -> Figure:  # fmt: skip
-        """Draw signals (all, or those of names or patterns) over time, a panel for each unit; a matplotlib Figure.
+        """Draw signals (all, or those of `names` or patterns) over time, a panel for each unit; a matplotlib Figure.
 
         Names follow one another, or stand in a list: `plot("block.x", "pad.slip")`. A notebook shows it. Elements of a
         line share a colour scale, zone changes are ticks at the top. `between` limits the time [s], `file` also writes
-        it (PNG, SVG or PDF). Raises UnknownSignalError, UsageError.
+        it (PNG, SVG or PDF), `title` stands above. Raises UnknownSignalError, UsageError.
         """
         from fairlead.report.plot import plot
 

@@ -94,7 +94,8 @@ def run(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = No
     """Read a netlist and simulate it: `load(path, set, libraries, allow_fmu).run(...)` in one call.
 
     `fairlead.run("belt", {"pad.normal_force": "20 N"}, stop="5 s", out=None)["block.x"]`. For more than one run of a
-    model, `load` it once.
+    model, `load` it once. `path`, `set`, `libraries` and `allow_fmu` are as in `load`; `out`, `force`, `progress`,
+    `profile`, `check` and the `settings` as in `Model.run`.
     """
     if isinstance(path, Model):
         raise UsageError("run: path is a Model already. Write model.run(...).")
@@ -234,7 +235,7 @@ class Model:
                     "flatten": lambda: self.flat, "system": lambda: self.system}[stage]())  # fmt: skip
 
     def graph(self, format: str = "mermaid") -> str:
-        """The wiring as `mermaid`, `dot` or `svg` text. Raises ModelError."""
+        """The wiring as text of `format` mermaid, dot or svg. Raises ModelError; UsageError for another format."""
         _one_of("Model.graph", "format", format, DRAWINGS)
         from fairlead.flatten.drawing import draw
 
@@ -265,7 +266,9 @@ class Model:
 
         `out=None` touches no disk: the result stays in memory. `settings` replace those of the netlist's `run`
         block (`stop="5 s"`, `accuracy=1e-6`, ...): quantities, or numbers in SI. The model is compiled once, whatever
-        they are and however often it is run.
+        they are and however often it is run. `force` replaces results that are in the directory already; `progress`
+        is called as the run goes with the share of it that is done, the time reached [s] and None; `profile` adds to
+        `result.run` where the time went.
 
         A run that fails or is cut short raises RunError, whose `result` holds what was computed; with `check=False`
         that result is returned, and `result.ok`, `.status` and `.run["sentence"]` tell how it ended. Remarks on the
@@ -327,7 +330,7 @@ class Model:
         return Stepping(self.netlist, chosen, self.system, inputs, tunable=named)
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
-        """A model with other values of scene parameters (`mu=0.6`) and settings (`{"pad.normal_force": "20 N"}`).
+        """A model with other `values` of settings (`{"pad.normal_force": "20 N"}`), `more` of parameters (`mu=0.6`).
 
         Numbers are in SI, texts are as `load(path, set=...)` takes them, and the model is the one that `load` would
         give. It shares structure and kernels with this one, which stays as it is; if the structure depends on the
@@ -413,7 +416,10 @@ def _in_order(faults: Iterable[Fault]) -> list[Fault]:
 
 
 def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
-    """Ports, parameters, zones with their guards, and equations of a component type; a notebook shows it as a page."""
+    """Ports, parameters, zones with guards, and equations of the component type `name`; a notebook shows it as a page.
+
+    `libraries` are files with types of one's own. Raises UsageError for a type that there is not.
+    """
     from fairlead.component.registry import known_types
     from fairlead.describe.page import describe
     from fairlead.describe.shown import Page
@@ -422,7 +428,7 @@ def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
 
 
 def json_schema(libraries: Iterable[str] = ()) -> dict[str, Any]:
-    """JSON Schema (draft-07) of netlists, from the component classes."""
+    """JSON Schema (draft-07) of netlists, from the component classes and those in the files `libraries`."""
     from fairlead.component.json_schema import json_schema as make
     from fairlead.component.registry import known_types
 

@@ -96,11 +96,11 @@ class Cases:
         return replace(made, seconds=time.perf_counter() - begun)
 
     def result(self, values: Mapping[str, Value], out: object = None) -> Result:
-        """The case with everything that the netlist records, in memory or in the folder `out`. Raises ModelError."""
+        """The case of `values` with all that the netlist records, in memory or in the folder `out`. Raises ModelError."""
         return self.model.with_values(values).run(out=out, force=True, check=False)  # type: ignore[arg-type]
 
     def curves(self, values: Mapping[str, Value], signals: Sequence[str], times: Floats) -> tuple[Row, Floats]:
-        """The row of a case, and its signals at times [s], shape (signals, times); NaN where the case has none.
+        """The row of the case of `values`, and `signals` at `times` [s], shape (signals, times); NaN where it has none.
 
         Values are those along the curves of the steps. Never raises for what happens in the run.
         """
@@ -113,7 +113,7 @@ class Cases:
         return row, found[0] if found else np.full((len(signals), len(times)), math.nan)
 
     def followed(self, values: Mapping[str, Value]) -> tuple[Row, tuple[Event, ...]]:
-        """The row of a case and its zone changes in order; none where it did not finish."""
+        """The row of the case of `values` and its zone changes in order; none where it did not finish."""
         found: list[Event] = []
         row = self._told_row(values, (), lambda result: found.extend(result.events))
         return row, tuple(found)

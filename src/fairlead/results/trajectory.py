@@ -101,7 +101,7 @@ class Result:
 
     @classmethod
     def open(cls, path: str | os.PathLike[str]) -> Self:
-        """Open a run directory, of a finished, running, failed or killed run.
+        """Open the run directory `path`, of a finished, running, failed or killed run.
 
         Raises UsageError when there is no such directory or no series in it, DamagedResultsError when one of the
         two cannot be read.
@@ -152,7 +152,7 @@ class Result:
         return extremes(self.named(run_file.RUN_FILE), self.run)
 
     def extremes(self, name: str) -> Extremes:
-        """The lowest and the highest value of a signal over the run, and when: (lowest, t_lowest, highest, t_highest).
+        """Lowest and highest value of the signal `name`, and when: (lowest, t_lowest, highest, t_highest), in SI and s.
 
         They come from the dense output of every step, whatever was recorded; of a run that was killed, from its rows.
         """
@@ -216,7 +216,7 @@ class Result:
         return iter(self._signals)
 
     def unit(self, name: str) -> str:
-        """Return the SI unit of a signal."""
+        """Return the SI unit of the signal `name`. Raises UnknownSignalError."""
         return self._signal(name).unit
 
     def match(self, pattern: str) -> list[str]:
@@ -233,7 +233,7 @@ class Result:
         return [name for name in self._signals if name in found]
 
     def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
-        """Return the value of a signal at the times `t` [s] (a number or an array).
+        """Return the value of the signal `name` at the times `t` [s] (a number or an array).
 
         Between two recorded rows the value is that of the dense output of the step, within the accuracy of the run,
         where every step was recorded. On a grid (`record.every`) it is that of a cubic through four rows, where nothing
@@ -265,7 +265,7 @@ class Result:
         return pandas.DataFrame(self.events, columns=list(Event._fields))
 
     def to_xarray(self, names: str | Iterable[str] | None = None, side: Side = "both") -> xarray.Dataset:
-        """Return the signals (all, or those of a name or pattern) as a dataset along `time`, with units.
+        """Return the signals (all, or those of `names` or patterns) as a dataset along `time`, with units.
 
         The time of an event occurs twice, and `side` tells the rows apart. With `side="right"` (or `"left"`) every
         time occurs once, with the values after (before) the event, as `interp`, `reindex` and `sel(method="nearest")`
@@ -276,7 +276,7 @@ class Result:
         return to_xarray(self, self.chosen(names), side)
 
     def to_pandas(self, names: str | Iterable[str] | None = None, side: Side = "both") -> pandas.DataFrame:
-        """Return the signals (all, or those of a name or pattern) as columns over time [s]; units are in `.attrs`.
+        """Return the signals (all, or those of `names` or patterns) as columns over time [s]; units are in `.attrs`.
 
         `side` as in `to_xarray`. Raises UnknownSignalError, UsageError.
         """
@@ -285,8 +285,9 @@ class Result:
         return to_pandas(self, self.chosen(names), side)
 
     def to_excel(self, path: str | Path, names: str | Iterable[str] | None = None, side: Side = "both") -> None:
-        """Write a workbook with sheets for signals, zone changes and the run; wants the extra `fairlead[excel]`.
+        """Write a workbook `path` with sheets for signals, zone changes and the run; wants the extra `fairlead[excel]`.
 
+        `names` or patterns choose signals; all of them are written when left out.
         `side` as in `to_xarray`. Raises UsageError when openpyxl is missing or a sheet is too small.
         """
         from fairlead.results.excel import to_excel
@@ -317,7 +318,7 @@ class Result:
         return RunRecord(self.run).table()
 
     def to_csv(self, path: str | Path, names: str | Iterable[str] | None = None) -> None:
-        """Write the signals (all, or those of a name or pattern) with units in the header; every digit is kept.
+        """Write signals (all, or those of `names` or patterns) to the file `path`, with units and every digit.
 
         In the run directory a link of that name is replaced, and what it points to stays as it is.
         """
@@ -333,7 +334,7 @@ class Result:
             to_csv(self, part, self.chosen(names))
 
     def columns(self, names: str | Iterable[str] | None = None) -> NDArray[np.float64]:
-        """Return several signals (all, or those of a name or pattern) side by side, (n, m)."""
+        """Return several signals (all, or those of `names` or patterns) side by side, shape (rows, signals), in SI."""
         return self._columns(self.chosen(names))
 
     def _columns(self, names: list[str]) -> NDArray[np.float64]:
