@@ -96,7 +96,7 @@ class Cases:
         return replace(made, seconds=time.perf_counter() - begun)
 
     def result(self, values: Mapping[str, Value], out: object = None) -> Result:
-        """The case of `values` with all that the netlist records, in memory or in the folder `out`. Raises ModelError."""
+        """The case of `values` with all that the netlist records, in memory or in folder `out`. Raises ModelError."""
         return self.model.with_values(values).run(out=out, force=True, check=False)  # type: ignore[arg-type]
 
     def curves(self, values: Mapping[str, Value], signals: Sequence[str], times: Floats) -> tuple[Row, Floats]:
