@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from fairlead.component.alike import Parts, agree
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.composition import expanded
-from fairlead.component.instantiate import Assembly, HandedOn, Instance, Line, read_entry
+from fairlead.component.instantiate import Assembly, HandedOn, Instance, Line, PortRef, left_open, read_entry
 from fairlead.component.scene import Scene, Tally
 from fairlead.component.values import Values, variant_of
 from fairlead.errors import Fault, ModelError
@@ -37,6 +37,7 @@ class Again:
     expansions: dict[str, Expansion] = field(default_factory=dict)
     entries: dict[str, Values] = field(default_factory=dict)
     lines: dict[str, Line] = field(default_factory=dict)
+    open_inputs: dict[PortRef, float] = field(default_factory=dict)
     parts: Parts = field(default_factory=dict)
     handed_on: list[HandedOn] = field(default_factory=list)
     swapped: dict[int, Values] = field(default_factory=dict)  # by the identity of what was made from parts
@@ -66,6 +67,10 @@ class Again:
         self.expansions[path] = replace(now, children={**was.children, **other})
         for name, child in other.items():
             self.place(f"{path}.{name}", was.children[name], child, scene)
+        gives = left_open(path, values, self.old.aliases)
+        if gives.keys() != left_open(path, before, self.old.aliases).keys():  # another input has to be joined
+            raise Unlike
+        self.open_inputs |= gives
         if now.line is not None:
             found = was.line.handed_on(now.line)
             if found is None:
@@ -126,7 +131,7 @@ def again(
     return replace(
         old, netlist=netlist, scene=scene, instances=leaves, lines={**old.lines, **made.lines},
         expansions={**old.expansions, **made.expansions}, entries={**old.entries, **made.entries},
-        handed_on=made.handed_on,
+        handed_on=made.handed_on, open_inputs={**old.open_inputs, **made.open_inputs},
     )  # fmt: skip
 
 

@@ -252,12 +252,15 @@ def _place(assembly: Assembly, path: str, values: Values, where: Location) -> No
         assembly.joins.append(Join(refs, where))
     for outer, inner in {**expansion.ports, **expansion.outputs}.items():
         assembly.aliases[f"{path}.{outer}"] = _inner(assembly, f"{path}.{inner}")
-    for name, declared in values.type.declaration.inputs.items():  # the outermost composite has the last word
-        given = input_given(values, declared.default)
-        if given is not None and f"{path}.{name}" in assembly.aliases:
-            assembly.open_inputs[assembly.aliases[f"{path}.{name}"]] = given
+    assembly.open_inputs |= left_open(path, values, assembly.aliases)  # the outermost composite has the last word
     if expansion.line is not None:
         assembly.lines[path] = Line(path, values, expansion.line, where)
+
+
+def left_open(path: str, values: Values, aliases: Mapping[str, PortRef]) -> dict[PortRef, float]:
+    """What a composite gives to its inputs while nothing is joined to them, by the input of the leaf inside."""
+    given = {name: input_given(values, declared.default) for name, declared in values.type.declaration.inputs.items()}
+    return {aliases[at]: one for name, one in given.items() if one is not None and (at := f"{path}.{name}") in aliases}
 
 
 def _inner(assembly: Assembly, text: str) -> PortRef:

@@ -47,7 +47,8 @@ def refreshed(old: System, flat: FlatModel) -> System:
     """The System of a flat model that differs from that of `old` by numbers. Raises ModelError for starts."""
     flat = cut(flat, old.flat.loops)
     pairs = zip(old.flat.instances, flat.instances, strict=True)
-    changed = {new.path: new for was, new in pairs if was.values is not new.values}
+    fed = _fed_otherwise(old.flat, flat)
+    changed = {new.path: new for was, new in pairs if was.values is not new.values or new.path in fed}
     moved = unlike(old.flat, flat)
     heavier = any(old.flat.groups[k].mass != flat.groups[k].mass for k in moved)
     numbering = _numbering(old.numbering, flat, changed.values(), moved)
@@ -67,6 +68,12 @@ def refreshed(old: System, flat: FlatModel) -> System:
     if faults := overridden(made):
         raise ModelError(faults)
     return started(placed(made, initially), initially)
+
+
+def _fed_otherwise(old: FlatModel, flat: FlatModel) -> set[str]:
+    """Components to whose open inputs the composite round them gives another number."""
+    before, now = old.assembly.open_inputs, flat.assembly.open_inputs
+    return {ref.instance for ref, one in now.items() if before.get(ref) != one}
 
 
 def _with_numbers(
