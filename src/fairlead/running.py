@@ -14,7 +14,7 @@ from fairlead.analysis.record.creep import WorstCreep
 from fairlead.analysis.record.energy import Ledger, judged, resolved
 from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
-from fairlead.analysis.record.gone import without_gone
+from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.released_together import ReleasedTogether

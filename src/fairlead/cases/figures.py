@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fairlead.analysis.record.names import signals_of
+from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si

@@ -53,7 +53,7 @@ def parameters(ctx: typer.Context, incomplete: str) -> list[str]:
 
 def signals(ctx: typer.Context, incomplete: str) -> list[str]:
     """Signals of the netlist."""
-    from fairlead.analysis.record.names import signals_of
+    from fairlead.analysis.record.declared_signals import signals_of
     from fairlead.component.bundled import bundled
     from fairlead.component.instantiate import survey
 

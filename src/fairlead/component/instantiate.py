@@ -113,7 +113,6 @@ class Assembly:
     effects: dict[str, dict[str, str]] = field(default_factory=dict)  # component -> its effects, on or off
     broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
     stand_ins: set[str] = field(default_factory=set)  # made with other values, for there are mistakes in their own
-    before_effects: dict[str, None] | None = None  # signals with no effect switched, once it was asked
     entries: dict[str, Values] = field(default_factory=dict)  # of the components of the netlist
     expansions: dict[str, Expansion] = field(default_factory=dict)  # of composites, however deep
     handed_on: list[HandedOn] = field(default_factory=list)  # where laying passed on parts as they are

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fairlead.analysis.record.names import signals_of
+from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.analysis.treatments.treatments import kinds_of_treatment
 from fairlead.arguments import Arguments

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from fairlead.analysis.record.gone import gone
+from fairlead.analysis.record.declared_signals import signals_of
+from fairlead.analysis.record.gone_with_effects import gone
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.component.instantiate import Assembly
@@ -13,8 +14,6 @@ from fairlead.errors import Fault, ModelError
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.patterns import picked
-from fairlead.system.arrays.recording import OutputSignal
-from fairlead.system.numbering.unknowns import LEDGER
 
 
 def unknown_signals(assembly: Assembly) -> list[Fault]:
@@ -32,19 +31,6 @@ def unknown_signals(assembly: Assembly) -> list[Fault]:
     except ModelError as error:
         faults += error.faults
     return faults
-
-
-def signals_of(assembly: Assembly) -> list[OutputSignal]:
-    """All signals of a model, from what its components declare."""
-    found = [
-        OutputSignal(f"{path}.{name}", output.unit, output.doc, 0)
-        for path, instance in assembly.instances.items()
-        for name, output in instance.type.declaration.outputs.items()
-    ]
-    by_name = {signal.name: signal for signal in found}
-    outer = [(name, by_name[str(inner)]) for name, inner in assembly.aliases.items() if str(inner) in by_name]
-    found += [OutputSignal(name, signal.unit, signal.doc, 0) for name, signal in outer]
-    return found + [OutputSignal(f"energy.{line}", "J", "", 0) for line in LEDGER]
 
 
 def recorded_names(assembly: Assembly) -> Iterator[tuple[Value, str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fairlead.analysis.record.gone import gone, switched_off
+from fairlead.analysis.record.gone_with_effects import gone, switched
 from fairlead.analysis.record.names import recorded_names
 from fairlead.component.instantiate import Assembly
 from fairlead.errors import Fault, listing
@@ -25,5 +25,6 @@ def left_out(assembly: Assembly) -> list[Fault]:
     places |= {text: value.where for text, value in assembly.netlist.limits.items()}
     if not (found := gone(assembly, places)):
         return []
-    what = f"{listing(found, 3)}: no signal with {switched_off(assembly.netlist)}, so left out of record and limits."
-    return [Fault(places[found[0]], what, "Switch the effect on again to have them.")]
+    by = listing(switched(assembly.netlist), 3)
+    what = f"{listing(found, 3)}: no signal with the effects as they are switched, so left out of record and limits."
+    return [Fault(places[found[0]], what, f"What is switched: {by}. Without that they are there again.")]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import fairlead
-from fairlead.analysis.record.names import signals_of
+from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.cases.cases import Cases
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, shown
 from fairlead.studies.fits.features import STATISTICS, Feature, FeatureError, read_feature

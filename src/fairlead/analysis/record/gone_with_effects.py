@@ -1,4 +1,4 @@
-"""Names in a netlist that no signal has because the user switched an effect off.
+"""Names in a netlist that no signal has because the user switched an effect.
 
 A contact that rubs no more, a valve without dynamics: their signals go with the effect. What was written for the whole
 scene, `record`, plots and `limits`, should not have to be rewritten for each switch, so a name that would be one with
@@ -10,28 +10,32 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Mapping
 
+from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.component.instantiate import Assembly, survey
 from fairlead.flatten.flatten import survey as flatten
 from fairlead.netlist.netlist import Netlist, Value
 from fairlead.patterns import picked
-from fairlead.system.numbering.unknowns import LEDGER
 
 EFFECTS = "effects"
 
 
 def gone(assembly: Assembly, patterns: Iterable[str]) -> list[str]:
     """Those of `patterns` that no signal has, and that one would have if no effect were switched."""
-    if not switched_off(assembly.netlist):
+    if not switched(assembly.netlist):
         return []
-    names = _names(assembly)
-    unknown = [one for one in patterns if not picked(names, one)]
+    unknown = _unfit(assembly, patterns)
     if not unknown:
         return []
-    if assembly.before_effects is None:  # laid on its route as well, for contacts with its devices
-        whole, _ = survey(as_declared(assembly.netlist), assembly.types)
-        flatten(whole)
-        assembly.before_effects = _names(whole)
-    return [one for one in unknown if picked(assembly.before_effects, one)]
+    whole, _ = survey(as_declared(assembly.netlist), assembly.types)
+    flatten(whole)  # lays lines on their routes, which makes the contacts with devices
+    still = set(_unfit(whole, unknown))
+    return [one for one in unknown if one not in still]
+
+
+def _unfit(assembly: Assembly, patterns: Iterable[str]) -> list[str]:
+    """Those that no signal has."""
+    names = {signal.name: None for signal in signals_of(assembly)}
+    return [one for one in patterns if not picked(names, one)]
 
 
 def without_gone(assembly: Assembly, given: Mapping[str, Value]) -> dict[str, Value]:
@@ -40,25 +44,13 @@ def without_gone(assembly: Assembly, given: Mapping[str, Value]) -> dict[str, Va
     return {pattern: value for pattern, value in given.items() if pattern not in left_out}
 
 
-def switched_off(netlist: Netlist) -> str:
-    """What the netlist switches, for messages; nothing where it switches nothing."""
-    found = [f"{EFFECTS}.{name}: {value.content}" for name, value in netlist.effects.items()]
-    found += [
-        f"{entry.name}.{EFFECTS}.{name}: {value.content}"
-        for entry in netlist.components.values() if EFFECTS in entry.parameters
-        for name, value in entry.parameters[EFFECTS].entries.items()
-    ]  # fmt: skip
-    return ", ".join(found)
-
-
-def _names(assembly: Assembly) -> dict[str, None]:
-    """Of all signals, from what the components declare."""
-    found = {
-        f"{path}.{name}": None
-        for path, instance in assembly.instances.items() for name in instance.type.declaration.outputs
-    }  # fmt: skip
-    outer = [name for name, inner in assembly.aliases.items() if str(inner) in found]
-    return found | dict.fromkeys([*outer, *(f"energy.{line}" for line in LEDGER)])
+def switched(netlist: Netlist) -> list[str]:
+    """What the netlist switches, for messages: `effects.gravity: off`, `gear.effects.backlash: on`."""
+    told = [f"{EFFECTS}.{name}: {value.content}" for name, value in netlist.effects.items()]
+    for entry in netlist.components.values():
+        own = entry.parameters[EFFECTS].entries if EFFECTS in entry.parameters else {}
+        told += [f"{entry.name}.{EFFECTS}.{name}: {value.content}" for name, value in own.items()]
+    return told
 
 
 def as_declared(netlist: Netlist) -> Netlist:
