@@ -53,7 +53,7 @@ class ToothLoss(Component):
     carried = Input("N*m", "Torque carried on, before the ratio.", signed=True)
     level = Output("N", "Level of the friction at a radius of 1 m.")
     skew = Output("N*m", "The part of the loss that has no threshold.")
-    pressed = Output("N*m", "Torque carried on, whose size counts.", rounded_by="round_off")
+    pressed = Output("N*m", "The torque carried on.", rounded_by="round_off")
     asked_with = {"efficiency": 0.8}
 
     def law(p, shaft, carried):

@@ -13,7 +13,7 @@ from fairlead.components.web.span import WholeSpan
 
 from fairlead.component import Choice, Composite, Count, Expansion, Input, Output, Parameter, Rotational, Translational
 
-ROUND_OFF = 1e-9  # of the stiffness
+ROUND_OFF = 1e-9  # strain: a tension of 1e-9 of the stiffness is far below any that a winch holds
 NESTED = sqrt(3) / 2  # height of a layer in the grooves of the one below, in diameters
 
 

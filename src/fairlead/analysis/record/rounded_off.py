@@ -1,9 +1,9 @@
 """Loads that stay so small during a run that the rounding of their corner counts: a sentence, and the way out.
 
-Where a law follows the size of a load, |F|, its corner at zero is rounded off over a parameter of the part, which is
-meant to be small beside the load: sqrt(F^2 + r^2) - r falls short of |F| by up to r. An output that declares
-`rounded_by` is such a load. One whose largest size is below `ENOUGH` times r is told; what is zero but for rounding of
-the engine is no load. A scene made a thousand times smaller is caught by this, where its friction would silently go.
+Where a law follows the size of a load F, the corner of |F| at zero is rounded off over a parameter r of the part, which
+is meant to be small beside the load: sqrt(F^2 + r^2) - r falls short of |F| by the share r/|F|. An output that declares
+`rounded_by` is such a load. A run tells those whose largest size is below `ENOUGH` times r, and not zero but for
+rounding of the engine. So a scene whose forces are a thousand times smaller does not lose its friction without a word.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.instantiate import Instance
 from fairlead.system.arrays.recording import OutputSignal
 from fairlead.system.compiled.system import System
 
@@ -31,6 +32,8 @@ class RoundedOff:
     """Watches m loads, in columns `columns` of the rows of a run."""
 
     signals: Sequence[OutputSignal]
+    owners: Sequence[Instance]
+    """[m]: the part of each, whose parameter rounds it off."""
     columns: NDArray[np.int64]
     over: Floats
     """[m]: what the corner of each is rounded over, in its unit."""
@@ -45,10 +48,11 @@ class RoundedOff:
     def of(cls, system: System, recorded: Sequence[OutputSignal]) -> RoundedOff:
         """Those among the recorded signals; one that has two names counts once."""
         found = {one.at: (k, one) for k, one in enumerate(recorded) if one.rounded_by}
-        values = {one.path: one.values for one in system.flat.instances} if found else {}
-        over = [float(getattr(values[_path(system, one)], one.rounded_by)) for _, one in found.values()]
-        return cls([one for _, one in found.values()], np.array([k for k, _ in found.values()], dtype=np.int64),
-                   np.array(over))  # fmt: skip
+        columns, signals = np.array([k for k, _ in found.values()], dtype=np.int64), [one for _, one in found.values()]
+        instances = {one.path: one for one in system.flat.instances} if found else {}
+        owners = [instances[_path(system, one)] for one in signals]
+        over = [getattr(owner.values, one.rounded_by) for owner, one in zip(owners, signals, strict=True)]
+        return cls(signals, owners, columns, np.array(over, dtype=float))
 
     def watch(self, rows: Floats) -> None:
         """Take recorded rows, shape (k, recorded)."""
@@ -62,19 +66,17 @@ class RoundedOff:
     def _told(self) -> Iterator[str]:
         small = (self.most > NO_LOAD * self.over) & (self.most < ENOUGH * self.over)
         for k in np.flatnonzero(small).tolist():
-            one, most, over = self.signals[k], float(self.most[k]), float(self.over[k])
-            part, _, name = one.name.rpartition(".")
-            given = f"{part.rpartition('.')[0] or part}.{one.rounded_by}"
+            one, owner, most, over = self.signals[k], self.owners[k], float(self.most[k]), float(self.over[k])
+            unit = owner.type.declaration.parameters[one.rounded_by].unit
+            given = f"{owner.path.rpartition('.')[0] or owner.path}.{one.rounded_by}"
             finer = 10.0 ** math.floor(math.log10(most / ENOUGH) - 1.0 + 1e-9)
             yield (
-                f"{part}: its {name} is at most {most:.3g} {one.unit}, and the corner of its law at zero is rounded "
-                f"off over {over:.3g} {one.unit}, so that what follows from it is too small. Give {given}: "
-                f"{finer:.0e} {one.unit}."
+                f"{one.name} is at most {most:.3g} {one.unit}, and the corner of the law at zero is rounded off over "
+                f"{over:.3g} {unit}, which counts beside it. Give {given}: {finer:.0e} {unit}."
             )
 
 
 def _path(system: System, signal: OutputSignal) -> str:
     """The instance of an output, also where it goes by an outer name."""
-    return system.flat.assembly.aliases[signal.name].instance if signal.name in system.flat.assembly.aliases else (
-        signal.name.rpartition(".")[0]
-    )  # fmt: skip
+    inner = system.flat.assembly.aliases.get(signal.name)
+    return signal.name.rpartition(".")[0] if inner is None else inner.instance
