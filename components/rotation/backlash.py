@@ -23,20 +23,19 @@ class Backlash(Component):
     damping = Parameter("s/rad", "Share of the torque that is added per speed of approach.", default=10.0, least=0)
     play = Parameter("rad", "Angle by which b can turn while a stands still.", least=0)
     torque = Output("N*m", "Torque carried from a to b.")
-    size = Output("N*m", "The same without sign.")
     zones = Zones("gap", "drive", "reverse", forward=["drive"], backward=["reverse"])
 
     @zone("gap")
     def loose(p, a, b):
         """No teeth touch."""
-        return Law(a=0, b=0, torque=0, size=0)
+        return Law(a=0, b=0, torque=0)
 
     @zone("drive", "reverse")
     def touching(p, a, b, direction):
         """Spring and damper of the teeth."""
         d = direction
         size, stored, lost = pressed(p, d * (a.angle - b.angle) - p.play / 2, d * (a.speed - b.speed))
-        return Law(a=d * size, b=-d * size, torque=d * size, size=size, stored=stored, dissipated=lost)
+        return Law(a=d * size, b=-d * size, torque=d * size, stored=stored, dissipated=lost)
 
     @guard("gap", to="drive", unit="rad", mirrored="meets_backward")
     def meets_forward(p, a, b, direction):
