@@ -47,7 +47,7 @@ from fairlead.native import spent_compiling
 
 START = 0.1  # of the time that is studied is the start transient, where no other is given
 FEWEST = 20  # common times that a window must have
-HALF = 0.5  # of the time left is the most for the scene as it is, and for its more exact run
+AT_MOST = 0.5  # of the time left is for the scene as it is, or its more exact run, so that switches are judged too
 SHORTEST = 0.2  # s; with less time left no run is begun
 SLOWER, WORTH_WAITING = 5.0, 1.0  # times the scene as it is, s; a switch that takes longer is cut off
 KEPT, CLOSING = 0.97, 1.5  # of the budget is for runs; times what reading the scene took is for start and table
@@ -118,8 +118,8 @@ def effects(
     found = Effects(model.netlist.name, runner.span, begin, whole, base, Size.of(model.system))
     judge = _Judge(model, runner, found, units, note)
     try:
-        tight = runner.run({"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}, max(HALF * runner.left, SHORTEST),
-                           allowed=0.0)  # fmt: skip
+        finer = {"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}
+        tight = runner.run(finer, max(AT_MOST * runner.left, SHORTEST), allowed=0.0)
         if tight.finished:
             found.floors_starting, found.floors = (floors(each) for each in judge.changed(tight))
         for k, switch in enumerate(every):
@@ -143,6 +143,12 @@ def _check(first: float | None, last: float | None, start: float, stop: float) -
         least = begin + (begin - start) * FEWEST / (GRID - FEWEST)
         raise UsageError(f"--from, --to: {end - begin:g} s after {begin - start:g} s are too few to compare.\n"
                          f"    Write --to '{least:.3g} s', or later.")  # fmt: skip
+
+
+def rounded_down(span: float) -> float:
+    """A span of one digit that is not longer, so that what was reached in time is reached again."""
+    unit = 10.0 ** math.floor(math.log10(span))
+    return float(f"{math.floor(span / unit + 1e-9) * unit:.1g}")
 
 
 @dataclass
@@ -240,8 +246,8 @@ class _Runner:
         self.kept.put(key, base)
         start = self.span[0]
         while base.status == "budget" and base.reached > start:  # again where the machine has become slower meanwhile
-            self.span = (start, start + float(f"{0.9 * (base.reached - start):.1g}"))
-            base = self.run({}, max(HALF * self.left, SHORTEST))
+            self.span = (start, start + rounded_down(0.9 * (base.reached - start)))
+            base = self.run({}, max(AT_MOST * self.left, SHORTEST))
         return base
 
     def loaded(self, settings: Any) -> Any:
