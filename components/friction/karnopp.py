@@ -19,7 +19,8 @@ class Karnopp(Rigid):
     is set to zero by an impulse that conserves momentum, as his velocity is; m band^2/2 of energy goes unaccounted.
     It holds without creep up to F_s. Against exact hold it stops early by about m band/T seconds, and leaves with F_s
     (not the curve) until the slip is out of the band.
-    Limits: the band must stay well below the slowest speed that matters; below it everything is stuck.
+    Limits: the band must stay well below the slowest speed that matters; below it everything is stuck. What nothing
+    can stop inside the band, such as a slider whose crank passes its dead centre, ends the run: take another method.
     Source: Karnopp (1985), Computer simulation of stick-slip friction in mechanical dynamic systems, ASME J. Dyn.
     Sys. Meas. Control 107, 100, DOI 10.1115/1.3140698.
     """
