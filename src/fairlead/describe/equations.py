@@ -127,9 +127,23 @@ class _Say:
         names = [name for name, _ in self._short]
         first = names.index(leave_out) + 1 if leave_out in names else 0
         for name, long in self._short[first:]:
-            for form in {long, sympy.signsimp(long)}:  # the latter is how it stands inside |...|
-                value = value.subs(form, symbol(f"own:{name}"))
-        return tables_as_functions(value, self._tables)
+            if long.free_symbols <= value.free_symbols:
+                for form in {long, sympy.signsimp(long)}:  # the latter is how it stands inside |...|
+                    value = value.subs(form, symbol(f"own:{name}"))
+        return tables_as_functions(value.replace(_is_negated_sum, _minus_inside), self._tables)
+
+
+def _is_negated_sum(value: sympy.Expr) -> bool:
+    """Whether it is minus a sum, over something or not."""
+    if not value.is_Mul or value.args[0] != -1:
+        return False
+    above = [factor for factor in value.args[1:] if not (factor.is_Pow and factor.exp.is_negative)]
+    return len(above) == 1 and above[0].is_Add
+
+
+def _minus_inside(value: sympy.Expr) -> sympy.Expr:
+    """`(b - a)/c` for `-(a - b)/c`."""
+    return sympy.Mul(*(sympy.Mul(-1, factor) if factor.is_Add else factor for factor in value.args[1:]))
 
 
 def tables_as_functions(value: sympy.Expr, reads: Mapping[str, sympy.Expr]) -> sympy.Expr:
