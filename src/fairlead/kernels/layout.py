@@ -94,6 +94,14 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     MASS_STATIC,  # float64 (mass,)
     MASS_PROGRAM,  # int64 (k, MASS_ADD)
     MASS_COEF,  # float64 (k,)
+    N_LIGHT_PARTS,  # nodes without inertia that rows hold more than once, see light_holds.py
+    LIGHT_PARTS,  # int64 (parts, LIGHT_PART)
+    LIGHT_ROWS,  # int64 (rows, LIGHT_ROW)
+    LIGHT_ENTRIES,  # int64 (entries, LIGHT_ENTRY)
+    LIGHT_COEF,  # float64 (entries,)     what the partial derivative counts
+    LIGHT_PLACES,  # int64 (.,)          where in M a row has the speeds with inertia of its part
+    LIGHT_WORK,  # float64 (.,)          scratch: the rows of a part
+    LIGHT_GIVEN,  # int64 (.,)           scratch: the speed that a row gives, or -1
     HOLDS,  # int64 (holds, HOLD)
     GUARD_PLACE,  # int64 (guards, GUARD_ROW)  zone position (or -1), first entry of its class in GUARD_TO, slots, slot
     GUARD_TO,  # int64 (., TO)         zone it leads to (-1: none), machine, step of a table's piece
@@ -176,13 +184,17 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     FOLLOWING,  # int64 (following, CALL)
     FOLLOWING_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(122)
+) = range(130)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last
 PAIR_X, PAIR_V, PAIR = range(3)  # of PAIRS
 ADD_TO, ADD_PARTIAL, ADD_FROM, ADD = range(4)  # of PROGRAM, FIXED: work[to] += coefficient * partials * work[from]
 MASS_TO, MASS_PARTIAL, MASS_ADD = range(3)  # of MASS_PROGRAM: mass[to] += coefficient * partials
+# Of LIGHT_PARTS: first row, one past the last, speeds without inertia, all speeds. Speeds without inertia come first.
+PART_BEGIN, PART_END, PART_LIGHT, PART_WIDTH, LIGHT_PART = range(5)
+LIGHT_FIRST, LIGHT_END, LIGHT_PLACE, LIGHT_ROW = range(4)  # of LIGHT_ROWS: entries, and where its places begin
+ENTRY_SLOT, ENTRY_PARTIAL, LIGHT_ENTRY = range(3)  # of LIGHT_ENTRIES
 HOLD_PLACE, HOLD_ZONE, HOLD = range(3)  # of HOLDS: position in zones, zone that holds
 GUARD_ZONE, GUARD_FIRST, GUARD_SLOTS, GUARD_SLOT, GUARD_ROW = range(5)  # of GUARD_PLACE
 TO_ZONE, TO_MACHINE, TO_PIECE, TO = range(4)  # of GUARD_TO

@@ -1,6 +1,7 @@
 """The mass matrix: a diagonal of inertias, and the rows of held contacts with the coefficients of their slip.
 
-values = mass_static,  then  values[a] += mass_coef * partials[b]  for every (a, b) of mass_program
+values = mass_static,  then  values[a] += mass_coef * partials[b]  for every (a, b) of mass_program,  then what rows
+have in it that hold a node without inertia beside another row (light_holds.py).
 """
 
 from __future__ import annotations
@@ -8,49 +9,47 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
+from fairlead.system.arrays.blocks import Block, Memory
 from fairlead.system.arrays.shares import Share
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.assembly.light_holds import Entries, held_entries, light_parts, light_program, relations
 from fairlead.system.assembly.program import Pattern
 from fairlead.system.numbering.unknowns import Numbering
 
 
 def mass(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering) -> tuple[Pattern, Memory]:
     """Pattern of M (CSC), and the arrays with which the callbacks fill it."""
-    row, column, partial, coef = _held(blocks, shares, numbering)
-    n = numbering.n
+    entries, n = held_entries(blocks, shares, numbering), numbering.n
+    parts = light_parts(blocks, entries, numbering)
+    kept = _kept(entries, blocks, numbering, {row for part in parts for row in part.rows})
+    row, column = entries.row[kept], entries.column[kept]
     diagonal = np.array([i for i, u in enumerate(numbering.unknowns) if u.differential], dtype=np.int64)
-    keys, place = np.unique(np.concatenate([column * n + row, diagonal * (n + 1)]), return_inverse=True)
+    related = relations(parts)
+    of_light = np.array([j * n + i for i, j in related], dtype=np.int64)
+    keys, place = np.unique(np.concatenate([column * n + row, diagonal * (n + 1), of_light]), return_inverse=True)
     static = np.zeros(len(keys))
-    static[place[len(row) :]] = [numbering.unknowns[i].mass for i in diagonal]
+    static[place[len(row) : len(row) + len(diagonal)]] = [numbering.unknowns[i].mass for i in diagonal]
     starts = np.searchsorted(keys // n, np.arange(n + 1)).astype(np.int64)
+    place_of = dict(zip(related, place[len(row) + len(diagonal) :].tolist(), strict=True))
     return Pattern(starts, (keys % n).astype(np.int64)), {
         "mass_static": static,
-        "mass_coef": coef,
-        "mass_program": np.ascontiguousarray(np.stack([place[: len(row)], partial], axis=1).astype(np.int64)),
-    }
+        "mass_coef": entries.coef[kept].astype(float),
+        "mass_program": np.ascontiguousarray(
+            np.stack([place[: len(row)], entries.partial[kept]], axis=1).astype(np.int64)
+        ),
+    } | light_program(parts, entries, place_of)
 
 
-def _held(
-    blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering
-) -> tuple[Integers, Integers, Integers, Floats]:
-    """Row, column, partial and coefficient of every unknown speed in a hold row.
+def _kept(entries: Entries, blocks: Sequence[Block], numbering: Numbering, of_light: set[int]) -> NDArray[np.bool_]:
+    """Which of these entries are in M as they stand.
 
     Not of a row in which one has inertia and one has none: that one follows at once, and the slip is zero as it stands.
-    Nor of one that holds a node whose speed a row gives at once (algebraic_nodes.py).
+    Nor of one that holds a node whose speed a row gives at once (algebraic_nodes.py), or that several may hold.
     """
-    row, column, partial, coef = ([np.zeros(0, np.int64)] for _ in range(4))
     inert = np.array([not u.differential for u in numbering.unknowns], dtype=bool)
-    for block, share in zip(blocks, shares, strict=True):
-        s, count = block.kernel.structure, np.arange(block.count)
-        for e, (unknown, j) in enumerate(s.mass):
-            own, used = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j] < numbering.n
-            row.append(own[used])
-            column.append(block.in_index[used, j])
-            partial.append((share.mass + count * len(s.mass) + e)[used])
-            coef.append(block.in_coef[used, j])
-    rows, columns = np.concatenate(row), np.concatenate(column)
-    held, moved = (np.isin(rows, rows[those]) for those in (inert[columns], ~inert[columns]))
-    kept = ~(held & moved | np.isin(rows, rows_without_rates(blocks, numbering)))
-    return rows[kept], columns[kept], np.concatenate(partial)[kept], np.concatenate(coef).astype(float)[kept]
+    rows = entries.row
+    held, moved = (np.isin(rows, rows[those]) for those in (inert[entries.column], ~inert[entries.column]))
+    apart = np.isin(rows, [*rows_without_rates(blocks, numbering).tolist(), *of_light])
+    return ~(held & moved | apart)

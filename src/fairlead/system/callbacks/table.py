@@ -9,7 +9,7 @@ from typing import Any
 
 from fairlead.native import Build, Native, digest, load_or_compile
 from fairlead.system.callbacks.algebraic_rates import add_rates, find_known, find_roots, off_balance, share_rates
-from fairlead.system.callbacks.derivatives import assemble, fix, jacobian, mass, slopes
+from fairlead.system.callbacks.derivatives import assemble, fix, hold_light, jacobian, mass, slopes
 from fairlead.system.callbacks.evaluation import (
     accelerate,
     ahead,
@@ -54,7 +54,7 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
     make_calls, give_motions, average, put_average, look, ask, react, follow, of_accelerations, evaluate, accelerate,
-    slips, take_samples, fix, assemble, expand, let_slip, show,
+    slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
 )  # fmt: skip
 """What callbacks call."""
 
