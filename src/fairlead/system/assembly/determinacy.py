@@ -23,7 +23,9 @@ from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
+from fairlead.system.arrays.shares import shares
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.assembly.light_holds import held_entries, light_parts, relations
 from fairlead.system.numbering.unknowns import Numbering
 
 MOST_NAMED = 4  # nodes or components in one message
@@ -194,7 +196,6 @@ def _and(names: Iterable[str]) -> str:
 
 def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> list[set[int]]:
     """Per unknown the rows that may contain it: its rate if it is differential, else itself."""
-    n = numbering.n
     rows_of: list[set[int]] = [{j} if u.differential else set() for j, u in enumerate(numbering.unknowns)]
     algebraic = np.array([not u.differential for u in numbering.unknowns])
     rated = {numbering.rate[index] for index in numbering.rated}
@@ -204,26 +205,39 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
     for index, a in numbering.accelerated.items():
         rows_of[a] |= {a, numbering.rate[index]}
     signals = _Signals(numbering, blocks, algebraic)
-    without = rows_without_rates(blocks, numbering)
     for block in blocks:
         s = block.kernel.structure
         for zone in s.zones[:1] if start else s.zones:
             for k, target in enumerate(s.targets):
                 for one in s.flow_inputs[zone].get(target, ()):
                     _enter(rows_of, block, k, s.inputs.index(one), signals)
-        for unknown, j in s.mass:
-            if s.zones[0] in s.holds[unknown] or not start:
-                row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]
-                in_mass = (column < n) & ~np.isin(row, without)
-                for r, c in zip(row[in_mass].tolist(), column[in_mass].tolist(), strict=True):
-                    if not algebraic[c]:
-                        rows_of[c].add(r)
+    _enter_rates(rows_of, numbering, blocks, algebraic, start=start)
     for pair in numbering.circles:
         force = numbering.own[pair.path, pair.unknown]
         sharing = {force, *(numbering.share[index] for index, _ in pair.ends if index in numbering.share)}
         for at in sharing:
             rows_of[at] |= sharing
     return rows_of
+
+
+def _enter_rates(
+    rows_of: list[set[int]], numbering: Numbering, blocks: list[Block], algebraic: np.ndarray, *, start: bool
+) -> None:
+    """Rows that hold contain the rates of the speeds they hold, also those they hold through nodes without inertia."""
+    without, held = rows_without_rates(blocks, numbering), set[int]()
+    for block in blocks:
+        s = block.kernel.structure
+        for unknown, j in s.mass:
+            if s.zones[0] in s.holds[unknown] or not start:
+                row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]
+                held.update(row.tolist())
+                in_mass = (column < numbering.n) & ~np.isin(row, without)
+                for r, c in zip(row[in_mass].tolist(), column[in_mass].tolist(), strict=True):
+                    if not algebraic[c]:
+                        rows_of[c].add(r)
+    for r, c in relations(light_parts(blocks, held_entries(blocks, shares(blocks)[0], numbering), numbering)):
+        if r in held:
+            rows_of[c].add(r)
 
 
 def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, signals: _Signals) -> None:
