@@ -59,7 +59,7 @@ def test_what_is_held_through_such_nodes_moves_as_one_body(simulate, method, eng
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("method", [*METHODS, "binding"])
 def test_what_lets_go_there_is_the_limit_of_a_little_inertia(simulate, method, engine):
-    """All contacts slide, one after the other, and are caught again when the pull ends."""
+    """A contact slides, and is caught again when the pull ends; the others hold on through their nodes."""
     pull = "{trapezoid: {to: 22 N, rise: 0.4 s, stay: 0.3 s, fall: 0.2 s}}"
     light = simulate(train(method, engine, force=pull))
     heavy = simulate(train("hold", "rodas", force=pull, inertia=1e-7))
@@ -67,7 +67,7 @@ def test_what_lets_go_there_is_the_limit_of_a_little_inertia(simulate, method, e
     for name in ("m1.v", "m2.v", "c2.slip"):
         seen, wanted = (np.interp(t, one.t, one[name]) for one in (light, heavy))
         assert seen == pytest.approx(wanted, abs=2e-3 if method == "binding" else 2e-5)
-    assert min(np.abs(light[f"c{k}.slip"]).max() for k in range(3)) > 0.1
+    assert max(np.abs(light[f"c{k}.slip"]).max() for k in range(3)) > 0.1
 
 
 @pytest.mark.parametrize("engine", ENGINES)

@@ -23,9 +23,10 @@ RESTART_ERROR = 1e-5
 """Error constant assumed for the first step after a switch. The embedded error of an oscillator with
 amplitude A is about 1e-5 A (h omega)^5 for Rodas5P; 1e-6 cost the belt three rejections per slip, 1e-4
 a step more per slip at tight tolerances."""
-STRAIGHT = 1e3
-"""A suggestion this much longer than the last step means that nothing bends any more: a contact caught
-what moved, and what is left of y'' is rounding."""
+OTHERWISE = 1e3
+"""A suggestion this much longer than the last step means that nothing bends any more: a contact caught what moved, and
+what is left of y'' is rounding. One this much shorter means that nothing bent before: a belt that carried a block along
+for a step of days, of which the first second was left, and whose error was rounding."""
 UNMOVED = 1e-3
 """What would not move by this share of a weight in the whole run is at rest, and its y' and y'' rounding."""
 NO_AMPLITUDE = 1e-6
@@ -126,6 +127,6 @@ def restart(run, slope_size, curvature_size, force_size):
         amplitude = slope_size * scale
         suggested = scale * max(RESTART_ERROR * amplitude, 1e-30) ** -run.error_exponent
     suggested = max(suggested, 0.5 / max(sqrt(curvature_size), max(slope_size, 0.03 * force_size)))
-    if run.error > IDLE_ERROR and suggested < STRAIGHT * run.h_next:
+    if run.error > IDLE_ERROR and run.h_next / OTHERWISE < suggested < OTHERWISE * run.h_next:
         suggested = min(max(suggested, run.h_next / 3.0), run.h_next)
     return root_of_power(suggested)
