@@ -44,7 +44,7 @@ class RigidStop(Component):
 
     @guard("free", to="touching", unit="m")
     def meets(p, a, b):
-        """The gap is closed, and they come nearer: what has just parted may be within each other by the error of a run."""
+        """The gap is closed, and they come nearer: what has just parted may overlap by the error of a run."""
         return a.x + p.length - b.x, (a.v - b.v) * SECOND
 
     @guard("touching", to="free", unit="m")
