@@ -61,7 +61,7 @@ def held_entries(blocks: Sequence[Block], shares: Sequence[Share], numbering: Nu
             column.append(block.in_index[used, j])
             partial.append((share.mass + count * len(s.mass) + e)[used])
             coef.append(block.in_coef[used, j])
-    return Entries(*(np.concatenate(part) for part in (row, column, partial, coef)))
+    return Entries(np.concatenate(row), np.concatenate(column), np.concatenate(partial), np.concatenate(coef))
 
 
 def light_parts(blocks: Sequence[Block], entries: Entries, numbering: Numbering) -> list[Part]:
