@@ -40,9 +40,8 @@ def scene(parts, joins, method, engine, stop):
     """
 
 
-@pytest.mark.parametrize("order", [1, -1])
-@pytest.mark.parametrize("unit", [1.0, 1e3, 1e-3])
-@pytest.mark.parametrize("nodes", [1, 2, 3])
+@pytest.mark.parametrize(("unit", "order"), [(1.0, 1), (1e3, -1), pytest.param(1e-3, -1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("nodes", [1, pytest.param(2, marks=pytest.mark.slow), 3])
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("method", METHODS)
 def test_what_is_held_through_such_nodes_moves_as_one_body(simulate, method, engine, nodes, unit, order):
@@ -72,7 +71,7 @@ def test_what_lets_go_there_is_the_limit_of_a_little_inertia(simulate, method, e
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("method", [*METHODS, "binding"])
-@pytest.mark.parametrize("preload", [0.0, 100.0])
+@pytest.mark.parametrize("preload", [pytest.param(0.0, marks=pytest.mark.slow), 100.0])
 def test_a_lead_screw_lifts_through_a_rod_that_gives_way(simulate, method, engine, preload):
     """The nut has no inertia. Of the force F of the thread mu (P + F) rubs along it, and the load W + M a is left:
 

@@ -16,7 +16,7 @@ BELT = """
 
 
 @pytest.mark.parametrize("engine", ["rodas", "ida"])
-@pytest.mark.parametrize("accuracy", ["1e-3", "1e-4", "1e-6"])
+@pytest.mark.parametrize("accuracy", [pytest.param("1e-3", marks=pytest.mark.slow), "1e-4", "1e-6"])
 @pytest.mark.parametrize(("stiffness", "pressed", "speed"), [(100, 10, 0.2), (1e6, 1e5, 20)])
 def test_a_block_goes_on_sticking_and_slipping(scene, engine, accuracy, stiffness, pressed, speed):
     """Carried along it takes a step of days; when it lets go its first step is one of its own motion."""

@@ -59,9 +59,11 @@ def flights(amplitude, frequency, stop):
 
 @pytest.mark.parametrize("engine", ["rodas", "ida"])
 @pytest.mark.parametrize(
-    ("amplitude", "frequency", "unit"), [(1.0, 2, 1.0), (0.6, 3, 1e3), (0.35, 8, 1e-3), (0.3, 15, 1.0)]
-)
-@pytest.mark.parametrize("accuracy", ["1e-3", "1e-4", "1e-6"])
+    ("amplitude", "frequency", "unit"),
+    [(1.0, 2, 1.0), (0.6, 3, 1e3), pytest.param(0.35, 8, 1e-3, marks=pytest.mark.slow),
+     pytest.param(0.3, 15, 1.0, marks=pytest.mark.slow)],
+)  # fmt: skip
+@pytest.mark.parametrize("accuracy", [pytest.param("1e-3", marks=pytest.mark.slow), "1e-4", "1e-6"])
 def test_it_leaves_and_lands_when_it_should(simulate, engine, amplitude, frequency, unit, accuracy):
     """Three flights, found by the roots of closed forms; with other masses too."""
     stop = 3.3 / frequency
