@@ -13,7 +13,7 @@ OF_THE_PROBLEM = {
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
     "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell",
-    "least_theta", "fixed_step", "damps",
+    "least_theta", "fixed_step",
 }  # fmt: skip
 OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 """Set by parts.py itself, or emptied before."""

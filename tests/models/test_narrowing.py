@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fairlead.integrate import parts
+from fairlead.integrate import Run, integrate, parts
 
 ROD = """
     components:
@@ -25,6 +25,29 @@ def rod(blocks, hand=SWING, stop=2):
     """A rod whose blocks and springs are the same however many there are."""
     given = {"mass": 0.1 * blocks, "stiffness": 1e6 / blocks, "friction": 0.5 * blocks}
     return ROD.format(n=blocks, hand=hand, stop=stop, **given)
+
+
+def row_with_stiction(blocks):
+    """Blocks in a row, pulled to and fro at the first; each has 0.6 N of stiction and 0.5 N of sliding friction."""
+    lines = [
+        "ground: {type: Ground}",
+        "hand: {type: MotionSource, position: {sine: {amplitude: 2.7 mm, frequency: 1 Hz}}}",
+        "hook: {type: SpringDamper, stiffness: 2000 N/m, damping: 4 N*s/m}",
+    ]
+    joins = [["ground.flange", *(f"rub{k}.a" for k in range(blocks))], ["hand.flange", "hook.b"]]
+    for k in range(blocks):
+        lines.append(f"block{k}: {{type: Mass, mass: 0.1 kg}}")
+        lines.append(
+            f"rub{k}: {{type: Contact, normal_force: 1 N, curve: {{curve: coulomb, stiction: 0.6, coulomb: 0.5}}}}"
+        )
+        lines.append(f"tie{k}: {{type: SpringDamper, stiffness: 2000 N/m, damping: 4 N*s/m}}" if k else "")
+        joins.append([f"block{k}.flange", f"rub{k}.b", f"tie{k}.b" if k else "hook.a"])
+        joins[-1] += [f"tie{k + 1}.a"] if k + 1 < blocks else []
+    wiring = "\n".join(f"  - [{', '.join(ports)}]" for ports in joins)
+    return (
+        "components:\n  " + "\n  ".join(filter(None, lines)) + f"\nconnections:\n{wiring}\n"
+        "friction: {method: hold}\nrun: {stop: 3 s}\neffects: {energy: off}\n"
+    )
 
 
 def on_the_grid(result, name):
@@ -88,3 +111,18 @@ def test_a_load_that_comes_by_the_clock_wakes_nobody_too_late(simulate):
     mean = np.mean([np.asarray(result[f"other.block[{k}].x"])[-1] for k in range(80)])
     assert abs(mean) == pytest.approx(0.5 * (40.0 / 8.0) * 1.0**2, rel=0.02)  # 40 N of excess on 8 kg for 1 s
     assert abs(last) > abs(first) > 0
+
+
+def test_a_part_of_few_machines_puts_jumps_of_friction_right_as_the_whole_of_many_does(scene, monkeypatch):
+    """Six of 60 blocks move. The part has less than 40 contacts; switches stay inside steps, and their ends damped."""
+    system = scene(row_with_stiction(60)).system
+    runs = []
+    for least in (1, 10**9):
+        for name, value in {"LEAST": least, "LOOK_COST": 0, "LOOK_BASE": 3}.items():
+            monkeypatch.setattr(parts, name, value)
+        runs.append(integrate(system, Run(stop=3.0, accuracy=1e-6, engine="stepping")))
+    part, whole = runs
+    assert part.counters.partial_steps > 0.9 * part.counters.steps
+    assert whole.counters.partial_steps == 0
+    assert (part.counters.steps, part.counters.switches) == (whole.counters.steps, whole.counters.switches)
+    np.testing.assert_allclose(part.y, whole.y, rtol=0, atol=1e-12)  # the parts differ by rounding

@@ -40,8 +40,8 @@ NEVER = 1e300
 
 NUMBERS = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
-    "total_events", "stop_asked", "failed", "localising", "locates", "driven", "t", "h", "h_wanted", "h_next", "error",
-    "last_error",
+    "total_events", "stop_asked", "failed", "localising", "locates", "damps", "driven", "t", "h", "h_wanted", "h_next",
+    "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
     "theta_raise", "gap", "gap_before", "t_cut", "t_bent", "growth", "t_growth", "allowed", "allowed_before",
     "block_steps",
