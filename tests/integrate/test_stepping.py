@@ -62,6 +62,16 @@ def test_the_step_follows_the_accuracy():
     assert found[1] < 0.1 * found[0]
 
 
+@pytest.mark.parametrize("theta", [0.55, 1.0])
+def test_a_theta_above_the_middle_makes_at_most_one_weight_of_error_a_step(theta):
+    """Its leading error is (theta - 1/2) h^2 y''. Errors of steps add up."""
+    problem, exact = nonlinear_ode(absolute=1e-6, relative=1e-6)
+    outcome = integrate(problem, Run(stop=2.0, engine="stepping", theta=theta))
+    assert outcome.ok
+    assert outcome.counters.rejected <= 5
+    assert np.abs(outcome.y - exact(2.0)).max() < 1e-6 * outcome.counters.steps
+
+
 def test_a_held_block_does_not_creep():
     problem = belt_block(start=(0.05, 0.2))
     outcome = integrate(problem, Run(stop=0.2, engine="stepping", fixed_step=1e-3))

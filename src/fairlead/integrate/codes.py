@@ -34,4 +34,4 @@ PARABOLA, QUARTIC = 1, 3
 """Rows inside a step, evenly spaced, that its dense output goes through: of `stepping`, and of the other engines."""
 
 MIDDLE = 0.5
-"""The theta of the midpoint rule: the one whose error is known (third_order.py)."""
+"""The theta of the midpoint rule: the one whose error is taken away (third_order.py)."""

@@ -5,7 +5,9 @@ the mean slopes of this step and the two before,
 
     error = h^3/6 [k_n, k_n-1, k_n-2]
 
-It is taken away before (third_order.py): what is controlled is the error of the step without that.
+It is taken away before (third_order.py): what is controlled is the error of the step without that, which is more than
+what is left of it.
+With a theta above 1/2 nothing is taken away, and the step misses (theta - 1/2) h^2 y'' besides: that comes on top.
 Controlled are all differential unknowns but speeds that have a position (x' = v); these too where every switch is
 landed on, by located_step.py. A contact that starts
 or stops inside a step bends the motion there: the speed at the end of the step is then still right to
@@ -35,6 +37,7 @@ from __future__ import annotations
 
 from math import inf, isfinite, sqrt
 
+from fairlead.integrate.codes import MIDDLE
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.stepping.located_step import HOLD_SHARE, error_of_located
@@ -78,6 +81,7 @@ def error_of_step(m, h):
     near, far = rule.gap + 0.5 * h, rule.gap_before
     per_step, per_near, per_far = 1.0 / h, 1.0 / near, 1.0 / far
     third = h * h * h / 6.0 / (near + far)
+    second = (rule.theta_now - MIDDLE) * h * h
     weigh(point, point.at_y_end)
     for k in range(n):
         error[k] = 0.0
@@ -92,7 +96,7 @@ def error_of_step(m, h):
             if curve * curve_before > 0.0 and abs(curve) <= UNEVEN * abs(curve_before):
                 bend[k] = -0.5 * h * h * curve
             if controlled[k] == 1 or (rule.locates == 1 and quadrature[k] == 0):
-                error[k] = third * (curve - curve_before)
+                error[k] = abs(third * (curve - curve_before)) + abs(second * curve)
         else:
             slope[k] = (y_end[k] - (y[k] if settled else mean[k])) * per_near
     if rule.locates == 1:
