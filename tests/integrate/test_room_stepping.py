@@ -73,6 +73,13 @@ def unseen():
 
 
 @functools.cache
+def error():
+    from fairlead.integrate.stepping.step_error import error_of_step
+
+    return entry(error_of_step, ("",), "d", "d")
+
+
+@functools.cache
 def turned():
     from fairlead.integrate.stepping.switch_inside import first_turned
 
@@ -275,6 +282,28 @@ def test_a_contact_that_lets_go_inside_a_step_hides_the_speed_of_the_page_on_the
     missed = rate * H**2 / (2 * MASS) * (share**2 if lets_go else (1 - share) ** 2)
     assert unseen()(at, H) == pytest.approx(missed / OF_SPEED / (10.0 if smooth else 1.0), rel=1e-9)
     assert at.number["worst"] == 2
+
+
+@pytest.mark.parametrize("speed", [0.0, 2.0])
+@pytest.mark.parametrize(("bend", "worst"), [(1.0, 0), (1e-4, 2)])
+def test_the_unknown_to_blame_is_the_one_with_the_largest_error(bend, worst, speed):
+    """Two errors of a step: of a body whose slope bends, and the one hidden behind a limit, at s = 0.7 of the step."""
+    rate, share = 40.0, 0.7
+    early, before, middle = (rate * (t - share * H) for t in (-1.5 * H, -0.5 * H, 0.5 * H))
+    hidden = rate * H**2 / (2 * MASS) * (1 - share) ** 2 / OF_SPEED
+    at = one_body(
+        numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_early=[early], limit_guard=[1],
+        guard_machine=[0], guard_tolerance=[1e-9], rested=[2, 2, 2], holds=[0, 0, 1], own_kind=[0], kind_is_smooth=[0],
+        slope_before=[speed, 0.0, rate], slope_earlier=[speed + bend, 0.0, 0.0], mean_slope=np.zeros(3),
+        y=np.zeros(3), y_end=[speed * H, 0.0, rate * H], D=np.zeros(3), mean_before=np.zeros(3), differential=[1, 1, 0],
+        controlled=[1, 0, 0], error_vector=np.zeros(3), quadrature=np.zeros(3), unweighed=np.zeros(3),
+        absolute=[OF_PLACE, OF_SPEED, OF_FORCE], relative=np.zeros(3), cap=np.full(3, np.inf),
+    )  # fmt: skip
+    at.number["theta_now"] = 0.5
+    shown = H * bend / 12 / OF_PLACE
+    assert (shown > hidden) == (worst == 0)
+    assert error()(at, H) == pytest.approx(max(shown, hidden), rel=1e-9)
+    assert at.number["worst"] == worst
 
 
 def test_a_contact_whose_load_falls_or_that_has_just_been_caught_hides_nothing():

@@ -16,7 +16,8 @@ def stepping_numbers(run: Run, problem: Instance) -> Mapping[str, float]:
     locates = run.fixed_step is None and run.theta == MIDDLE and len(problem.zones) <= run.most_located
     return {
         "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
-        "error_exponent": 1.0 / 3.0 if run.theta == MIDDLE else 1.0 / 2.0, "linear": int(problem.linear), "most_inside": PARABOLA,
+        "error_exponent": 1.0 / 3.0 if run.theta == MIDDLE else 1.0 / 2.0,
+        "linear": int(problem.linear), "most_inside": PARABOLA,
         "samples": int(problem.samples),
         "has_limits": int(np.any(problem.limit_guard)),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),

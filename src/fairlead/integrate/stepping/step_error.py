@@ -102,15 +102,25 @@ def error_of_step(m, h):
     if rule.locates == 1:
         return error_of_located(point, stepping, h)
     size = weighted_norm(point, point.at_error_vector)
-    size = max(size, unseen_slip(point, m.linear.matrices, m.events.guards, stepping, h))
+    worst = point.worst
+    size = larger(point, size, worst, unseen_slip(point, m.linear.matrices, m.events.guards, stepping, h))
+    worst = point.worst
     if settling.passes > 0:
-        size = max(size, unseen_force(m, h))
+        size = larger(point, size, worst, unseen_force(m, h))
     if settling.passes > 0 or moves(point, rule):
         return size
     for k in range(n):
         if holds[k] == 1:
             error[k] = HOLD_SHARE * h * (slope[k] - before[k])
-    return max(size, weighted_norm(point, point.at_error_vector))
+    return larger(point, size, worst, weighted_norm(point, point.at_error_vector))
+
+
+@compiled
+def larger(point, size, worst, other):
+    """The larger of two sizes; `worst`, in which the second has left its place, is the place of the first again."""
+    if other <= size:
+        point.worst = worst
+    return max(size, other)
 
 
 @compiled

@@ -50,7 +50,7 @@ from fairlead.integrate.stepping.located_step import (
     stops_little,
 )
 from fairlead.integrate.stepping.passed_over import guards_are_passed
-from fairlead.integrate.stepping.step_error import error_of_step
+from fairlead.integrate.stepping.step_error import error_of_step, larger
 from fairlead.integrate.stepping.switch_inside import impulse_is_missed, jump_is_due
 from fairlead.integrate.stepping.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
@@ -158,7 +158,8 @@ def end_located(m, h):
     refine_end(problem, point, linear, m.stepping, h)
     error = error_of_step(m, h)
     if error <= 1.0:
-        error = max(error, balance_end(m, h))
+        worst = point.worst
+        error = larger(point, error, worst, balance_end(m, h))
     if exchange.massless == 1:
         end_massless(problem, point, linear, exchange, h)
     return error
