@@ -29,7 +29,7 @@ def line():
 def jump():
     from fairlead.integrate.stepping.switch_inside import find_jump
 
-    return entry(find_jump, ("point", "events.guards", "stepping.rule"), "d")
+    return entry(find_jump, ("point", "events.guards", "stepping.contacts", "stepping.rule"), "d")
 
 
 def chain(order, margins, excess):
@@ -99,7 +99,7 @@ def test_four_tries_find_a_jump_to_a_thousandth_of_a_step_where_the_load_changes
         return rate * (t - due) + curve * (t - due) ** 2
 
     at = memory({"n_guards": 1, "n_zones": 1, "n_fired": 1, "gap": gap, "t": 0.0}, fired=[0],
-                g=[load(-gap)], g_end=[0.0], guard_tolerance=[1e-9])  # fmt: skip
+                g=[load(-gap)], g_end=[0.0], guard_tolerance=[1e-9], is_mean=[1])  # fmt: skip
     h, told = 1.0, 1.0
     for _ in range(TRIES + 1):
         h = told

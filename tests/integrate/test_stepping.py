@@ -10,6 +10,7 @@ from fairlead.integrate.textbook import textbook
 from tests.integrate.problems import (
     belt_block,
     coulomb_oscillator,
+    falling_ball,
     index_one_dae,
     nonlinear_ode,
     stick_slip_times,
@@ -108,6 +109,47 @@ def test_a_break_away_from_stiction_is_landed_on_to_order_two():
     assert times[0] == pytest.approx(breaks, abs=1e-9)  # the force of the belt is linear in time
     assert times[1] == pytest.approx(breaks + slip, abs=2 * step)  # the log has the end of the step
     assert times[2] == pytest.approx(breaks + slip + stick, abs=100 * step**2)
+
+
+@pytest.mark.parametrize("step", [0.03, None])
+def test_a_rebound_inside_steps_is_where_the_ball_meets_the_ground(step):
+    """After 1 s with 2 m/s, half of which are left. The guard is a position, read at the ends of steps."""
+    problem = falling_ball(absolute=1e-6, relative=1e-6)
+    outcome = integrate(problem, Run(stop=1.7, engine="stepping", most_located=0, fixed_step=step))
+    assert outcome.y == pytest.approx([0.7 - 0.7**2, 1.0 - 1.4], abs=1e-8)
+
+
+def place_where_a_force_jumps(place, acceleration=1.0, beside=1e5):
+    """y = x, v, a, w: a goes from 0 to -3 where x comes to `place`; beside it w follows a stiff, bent law."""
+
+    def rhs(t, y, z, f):
+        f[0], f[1], f[2] = y[1], acceleration + y[2], y[2] + 3.0 * z[0]
+        f[3] = -beside * (y[3] ** 3 + 0.1 * y[3] - np.sin(20 * t))
+
+    def jacobian(t, y, z, J, ft):
+        J[0, 1], J[1, 2], J[2, 2], J[3, 3] = 1.0, 1.0, 1.0, -beside * (3 * y[3] ** 2 + 0.1)
+        ft[3] = beside * 20 * np.cos(20 * t)
+
+    def guards(t, y, z, g):
+        g[0] = y[0] - place if z[0] == 0 else -1.0
+
+    def switch(t, y, z, fired):
+        z[0] = 1
+
+    return textbook(
+        [0.0, 1.0, 0.0, 0.0], rhs, jacobian, guards=guards, switch=switch, zones=[0], guard_machine=[0], algebraic=[2]
+    )
+
+
+@pytest.mark.parametrize("acceleration", [1.0, -1.0])
+@pytest.mark.parametrize("step", [0.02, 0.01])
+def test_a_law_that_jumps_at_a_place_does_so_there(step, acceleration):
+    """Told by both ends of the step: the place is missed by less than a hundredth of it, and so is the impulse."""
+    due = 0.311
+    problem = place_where_a_force_jumps(due + 0.5 * acceleration * due**2, acceleration)
+    outcome = integrate(problem, Run(stop=0.5, engine="stepping", most_located=0, fixed_step=step))
+    right = 1.0 + acceleration * 0.5 - 3.0 * (0.5 - due)
+    assert outcome.y[1] == pytest.approx(right, abs=0.01 * 3.0 * step)
 
 
 def test_the_belt_agrees_with_rodas():

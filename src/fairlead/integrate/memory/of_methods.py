@@ -92,7 +92,7 @@ CONTACTS = Struct(
     },
     indices={
         "rested": "n", "zones_at_start": "n_zones", "body_starts": "n_zones_plus_1", "body_speed": "n_body_speed",
-        "body_position": "n_body_speed", "continuous": "n_guards", "may_jump": "n_guards",
+        "body_position": "n_body_speed", "continuous": "n_guards", "may_jump": "n_guards", "is_mean": "n_guards",
         "suspects": "n_guards", "kind_is_smooth": "n_zones", "zones_probed": "n_zones", "first_guard": "n_zones",
         "met": "n_zones", "hold_row": "n_zones", "released": "n_zones", "released_by": "n_zones",
         "switched": "n_zones", "neighbour_starts": "n_zones_plus_1", "neighbours": "n_neighbours",

@@ -63,7 +63,10 @@ def all_continuous(guards, contacts):
 
 @compiled
 def share(guards, i):
-    """Share of the step after which guard i comes to zero; zero where it is at its limit from the start."""
+    """Where guard i comes to zero between its two values, as a share; zero where it is at its limit from the start.
+
+    Of a guard that is read in the middle these are the middles of two steps, of others both ends of this one.
+    """
     before, now = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_end, guards.n_guards)[i]
     return before / (before - now) if is_inside(guards, i) and now > before else 0.0
 
@@ -181,13 +184,35 @@ def locate_guard(problem, run, point, guards, h, i):
 
 
 @compiled
-def find_jump(point, guards, rule, h):
-    """Into `t_cut`: when the first guard in `fired` reaches zero, by the line through two middles of steps."""
-    fired = indices(guards.at_fired, guards.n_guards)
+def find_means(m, h):
+    """Mark the guards that are read in the middle of a step: limits, and what follows algebraic unknowns, its means."""
+    point, guards, contacts = m.point, m.events.guards, m.stepping.contacts
+    y, y_end, probe = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_y_probe, point.n)
+    differential = indices(point.at_differential, point.n)
+    for k in range(point.n):
+        probe[k] = y_end[k] if differential[k] == 1 else y[k]
+    evaluate_guards(m.problem, m.run, guards, point.t + h, point.at_y_probe, guards.at_g_probe)
+    g_end, without = reals(guards.at_g_end, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
+    tolerance = reals(guards.at_guard_tolerance, guards.n_guards)
+    is_mean, is_limit = (
+        indices(contacts.at_is_mean, guards.n_guards), indices(contacts.at_limit_guard, guards.n_guards),
+    )  # fmt: skip
+    for i in range(guards.n_guards):
+        is_mean[i] = 1 if is_limit[i] == 1 or abs(g_end[i] - without[i]) > tolerance[i] else 0
+
+
+@compiled
+def find_jump(point, guards, contacts, rule, h):
+    """Into `t_cut`: when the first guard in `fired` reaches zero.
+
+    By the line through two middles of steps, or through both ends of this one: where it is read (`find_means`).
+    """
+    fired, is_mean = indices(guards.at_fired, guards.n_guards), indices(contacts.at_is_mean, guards.n_guards)
     near = rule.gap + 0.5 * h
     rule.t_cut = point.t + 2.0 * h
     for k in range(guards.n_fired):
-        rule.t_cut = min(rule.t_cut, point.t - rule.gap + share(guards, fired[k]) * near)
+        s = share(guards, fired[k])
+        rule.t_cut = min(rule.t_cut, point.t + (s * near - rule.gap if is_mean[fired[k]] == 1 else s * h))
     rule.t_cut = max(rule.t_cut, point.t)
 
 
@@ -210,10 +235,24 @@ def jump_is_due(m, h):
             guards.n_fired += 1
     if guards.n_fired == 0 or all_continuous(guards, contacts):
         return False
-    jumps = law_jumps_ahead(m, h)
+    keep_means(m, h)
+    jumps = guards.n_fired > 0 and law_jumps_ahead(m, h)
     if jumps:
-        find_jump(m.point, guards, rule, h)
+        find_jump(m.point, guards, contacts, rule, h)
     return jumps
+
+
+@compiled
+def keep_means(m, h):
+    """Leave guards out of `fired` that are read at the end of a step, where they are not above zero."""
+    guards, count = m.events.guards, 0
+    find_means(m, h)
+    fired, is_mean = indices(guards.at_fired, guards.n_guards), indices(m.stepping.contacts.at_is_mean, guards.n_guards)
+    for k in range(guards.n_fired):
+        if is_mean[fired[k]] == 1:
+            fired[count] = fired[k]
+            count += 1
+    guards.n_fired = count
 
 
 @compiled

@@ -68,6 +68,7 @@ from fairlead.integrate.stepping.row_cache import (
 from fairlead.integrate.stepping.switch_inside import (
     all_continuous,
     find_jump,
+    find_means,
     forget_switches,
     law_jumps,
     note_switches,
@@ -179,12 +180,14 @@ def switch_zones(m, h):
         learn_from_neighbours(run, guards, contacts)
     known = all_continuous(guards, contacts)
     if settling.passes == 0 and not known and rule.gap > 0.0 and law_jumps(m, h):
-        find_jump(point, guards, rule, h)
+        find_means(m, h)
+        find_jump(point, guards, contacts, rule, h)
         return JUMPS
-    if not known:
-        note_fired(guards, contacts)
+    note_fired(guards, contacts)
     if follow_guards(m, h, known):
-        find_jump(point, guards, rule, h)
+        copy(indices(contacts.at_zones_probed, contacts.n_zones), indices(contacts.at_zones, contacts.n_zones))
+        find_means(m, h)
+        find_jump(point, guards, contacts, rule, h)
         return JUMPS
     if not known:
         put_jumps_right(m, h)
