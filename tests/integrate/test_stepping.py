@@ -152,6 +152,16 @@ def test_a_law_that_jumps_at_a_place_does_so_there(step, acceleration):
     assert outcome.y[1] == pytest.approx(right, abs=0.01 * 3.0 * step)
 
 
+@pytest.mark.parametrize("due", [0.311, 0.477])
+def test_what_is_beside_a_jump_is_solved_in_the_step_that_ends_there(due):
+    """As in a step of the same length that ends there without a jump."""
+    jumps, stays = (place_where_a_force_jumps(place, -1.0) for place in (due - 0.5 * due**2, 9.0))
+    outcome = integrate(jumps, Run(stop=due + 0.01, engine="stepping", most_located=0, fixed_step=0.02))
+    before = int(np.flatnonzero(outcome.sides == 1)[0])
+    run = Run(stop=float(outcome.times[before]), engine="stepping", most_located=0, fixed_step=0.02)
+    assert outcome.values[before] == pytest.approx(integrate(stays, run).y, abs=1e-9)  # weights of 1e-6, SOLVED 1e-3
+
+
 def test_the_belt_agrees_with_rodas():
     problem = belt_block(absolute=[1e-8, 1e-7, 1e-6], relative=1e-6)
     one = integrate(problem, Run(stop=3.0, engine="stepping"))

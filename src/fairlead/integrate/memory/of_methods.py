@@ -26,8 +26,8 @@ RULE = Struct(
     copies=("n", "quadrature",),
     integers=(
         # whether it lands on every switch, whether J and M are those of the zones in force, steps failed in a row,
-        # tries to end where a law jumps
-        "locates", "linearised", "failed", "localising", "block_steps",
+        # tries to end where a law jumps, whether the step in hand, which ends there, keeps the zones of its start
+        "locates", "linearised", "failed", "localising", "frozen", "block_steps",
         # whether moves were taken back in this step (residual.py), whether its matrix is that of zones or values
         # met on the way, whether other pivots were tried for that
         "searched", "midway", "replanned",

@@ -48,7 +48,7 @@ def expect_fronts(m, h):
     problem, run, point, guards, stepping = m.problem, m.run, m.point, m.events.guards, m.stepping
     rule, contacts = m.stepping.rule, m.stepping.contacts
     contacts.expecting = 0
-    if contacts.n_neighbours == 0 or rule.gap == 0.0 or rule.failed > 0:
+    if contacts.n_neighbours == 0 or rule.gap == 0.0 or rule.failed > 0 or rule.frozen == 1:
         return
     nz, ng = problem.n_zones, problem.n_guards
     released, slot = indices(contacts.at_released, nz), indices(contacts.at_released_by, nz)

@@ -117,12 +117,12 @@ def take_theta_step(m, h):
         solved = True
         solves += 1
         exchange.newly_held = 0
-        if rule.locates == 1:
-            guards.n_fired = 0
-        else:
+        if rule.locates == 0:
             guards_of_step(m, h)
             violators(guards)
             doubt_captures(m, h)
+        if rule.locates == 1 or rule.frozen == 1:
+            guards.n_fired = 0
         if guards.n_fired == 0:
             if problem.linear == 1 and exchange.unchecked == 0:
                 add_quadratures(problem, point, rule, h)

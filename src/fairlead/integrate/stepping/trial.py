@@ -52,7 +52,7 @@ from fairlead.integrate.stepping.located_step import (
 from fairlead.integrate.stepping.passed_over import guards_are_passed
 from fairlead.integrate.stepping.step_error import error_of_step, larger
 from fairlead.integrate.stepping.switch_inside import impulse_is_missed, jump_is_due
-from fairlead.integrate.stepping.theta_step import CYCLES, JUMPS, add_quadratures, give_back_zones, take_theta_step
+from fairlead.integrate.stepping.theta_step import CYCLES, JUMPS, give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
 
 HALVINGS = 3
@@ -106,8 +106,10 @@ def finish_inside(m, h, status):
             return settle_jump(m)
         if not ends_at_jump(m, h):
             return end_at_switch(m, min(rule.t_cut - point.t, h), TOO_FAR)
-        status = DONE
-        add_quadratures(problem, point, rule, h)  # a trial that ends at a jump was given up before
+        if status == JUMPS:
+            status = solve_in_zones(m, h)
+            if status == INACCURATE:
+                return find_pivots(m, h)
     if status != DONE:
         return halve_unsolved(m, h, status)
     if run.narrowed == 1 and settling.passes > 0 and rim_changed(settling, m.stepping.contacts):
@@ -329,6 +331,16 @@ def ends_at_jump(m, h):
         return True
     rule.localising += 1
     return False
+
+
+@compiled
+def solve_in_zones(m, h):
+    """Take the step that ends at a jump once more, in the zones of its start: it was given up there, not yet solved."""
+    core, rule = m.linear.core, m.stepping.rule
+    core.skip_meters, rule.frozen = 1, 1
+    status = take_theta_step(m, h)
+    core.skip_meters, rule.frozen = 0, 0
+    return status
 
 
 @compiled
