@@ -15,6 +15,7 @@ from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.flatten.kinematics import group
+from fairlead.flatten.never_slips import never_slips
 from fairlead.flatten.routing import lay
 from fairlead.flatten.wiring import port_graph, wire
 
@@ -46,7 +47,7 @@ def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
     flat = FlatModel(assembly, instances, tuple(nodes), tuple(groups), node_of, group_of, links)
     if not faults and not assembly.broken:
         faults += unheard(assembly.netlist, (instance.type for instance in instances))
-    faults += _without_effect(flat) + _held_between_prescribed(flat) + _missing_inputs(flat)
+    faults += _without_effect(flat) + _always_held(flat) + _held_between_prescribed(flat) + _missing_inputs(flat)
     _start_sources(flat)
     return flat, sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what))
 
@@ -75,6 +76,20 @@ def _where_joined(flat: FlatModel, ports: list[PortRef]) -> Location:
     return named[-1] if named else flat.assembly.instances[ports[0].instance].where
 
 
+def _always_held(flat: FlatModel) -> list[Fault]:
+    """What holds a slip that no motion of its one body can change: its force is not determined."""
+    faults = []
+    for instance in flat.instances:
+        held = never_slips(flat, instance) if instance.type.declaration.unknowns else None
+        if held is not None:
+            body, ports = held
+            sides, *_, last = (str(PortRef(instance.path, port)) for port in ports)
+            many = "both" if len(ports) == 2 else "all"
+            what = f"{instance.path} has {many} sides on one rigid body ({body.name}); they can never slip."
+            faults.append(Fault(instance.where, what, f"Remove {instance.path}, or what ties {sides} to {last}."))
+    return faults
+
+
 def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
     """What may hold two sides together needs one whose motion is unknown, else its force is not determined."""
     faults = []
@@ -84,12 +99,10 @@ def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
         if not has.unknowns or not {"a", "b"} <= set(has.ports) or flat.node_of[ends[0]] == flat.node_of[ends[1]]:
             continue
         sides = [flat.groups[flat.place(end)[0]] for end in ends]
-        if sides[0] is sides[1]:
-            what = f"{instance.path} has both sides on one rigid body ({sides[0].name}); they can never slip."
-            faults.append(Fault(instance.where, what, f"Remove {instance.path}, or what ties {ends[0]} to {ends[1]}."))
-        elif all(not side.free for side in sides):
-            who = " and ".join(str(side.prescribed.by) for side in sides if side.prescribed)
-            what = f"{instance.path} lies between two prescribed motions ({who}); no law determines its force."
+        if all(not side.free for side in sides) and never_slips(flat, instance) is None:
+            who = " and ".join(dict.fromkeys(str(side.prescribed.by) for side in sides if side.prescribed))
+            between = "between two prescribed motions" if sides[0] is not sides[1] else "across a prescribed motion"
+            what = f"{instance.path} lies {between} ({who}); no law determines its force."
             other = ", or write friction: {method: binding}" if issubclass(instance.type, Family) else ""
             faults.append(Fault(instance.where, what, f"Put a Mass and a Spring between{other}."))
     return faults

@@ -33,7 +33,7 @@ from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from fairlead.system.arrays.blocks import Block, Floats, Memory
 from fairlead.system.arrays.shares import Share
 from fairlead.system.assembly.program import Entries
-from fairlead.system.numbering.contact_cycles import REST, end
+from fairlead.system.numbering.contact_cycles import REST, ends
 from fairlead.system.numbering.unknowns import Numbering
 
 SPEEDS = ("m/s", "rad/s")
@@ -95,9 +95,9 @@ def sharing(
     }
 
 
-def inertia(flat: FlatModel, ends: Sequence[tuple[int, float]]) -> float:
+def inertia(flat: FlatModel, held: Sequence[tuple[int, float]]) -> float:
     """What resists a force between two groups, by what it moves there: 1/(a^2/m_a + b^2/m_b), at most 1 kg if light."""
-    free = [(flat.groups[g].mass, coef) for g, coef in ends if g != REST and flat.groups[g].free]
+    free = [(flat.groups[g].mass, coef) for g, coef in held if g != REST and flat.groups[g].free]
     ease = sum(coef**2 / mass for mass, coef in free if mass > 0)
     return 1 / ease if ease > 0 else 1.0
 
@@ -138,6 +138,7 @@ def guard_inertias(
         for unknown, speeds in s.pairs.items():
             slots = sorted({k for ks in stops(block, s.holds[unknown]).values() for k in ks})
             for i, instance in enumerate(block.instances if slots else ()):
-                ends = [end(flat, instance.path, port, speed) for port, speed in speeds.items()]
-                made[[share.guards + i * s.slots + k for k in slots]] = inertia(flat, ends)
+                made[[share.guards + i * s.slots + k for k in slots]] = inertia(
+                    flat, ends(flat, instance.path, speeds)
+                )
     return made

@@ -47,14 +47,22 @@ def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPa
 
 def _pairs(flat: FlatModel, path: str, structure: Structure) -> Iterator[HeldPair]:
     for unknown, speeds in structure.pairs.items():
-        ends = [end(flat, path, port, speed) for port, speed in speeds.items()]
-        moving = [one for one in ends if one[0] != REST]  # a lever whose pivot stands joins two bodies
+        moving = [one for one in ends(flat, path, speeds) if one[0] != REST]  # a lever whose pivot stands joins two
         if len(moving) <= 2:
             one, other = (*moving, (REST, 1.0), (REST, 1.0))[:2]
             yield HeldPair(path, unknown, (one, other), structure.senses[unknown])
 
 
-def end(flat: FlatModel, path: str, port: str, speed: float) -> tuple[int, float]:
+def ends(flat: FlatModel, path: str, speeds: Mapping[str, float]) -> list[tuple[int, float]]:
+    """Every group that a slip is a sum of speeds of, with its coefficient: two ports may belong to one, over a gear."""
+    found: dict[int, float] = {}
+    for port, speed in speeds.items():
+        index, coef = _end(flat, path, port, speed)
+        found[index] = coef if index == REST else found.get(index, 0.0) + coef
+    return list(found.items())
+
+
+def _end(flat: FlatModel, path: str, port: str, speed: float) -> tuple[int, float]:
     """The group a port belongs to, and what a unit of its speed adds to the slip, for a `speed` at the port."""
     index, ratio, _ = flat.place(PortRef(path, port))
     prescribed = flat.groups[index].prescribed
