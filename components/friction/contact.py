@@ -17,6 +17,9 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 
+LIFT = 1e-6  # N, far below what presses a contact of any machine
+SHARE = 1e-3  # of a normal force that is given, where that is less
+
 
 class Contact(Family, Component, abstract=True):
     """Dry friction between two bodies, `a` the surface and `b` the body that slips on it.
@@ -35,7 +38,10 @@ class Contact(Family, Component, abstract=True):
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     viscous = Parameter("N*s/m", "Viscous friction beside the dry one, while sliding; none when not given.",
                         default=None, least=0)  # fmt: skip
-    lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
+    lift = Parameter(
+        "N", "Normal force below which the contact is open; when not given 1 uN, or a thousandth of a normal_force "
+        "that is below 1 mN.", default=None, above=0,
+    )  # fmt: skip
     load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
     temperature_dependence = Effect("The curve's softening and shift; off: friction does not depend on temperature.")
     extent = Parameter(
@@ -48,6 +54,10 @@ class Contact(Family, Component, abstract=True):
     slip = Output("m/s", "Slip speed of b over a.")
     friction = Output("N", "Friction T, positive when it opposes positive slip.", role="share")
     creep_rate = Output("m/s", "Slip speed while the contact should stick, else zero.", role="creep")
+
+    def prepare(given):
+        """The normal force below which the contact is open."""
+        return with_lift(given)
 
     @shared
     def grip(p, normal, temperature):
@@ -82,6 +92,17 @@ class Contact(Family, Component, abstract=True):
     def narrowest(p):
         """Slip speed [m/s] from which on friction is that of sliding; None when sticking needs no such band."""
         return None
+
+
+def with_lift(given):
+    """What a contact is given, with its `lift`: a constant force that presses is never meant as none."""
+    own = small_lift(given["normal_force"] or LIFT / SHARE)
+    return {**given, "lift": given["lift"] or own.get("lift", LIFT)}
+
+
+def small_lift(normal):
+    """The `lift` to give a contact that no more than this presses [N]; none where the usual one will do."""
+    return {"lift": SHARE * normal} if 0 < SHARE * normal < LIFT else {}
 
 
 def sliding_friction(p, d, slip, grip, pace):

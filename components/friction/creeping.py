@@ -2,7 +2,7 @@
 
 import math
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import Contact, with_lift
 from fairlead.components.friction.curve import load_factor, stays_in_place
 
 from fairlead.component import Block, Parameter
@@ -45,7 +45,8 @@ class Creeping(Contact, abstract=True):
 
 
 def with_creep(kind, given):
-    """What an instance of `kind` is given, with its creep: as said, or that of its leak, or the usual one."""
+    """What an instance of `kind` is given, with its lift, and its creep: as said, of its leak, or the usual one."""
+    given = with_lift(given)
     return {**given, "creep": given["creep"] or creep_of_leak(kind, given) or USUAL}
 
 

@@ -1,5 +1,6 @@
 """Friction of a line that slips along its axis and turns about it at once."""
 
+from fairlead.components.friction.contact import with_lift
 from fairlead.components.friction.curve import Curve, stays_in_place
 
 from fairlead.component import (
@@ -37,13 +38,20 @@ class PlanarContact(Component):
     radius = Parameter("m", "Radius of the line's surface.", above=0)
     sticks_below, creeps = "creep", True
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
-    lift = Parameter("N", "Normal force below which the contact is open.", default=1e-6, above=0)
+    lift = Parameter(
+        "N", "Normal force below which the contact is open; when not given 1 uN, or a thousandth of a normal_force "
+        "that is below 1 mN.", default=None, above=0,
+    )  # fmt: skip
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     normal = Input("N", "Normal force.", default="normal_force")
     slip = Output("m/s", "Slip speed along the line.")
     friction = Output("N", "Friction along the line.", role="share")
     torque = Output("N*m", "Friction torque about the line.", role="share")
     zones = Zones("on", "off")
+
+    def prepare(given):
+        """The normal force below which the contact is open."""
+        return with_lift(given)
 
     def check(p):
         """The curve stays where it is."""

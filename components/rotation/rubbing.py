@@ -6,7 +6,7 @@ every treatment and every curve along, those of the user included, tested once. 
 their own; a held clutch costs what a held pad costs. Speeds of curves and creep are slip speeds at the radius.
 """
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.contact import Contact, small_lift
 from fairlead.components.friction.curve import Curve
 from fairlead.components.friction.heat import THERMAL, FrictionHeat
 from fairlead.components.mechanics.ground import Ground
@@ -84,9 +84,10 @@ def rubbing(p, scene, other):
     if p.creep is not None and not creeps and not word and "method" not in scene.friction:
         what = f"creep: nobody chose a treatment of friction, and {member.word} does not creep."
         raise ModelError([Fault(None, what, "Write method: binding beside it, or leave creep out.")])
+    own = {} if p.normal_force is None else small_lift(p.faces * p.normal_force)
     creep = {"creep": p.creep} if p.creep is not None and creeps else {}
     children = {
-        "contact": scene.make(Contact, curve=p.curve, **word, **creep),
+        "contact": scene.make(Contact, curve=p.curve, **word, **creep, **own),
         "pressing": scene.make(Pressing, faces=p.faces, normal_force=p.normal_force),
         "lever": scene.make(LeverArm, radius=p.radius),
         "rim_b": scene.make(Rack, radius=p.radius),
