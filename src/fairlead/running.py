@@ -17,6 +17,7 @@ from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
+from fairlead.analysis.record.no_rebound import remark as no_rebound
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.remedy import remedies
 from fairlead.analysis.record.rounded_in_impacts import remark as rounded_in_impacts
@@ -92,7 +93,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.dwell
-        inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),) if said]
+        inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
+                                     no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
         found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.gave_way.remarks(),
                  *inexact]  # fmt: skip
         summary["remarks"] = [*header["remarks"], *found] if told else []

@@ -48,7 +48,7 @@ NUMBERS = (
     *COUNTS,
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""
-BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost")
+BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost", "not_given_back")
 SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier", "mean_before")
 BY_GUARD = ("g", "g_early", "g_end", "continuous")
 BY_MACHINE = (

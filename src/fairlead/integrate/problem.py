@@ -316,6 +316,8 @@ class Outcome:
     """The farthest, in error weights, that the end of a step was brought back to relations of positions."""
     lost: Floats
     """[n]: energy lost in impacts, J, by the row that held."""
+    not_given_back: Floats
+    """[n]: the fastest slip of a row that should rebound and had not yet, slow as it was; not above zero for all else."""
     wall: float
     """Seconds spent, all included."""
     loop_wall: float

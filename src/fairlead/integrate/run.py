@@ -66,6 +66,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         begun=scope.whole.array["begun"].copy(),
         most_moved=float(memory.number["most_moved"]),
         lost=memory.array["lost"].copy(),
+        not_given_back=memory.array["not_given_back"].copy(),
         wall=time.perf_counter() - begun,
         loop_wall=going.wall,
         loop_cpu=going.cpu,

@@ -24,6 +24,8 @@ OPEN = 2.0
 NO_REBOUND, REBOUND, RUBS = 0, 1, 2
 REST = 10.0
 """Rebound, in error weights, below which there is none."""
+KNOWN = 1.0
+"""Rebound, in error weights, above which it is more than its error."""
 ROUNDING = 1e-9
 """Share of the largest slip of an instant below which a row did not meet, but held: that much is rounding."""
 LIMITED, UNLIMITED = 1, 2
@@ -60,9 +62,25 @@ def rebound(problem, point, matrices, floor):
             e[k] = 0.0
         back[k] = e[k] * dv[k]
         rubs = rubs or (takes[k] == LIMITED and abs(b[k]) > floor and e[k] > 0.0)
-    if weighted_norm(point, point.at_x) <= REST:
+    size = weighted_norm(point, point.at_x)
+    note(problem, point, floor, size)
+    if size <= REST:
         return NO_REBOUND
     return RUBS if rubs else REBOUND
+
+
+@compiled
+def note(problem, point, floor, size):
+    """Keep the slip of rows that give nothing back though the rebound is above its error, unless they did before."""
+    n = problem.n
+    b, r, e = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
+    takes, kept = indices(problem.at_takes_impulse, n), reals(point.at_not_given_back, n)
+    for k in range(n):
+        if takes[k] == UNLIMITED and r[k] != 0.0 and e[k] > 0.0 and abs(b[k]) > floor:
+            if size <= REST and size > KNOWN and kept[k] >= 0.0:
+                kept[k] = max(kept[k], abs(r[k]))
+            elif size > REST and kept[k] == 0.0:
+                kept[k] = -1.0
 
 
 @compiled

@@ -44,6 +44,8 @@ POINT = Struct(
         "absolute": "n", "relative": "n", "cap": "n",
         # energy lost in impacts, by the row that held
         "lost": "n",
+        # the fastest meeting that gave nothing back since it was slow, by the row; -1 where one did before
+        "not_given_back": "n",
         # the point as it was settled at the start
         "begun": "n",
     },
