@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from fairlead.analysis.record.suggestion import suggest
+from fairlead.analysis.record.unsettled import with_way_out
 from fairlead.engine import engine_settings, refused
 from fairlead.errors import ModelError, SteppingError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.codes import TRY
@@ -310,7 +311,8 @@ class Stepping:
         if said := failure_of(scope.problem, status, self.t):
             return said, self.t
         culprits = culprits_of(status, scope.memory, scope.problem)
-        return sentence_of(status, scope.memory, scope.problem, self._going.run, culprits), self.t
+        said = sentence_of(status, scope.memory, scope.problem, self._going.run, culprits)
+        return (with_way_out(said, self._of, culprits) if status == Status.NOT_SETTLED else said), self.t
 
     def _take(self, block: Block) -> None:
         self.changes += [Change(*named_change(self._of, row)) for row in block.events]

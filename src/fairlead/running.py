@@ -24,6 +24,7 @@ from fairlead.analysis.record.rounded_in_impacts import remark as rounded_in_imp
 from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
+from fairlead.analysis.record.unsettled import with_way_out
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.analysis.remarks.remarks import remarks
 from fairlead.analysis.treatments.friction_record import friction_record
@@ -87,7 +88,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             controller.end()
         watch.finish()
         interruption.between_blocks = False
-        outcome = _explained(outcome)
+        outcome = _explained(outcome, system)
         if outcome.status == Status.INTERRUPTED and interruption.ended_by is not None:
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
             outcome = dataclasses.replace(outcome, sentence=said)
@@ -110,8 +111,14 @@ def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, An
     return RunDirectory.create(path, signals, header, force=force)
 
 
-def _explained(outcome: Outcome) -> Outcome:
-    """A run that ended since a controller in plain Python failed, or a table has no value there, says so."""
+def _explained(outcome: Outcome, system: System) -> Outcome:
+    """A run that ended since a controller in plain Python failed, or a table has no value there, says so.
+
+    One whose zones did not settle names the contacts that want another method.
+    """
+    if outcome.status == Status.NOT_SETTLED:
+        said = with_way_out(outcome.sentence, system, outcome.culprits)
+        return dataclasses.replace(outcome, sentence=said)
     said = failure_of(outcome.problem, outcome.status, outcome.t)
     if not said:
         return outcome

@@ -83,7 +83,8 @@ def test_other_meetings_are_not(simulate: Scene, engine: str, values: dict[str, 
 
 @ENGINES
 def test_a_ball_that_comes_to_rest_is_not(simulate: Scene, engine: str) -> None:
-    text = BALL.format(engine=engine, stop=3).replace("100 um", "0.1 m").replace("ball.flange]", "ball.flange, w.flange]")
+    text = BALL.format(engine=engine, stop=3).replace("100 um", "0.1 m")
+    text = text.replace("ball.flange]", "ball.flange, w.flange]")
     text = text.replace("      stop:", "      w: {type: ForceSource, force: -10 N}\n      stop:")
     result = simulate(text, speed="0 m/s", restitution=0.5)
     assert abs(result["ball.v"][-1]) < 1e-9

@@ -317,7 +317,7 @@ class Outcome:
     lost: Floats
     """[n]: energy lost in impacts, J, by the row that held."""
     not_given_back: Floats
-    """[n]: the fastest slip of a row that should rebound and had not yet, slow as it was; not above zero for all else."""
+    """[n]: the fastest slip of a row that should rebound and had not yet, slow as it was; else not above zero."""
     wall: float
     """Seconds spent, all included."""
     loop_wall: float

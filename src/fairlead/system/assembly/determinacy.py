@@ -17,8 +17,11 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from fairlead.component.base import Family
+from fairlead.component.declare import ROTATIONAL
 from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
+from fairlead.component.replies import is_bundled
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.flatten.graph import connected_parts, of_paths
@@ -109,7 +112,7 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
         return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
     if owners and owners.keys() <= _holding(blocks):
         what = f"{_hold(owners)} in a closed circle, and {_unequal(blocks, owners)}, so how they share is not known."
-        way_out = "Leave ratios to a Gear or a Rack and write hold(b.v - a.v), or join them into one."
+        way_out = _apart(flat, owners)
         return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     names = [f"{path}.{name}" for (path, name), at in numbering.own.items() if at in part]
     what = f"{_and(names)}: no equation determines {'it' if len(names) == 1 else 'them'}{while_}."
@@ -141,6 +144,23 @@ def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
     cannot = [i.path for b in blocks if b.kernel.structure.holds.keys() - b.kernel.structure.pairs.keys()
               for i in b.instances if i.path in wanted]  # fmt: skip
     return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
+
+
+def _apart(flat: FlatModel, owners: Iterable[str]) -> str:
+    """What to do where these hold in a closed circle: with the parts as they are, and with a law of one's own."""
+    mine = [flat.assembly.instances[path] for path in owners]
+    contacts = [part.path for part in mine if issubclass(part.type, Family)]
+    gears = [part for part in mine if part.path not in contacts] or mine  # a contact of shafts lies between two rims
+    domains = {port.domain.name for part in gears for port in part.type.declaration.ports.values()}
+    turning = domains == {ROTATIONAL.name}
+    spring, body = ("a TorsionSpring", "an Inertia") if turning else ("a Spring", "a Mass")
+    one = f"one of {_and(contacts)}" if len(contacts) > 1 else contacts[0] if contacts else ""
+    ways = [f"write method: binding for {one} (friction: {{method: binding}} for all)"] if contacts else []
+    ways += [f"put {spring} between one of them and its body", f"{body} where a node has none"]
+    said = f"{', '.join(ways[:-1])}, or {ways[-1]}."
+    if not all(is_bundled(part.type) for part in mine):
+        said += " In a law of your own, leave ratios to a Gear or a Rack and write hold(b.v - a.v)."
+    return said[0].upper() + said[1:]
 
 
 def _holding(blocks: list[Block]) -> set[str]:
