@@ -1,6 +1,6 @@
 """Stops at both ends of a travel."""
 
-from fairlead.components.mechanics.play import pressed
+from fairlead.components.mechanics.play import opened, pressed, pushes_again, would_pull
 
 from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
 
@@ -8,14 +8,17 @@ from fairlead.component import Component, Law, Output, Parameter, Translational,
 class EndStop(Component):
     """Keeps the travel of b over a between two stops, springs whose damping grows with their deflection.
 
-    free     lower < travel < upper      force = 0
-    upper    travel beyond upper by d    force = stiffness d (1 + damping dd/dt),  pushes b back
-    lower    the same at the other end
+    free              lower < travel < upper      force = 0
+    upper             travel beyond upper by d    force = stiffness d (1 + damping dd/dt),  pushes b back
+    upper_opening     damping dd/dt < -1          force = 0
+    lower(_opening)   the same at the other end
 
-    The force begins and ends with the deflection, so a stop neither knocks nor holds on, and gives back what it
-    stored (Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring).
+    The force begins with the deflection and never pulls, so a stop neither knocks nor holds on (Hunt and Crossley 1975,
+    J. Applied Mechanics 42, 440, with a linear spring). `damping` of 5 s/m doubles the force where b comes at 0.2 m/s.
+    What comes slowly, at a speed v, goes back with (1 - 2/3 damping v) v.
     """
 
+    asked_with = {"damping": 100.0}  # or no random motion would tear b off
     a = Translational("what carries the stops")
     b = Translational("what hits them")
     lower = Parameter("m", "Travel at the lower stop.", default=0.0)
@@ -24,7 +27,8 @@ class EndStop(Component):
     damping = Parameter("s/m", "Share of the force that is added per speed of approach.", default=5.0, least=0)
     travel = Output("m", "b.x - a.x.")
     force = Output("N", "Force of a stop on a, positive at the upper one.")
-    zones = Zones("free", "upper", "lower")
+    zones = Zones("free", "upper", "lower", "upper_opening", "lower_opening",
+                  forward=["upper", "upper_opening"], backward=["lower", "lower_opening"])  # fmt: skip
 
     def check(p):
         """There is a travel between the stops."""
@@ -37,28 +41,39 @@ class EndStop(Component):
         return Law(a=0, b=0, travel=b.x - a.x, force=0)
 
     @zone("upper", "lower")
-    def touched(p, a, b, zone):
+    def touched(p, a, b, direction):
         """Spring and damper of the stop."""
-        d, at = (1, p.upper) if zone == "upper" else (-1, p.lower)
-        size, stored, lost = pressed(p, d * (b.x - a.x - at), d * (b.v - a.v))
-        return Law(a=-d * size, b=d * size, travel=b.x - a.x, force=d * size, stored=stored, dissipated=lost)
+        size, stored, lost = pressed(p, beyond(p, a, b, direction), direction * (b.v - a.v))
+        force = direction * size
+        return Law(a=-force, b=force, travel=b.x - a.x, force=force, stored=stored, dissipated=lost)
 
-    @guard("free", to="upper", unit="m")
-    def hits_upper(p, a, b):
+    @zone("upper_opening", "lower_opening")
+    def opening(p, a, b, direction):
+        """Torn off faster than the stop springs back."""
+        force, stored, lost = opened(p, beyond(p, a, b, direction), direction * (b.v - a.v))
+        return Law(a=force, b=force, travel=b.x - a.x, force=force, stored=stored, dissipated=lost)
+
+    @guard("free", to="upper", unit="m", mirrored="hits_lower")
+    def hits_upper(p, a, b, direction):
         """The end of the travel."""
-        return b.x - a.x - p.upper
+        return beyond(p, a, b, direction)
 
-    @guard("free", to="lower", unit="m")
-    def hits_lower(p, a, b):
-        """The other end."""
-        return p.lower - (b.x - a.x)
-
-    @guard("upper", to="free", unit="m")
-    def leaves_upper(p, a, b):
+    @guard("upper", "upper_opening", to="free", unit="m", mirrored="leaves_lower")
+    def leaves_upper(p, a, b, direction):
         """Back within the travel."""
-        return p.upper - (b.x - a.x)
+        return -beyond(p, a, b, direction)
 
-    @guard("lower", to="free", unit="m")
-    def leaves_lower(p, a, b):
-        """The same at the other end."""
-        return b.x - a.x - p.lower
+    @guard("upper", to="upper_opening", unit="1", mirrored="torn_off_lower")
+    def torn_off_upper(p, a, b, direction):
+        """Torn off so fast that the damping would pull."""
+        return would_pull(p, direction * (b.v - a.v))
+
+    @guard("upper_opening", to="upper", unit="1", mirrored="caught_lower")
+    def caught_upper(p, a, b, direction):
+        """Torn off no longer so fast."""
+        return pushes_again(p, direction * (b.v - a.v))
+
+
+def beyond(p, a, b, direction):
+    """Way by which a stop is passed [m]: of the upper one where the direction is 1, else of the lower one."""
+    return b.x - a.x - p.upper if direction > 0 else p.lower - (b.x - a.x)

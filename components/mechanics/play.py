@@ -2,15 +2,33 @@
 
 from fairlead.component import Component, Law, Output, Parameter, Translational, Zones, guard, zone
 
+AGAIN = 1e-3  # of the spring: what is torn apart must push by more than this to push again, or rounding would decide
+
 
 def pressed(p, deep, rate):
     """Force of what is pressed in by `deep`, energy stored and power dissipated: a spring whose damping grows with it.
 
     Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring; of stops, teeth and strands, along a
-    line as of a shaft.
+    line as of a shaft. It pulls where `would_pull` is positive, and is `opened` there.
     """
     spring = p.stiffness * deep
     return spring * (1 + p.damping * rate), spring * deep / 2, spring * p.damping * rate**2
+
+
+def opened(p, deep, rate):
+    """The same of what is torn apart: no force, and what is still stored goes into the damping."""
+    spring = p.stiffness * deep
+    return 0, spring * deep / 2, -spring * rate
+
+
+def would_pull(p, rate):
+    """By how much the damping of what goes apart exceeds the spring, as a share of it."""
+    return -1 - p.damping * rate
+
+
+def pushes_again(p, rate):
+    """By how much the spring of what is torn apart exceeds the damping, as a share of it."""
+    return 1 - AGAIN + p.damping * rate
 
 
 def beyond(p, a, b, direction):
@@ -23,6 +41,16 @@ def within(p, a, b, direction):
     return p.play / 2 - direction * (a.x - b.x)
 
 
+def torn(p, a, b, direction):
+    """Torn back so fast that the damping would pull."""
+    return would_pull(p, direction * (a.v - b.v))
+
+
+def caught(p, a, b, direction):
+    """Torn back no longer so fast."""
+    return pushes_again(p, direction * (a.v - b.v))
+
+
 class Loose(Component, abstract=True):
     """Half-model of what is loose between two points: nothing is carried while a is within half a play of b."""
 
@@ -32,19 +60,24 @@ class Loose(Component, abstract=True):
     stiffness = Parameter("N/m", "Of what is in contact.", above=0)
     damping = Parameter("s/m", "Share of the force that is added per speed of approach.", default=10.0, least=0)
     play = Parameter("m", "Way that b can go while a stands still.", least=0)
-    zones = Zones("gap", "drive", "reverse", forward=["drive"], backward=["reverse"])
+    zones = Zones("gap", "drive", "reverse", "drive_opening", "reverse_opening",
+                  forward=["drive", "drive_opening"], backward=["reverse", "reverse_opening"])  # fmt: skip
     meets_forward = guard("gap", to="drive", unit="m", mirrored="meets_backward")(beyond)
-    parts_forward = guard("drive", to="gap", unit="m", mirrored="parts_backward")(within)
+    parts_forward = guard("drive", "drive_opening", to="gap", unit="m", mirrored="parts_backward")(within)
+    torn_forward = guard("drive", to="drive_opening", unit="1", mirrored="torn_backward")(torn)
+    caught_forward = guard("drive_opening", to="drive", unit="1", mirrored="caught_backward")(caught)
 
 
 class Play(Loose):
     """Play between two points of one speed, as of a pin in its hole: nothing is carried within it.
 
-    drive     a ahead of b by play/2 + d    force = stiffness d (1 + damping dd/dt), drives b forward
-    gap                                     force = 0
-    reverse   a behind b                    the same, backward
+    drive              a ahead of b by play/2 + d    force = stiffness d (1 + damping dd/dt), drives b forward
+    drive_opening      damping dd/dt < -1            force = 0
+    gap                                              force = 0
+    reverse(_opening)  a behind b                    the same, backward
 
-    The force begins and ends with d (Hunt and Crossley 1975), as that of a Backlash, its twin of shafts.
+    The force begins with d and never pulls (Hunt and Crossley 1975), as that of a Backlash, its twin of shafts:
+    `damping` of 10 s/m doubles it where they approach at 0.1 m/s, and it is zero where they part at 0.1 m/s.
     """
 
     force = Output("N", "Force carried from a to b, positive forward.")
@@ -59,6 +92,12 @@ class Play(Loose):
         """Spring and damper of what touches."""
         force, stored, lost = pressed(p, beyond(p, a, b, direction), direction * (a.v - b.v))
         return Law(a=direction * force, b=-direction * force, force=direction * force, stored=stored, dissipated=lost)
+
+    @zone("drive_opening", "reverse_opening")
+    def opening(p, a, b, direction):
+        """Torn back faster than it springs back."""
+        force, stored, lost = opened(p, beyond(p, a, b, direction), direction * (a.v - b.v))
+        return Law(a=force, b=force, force=force, stored=stored, dissipated=lost)
 
 
 class ElasticGap(Component):

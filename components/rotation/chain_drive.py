@@ -2,7 +2,7 @@
 
 from math import pi
 
-from fairlead.components.mechanics.play import Loose, beyond, pressed
+from fairlead.components.mechanics.play import Loose, beyond, opened, pressed
 from fairlead.components.rotation.rack import Rack
 
 from fairlead.component import Composite, Count, Expansion, Law, Output, Parameter, Rotational, zone
@@ -18,22 +18,34 @@ class ChainStrands(Loose):
     upper = Output("N", "Tension of the strand that a pulls tight when it drives forward.")
     lower = Output("N", "Tension of the other strand.")
 
-    @zone("gap", "drive", "reverse")
-    def strands(p, a, b, zone):
-        """None is taut, or one is."""
-        direction = {"drive": 1, "reverse": -1}.get(zone, 0)
-        pull, stored, lost = pressed(p, beyond(p, a, b, direction), direction * (a.v - b.v)) if direction else (0, 0, 0)
+    @zone("gap")
+    def hanging(p, a, b):
+        """None is taut."""
+        return Law(a=0, b=0, upper=p.mass * a.v**2, lower=p.mass * a.v**2)
+
+    @zone("drive", "reverse")
+    def taut(p, a, b, direction):
+        """One is taut."""
+        pull, stored, lost = pressed(p, beyond(p, a, b, direction), direction * (a.v - b.v))
         turning = p.mass * a.v**2
         upper, lower = (pull if direction > 0 else 0), (pull if direction < 0 else 0)
         return Law(a=direction * pull, b=-direction * pull, upper=upper + turning, lower=lower + turning,
                    stored=stored, dissipated=lost)  # fmt: skip
+
+    @zone("drive_opening", "reverse_opening")
+    def opening(p, a, b, direction):
+        """One is stretched, and let go faster than it springs back."""
+        pull, stored, lost = opened(p, beyond(p, a, b, direction), direction * (a.v - b.v))
+        turning = p.mass * a.v**2
+        return Law(a=pull, b=pull, upper=turning, lower=turning, stored=stored, dissipated=lost)
 
 
 class ChainDrive(Composite):
     """A chain or toothed belt by which wheel a drives wheel b:  torque_b = radius_b (upper - lower).
 
     Speeds are in the ratio teeth_a/teeth_b, and a strand carries  torque/radius + mass v^2  when it is taut, with
-    radius = teeth pitch/(2 pi). The other hangs through by `slack`: b stays behind by it when a turns back.
+    radius = teeth pitch/(2 pi). The other hangs through by `slack`: b stays behind by it when a turns back. A strand
+    that stretches at the speed v pulls 1 + damping v times as much as at rest, and never pushes.
 
     Source: roller chains, e.g. Shigley's Mechanical Engineering Design, flexible elements. Limits: the chain's speed
     does not go up and down with every link (polygon effect); it has no inertia, and no loss (put a LossyGear of ratio 1

@@ -1,6 +1,6 @@
 """Stops at both ends of a turn."""
 
-from fairlead.components.mechanics.play import pressed
+from fairlead.components.mechanics.play import opened, pressed, pushes_again, would_pull
 
 from fairlead.component import Component, Law, Output, Parameter, Rotational, Zones, guard, zone
 
@@ -8,12 +8,15 @@ from fairlead.component import Component, Law, Output, Parameter, Rotational, Zo
 class RotationalStop(Component):
     """Keeps the angle of b over a between two stops, springs whose damping grows with their deflection.
 
-    free     lower < turn < upper      torque = 0
-    upper    turn beyond upper by d    torque = stiffness d (1 + damping dd/dt),  turns b back
-    lower    the same at the other end
+    free              lower < turn < upper      torque = 0
+    upper             turn beyond upper by d    torque = stiffness d (1 + damping dd/dt),  turns b back
+    upper_opening     damping dd/dt < -1        torque = 0
+    lower(_opening)   the same at the other end
 
-    The torque begins and ends with the deflection (Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a
-    linear spring), as that of an EndStop.
+    The torque begins with the deflection and never holds b on (Hunt and Crossley 1975, J. Applied Mechanics 42, 440,
+    with a linear spring), as that of an EndStop. `damping` of 5 s/rad doubles it where b comes at 0.2 rad/s, and is 31
+    times that of the spring at 6 rad/s: what hits fast takes less. What comes slowly, at a speed v, goes back with
+    (1 - 2/3 damping v) v.
     """
 
     a = Rotational("what carries the stops")
@@ -24,7 +27,8 @@ class RotationalStop(Component):
     damping = Parameter("s/rad", "Share of the torque that is added per speed of approach.", default=5.0, least=0)
     turn = Output("rad", "b.angle - a.angle.")
     torque = Output("N*m", "Torque of a stop on a, positive at the upper one.")
-    zones = Zones("free", "upper", "lower", forward=["upper"], backward=["lower"])
+    zones = Zones("free", "upper", "lower", "upper_opening", "lower_opening",
+                  forward=["upper", "upper_opening"], backward=["lower", "lower_opening"])  # fmt: skip
 
     def check(p):
         """There is a turn between the stops."""
@@ -43,15 +47,31 @@ class RotationalStop(Component):
         torque = direction * size
         return Law(a=-torque, b=torque, turn=b.angle - a.angle, torque=torque, stored=stored, dissipated=lost)
 
+    @zone("upper_opening", "lower_opening")
+    def opening(p, a, b, direction):
+        """Torn off faster than the stop springs back."""
+        torque, stored, lost = opened(p, beyond(p, a, b, direction), direction * (b.speed - a.speed))
+        return Law(a=torque, b=torque, turn=b.angle - a.angle, torque=torque, stored=stored, dissipated=lost)
+
     @guard("free", to="upper", unit="rad", mirrored="hits_lower")
     def hits_upper(p, a, b, direction):
         """The end of the turn."""
         return beyond(p, a, b, direction)
 
-    @guard("upper", to="free", unit="rad", mirrored="leaves_lower")
+    @guard("upper", "upper_opening", to="free", unit="rad", mirrored="leaves_lower")
     def leaves_upper(p, a, b, direction):
         """Back between the stops."""
         return -beyond(p, a, b, direction)
+
+    @guard("upper", to="upper_opening", unit="1", mirrored="torn_off_lower")
+    def torn_off_upper(p, a, b, direction):
+        """Torn off so fast that the damping would pull."""
+        return would_pull(p, direction * (b.speed - a.speed))
+
+    @guard("upper_opening", to="upper", unit="1", mirrored="caught_lower")
+    def caught_upper(p, a, b, direction):
+        """Torn off no longer so fast."""
+        return pushes_again(p, direction * (b.speed - a.speed))
 
 
 def beyond(p, a, b, direction):
