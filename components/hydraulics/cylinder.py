@@ -4,6 +4,7 @@ from fairlead.components.friction.contact import Contact
 from fairlead.components.hydraulics.chamber import Chamber
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.leak import Leak
+from fairlead.components.hydraulics.return_spring import ReturnSpring
 from fairlead.components.mechanics.end_stop import EndStop
 
 from fairlead.component import (
@@ -26,6 +27,7 @@ CYLINDER = {
     "bore_diameter": Parameter("m", "Diameter of the piston.", above=0),
     "rod_diameter": Parameter("m", "Diameter of the rod.", default=0.0, least=0),
     "stroke": Parameter("m", "Travel from stop to stop.", above=0),
+    "air": Parameter("Pa", "Pressure of the air on the rod.", default=1e5, least=0),
     "cap_dead_volume": Parameter("m^3", "Volume at a that the piston does not sweep.", default=1e-4, above=0),
     "rod_dead_volume": Parameter("m^3", "Volume at b that the piston does not sweep.", default=1e-4, above=0),
     "port_diameter": Parameter("m", "Diameter of the bores that fill the chambers.", default=0.02, above=0),
@@ -39,14 +41,15 @@ CYLINDER = {
 class Cylinder(Composite):
     """Pressure at a pushes the rod out, pressure at b pulls it in; the travel rod.x - body.x ends at stops.
 
-    m dv/dt = A_a p_a - A_b p_b - seal friction - load. The mass is that of the bodies at `rod` and `body`.
+    m dv/dt = A_a p_a - A_b p_b - (A_a - A_b) air - seal friction - load. Pressures are absolute, so the air presses
+    on the rod; `air` of 0 leaves it out. The mass is that of the bodies at `rod` and `body`.
     Small oscillations with the valve closed have  w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m.
     """
 
     a, b = Hydraulic("cap side"), Hydraulic("rod side")
     body, rod = Translational("the barrel"), Translational("the rod")
     bore_diameter, rod_diameter = CYLINDER["bore_diameter"], CYLINDER["rod_diameter"]
-    stroke = CYLINDER["stroke"]
+    stroke, air = CYLINDER["stroke"], CYLINDER["air"]
     cap_dead_volume, rod_dead_volume = CYLINDER["cap_dead_volume"], CYLINDER["rod_dead_volume"]
     port_diameter, internal_leakage = CYLINDER["port_diameter"], CYLINDER["internal_leakage"]
     seal_force = CYLINDER["seal_force"]
@@ -80,7 +83,7 @@ class Cylinder(Composite):
             yield "rod_diameter", what, "Lower it."
 
     def expand(p, scene):
-        """Two chambers and a pair of stops; seals and leakage where wanted."""
+        """Two chambers, the air and a pair of stops; seals and leakage where wanted."""
         common = {"stroke": p.stroke, "bore": p.port_diameter, "fluid": p.fluid, "cavitation": p.cavitation}
         children = {
             "cap": scene.make(Chamber, side="cap", area=p.cap_area, dead_volume=p.cap_dead_volume,
@@ -90,6 +93,7 @@ class Cylinder(Composite):
         }  # fmt: skip
         joins = []
         bodies, rods = ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"]
+        air_on_rod(p, scene, children, bodies, rods)
         mechanics(p, p.seal_friction, scene, children, joins, bodies, rods)
         if p.leakage == "on":
             children["leak"] = scene.make(Leak, conductance=p.internal_leakage)
@@ -97,6 +101,15 @@ class Cylinder(Composite):
         ports = {"a": "cap.port", "b": "rod_side.port", "body": "cap.body", "rod": "cap.rod"}
         shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel"}
         return Expansion(children, joins, ports, shown)
+
+
+def air_on_rod(size, scene, children, bodies, rods):
+    """The air, which pushes a rod in; `size` holds the parameters of CYLINDER."""
+    if size.rod_diameter and size.air:
+        area = pi * size.rod_diameter**2 / 4
+        children["air"] = scene.make(ReturnSpring, preload=0.0, stiffness=0.0, area=area, air=size.air)
+        bodies.append("air.body")
+        rods.append("air.rod")
 
 
 class SealForce(Component):

@@ -1,7 +1,7 @@
 """A linear electrohydraulic drive: servo valve and cylinder."""
 
 from fairlead.components.hydraulics.chamber import RigidChamber
-from fairlead.components.hydraulics.cylinder import CYLINDER, Cylinder, mechanics
+from fairlead.components.hydraulics.cylinder import CYLINDER, Cylinder, air_on_rod, mechanics
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.leak import Leak
 from fairlead.components.hydraulics.servo_motor_drive import undetermined
@@ -99,7 +99,9 @@ def throttled_expansion(p, scene, children, shown):
     children["oil"] = scene.make(ThrottledCylinder, cap_area=p.cap_area, rod_area=p.rod_area, fluid=p.fluid,
                                  bore=p.cylinder.port_diameter, **valve)  # fmt: skip
     joins = [("spool.opening", "oil.opening")]
-    mechanics(p.cylinder, p.seal_friction, scene, children, joins, ["oil.body"], ["oil.rod"], "oil.loose")
+    bodies, rods = ["oil.body"], ["oil.rod"]
+    air_on_rod(p.cylinder, scene, children, bodies, rods)
+    mechanics(p.cylinder, p.seal_friction, scene, children, joins, bodies, rods, "oil.loose")
     ports = {name: f"oil.{name}" for name in ("supply", "tank", "body", "rod")}
     return Expansion(children, joins, ports, {**shown, "pressure_a": "oil.pressure_a", "pressure_b": "oil.pressure_b",
                                               "travel": "stops.travel"})  # fmt: skip
@@ -112,6 +114,7 @@ def rigid_expansion(p, scene, children, shown, ports, joins):
     children["leak"] = scene.make(Leak, conductance=p.cylinder.internal_leakage)
     joins += [("lands.a", "cap.port", "leak.a"), ("lands.b", "rod_side.port", "leak.b")]
     bodies, rods = ["cap.body", "rod_side.body"], ["cap.rod", "rod_side.rod"]
+    air_on_rod(p.cylinder, scene, children, bodies, rods)
     mechanics(p.cylinder, p.seal_friction, scene, children, joins, bodies, rods)
     return Expansion(children, joins, {**ports, "body": "cap.body", "rod": "cap.rod"}, {
         **shown, "pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure",

@@ -346,6 +346,56 @@ def test_the_energy_of_a_swinging_cylinder_is_accounted_for(simulate):
     assert result.run["energy"]["closure"] < 1e-6
 
 
+VENTED = """
+    components:
+      tank: {type: Tank}
+      hose_a: {type: Orifice, area: 20 mm^2}
+      hose_b: {type: Orifice, area: 20 mm^2}
+      cylinder: {type: Cylinder, bore_diameter: 40 mm, rod_diameter: 22 mm, stroke: 0.5 m}
+      wall: {type: Ground}
+      load: {type: Mass, mass: 10 kg, position: 0.1 m}
+    connections:
+      - [tank.port, hose_a.a, hose_b.a]
+      - [hose_a.b, cylinder.a]
+      - [hose_b.b, cylinder.b]
+      - [wall.flange, cylinder.body]
+      - [cylinder.rod, load.flange]
+    run: {stop: 1 s}
+"""
+
+
+def test_a_cylinder_open_on_both_sides_stays_where_it_is(simulate):
+    """Pressures are absolute: oil at 1 bar pushes the rod out, area_rod 1 bar = 38 N, and the air pushes it in."""
+    assert np.abs(simulate(VENTED)["load.x"] - 0.1).max() < 1e-9
+    without = simulate(VENTED, **{"cylinder.air": "0 Pa"})
+    assert without["load.x"][-1] > 0.11
+
+
+@pytest.mark.parametrize("oil", ["on", "off"])
+@pytest.mark.parametrize("leakage", ["on", "off"])
+def test_a_drive_whose_valve_vents_it_stays_too(simulate, oil, leakage):
+    """The air is there whatever the oil is taken for: compressed, rigid with leakage, or in one law with the lands."""
+    result = simulate(f"""
+        components:
+          supply: {{type: PressureSource, pressure: 1 bar}}
+          tank: {{type: Tank}}
+          half: {{type: SignalSource, value: 0.5}}
+          drive: {{type: ServoCylinderDrive, valve: {{rated_flow: 20 L/min, leakage_conductance: 1e-12}},
+                  cylinder: {{bore_diameter: 40 mm, rod_diameter: 22 mm, stroke: 0.5 m}},
+                  effects: {{compressibility: {oil}, leakage: {leakage}}}}}
+          wall: {{type: Ground}}
+          load: {{type: Mass, mass: 10 kg, position: 0.1 m}}
+        connections:
+          - [supply.port, drive.supply]
+          - [tank.port, drive.tank]
+          - [half.signal, drive.command]
+          - [wall.flange, drive.body]
+          - [drive.rod, load.flange]
+        run: {{stop: 1 s}}
+    """)
+    assert np.abs(result["load.x"] - 0.1).max() < 1e-6
+
+
 def test_a_cylinder_hits_its_stops_and_stays_within_them(simulate):
     text = """
         components:
