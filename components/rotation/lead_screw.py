@@ -107,7 +107,11 @@ class LeadScrew(Screw):
     screw locks itself: a load cannot turn it. `preload` rubs without load, as a ball nut does.
 
     Source: square and angular threads, e.g. Shigley's Mechanical Engineering Design, power screws. Limits: no play (put
-    a Backlash on the shaft) and no give; the collar that takes the thrust is a Bearing of its own.
+    a Backlash on the shaft) and no give; the collar that takes the thrust is a Bearing of its own. A screw that locks
+    itself jams while a load is let down if the load has more inertia than the shaft can follow: its mass m' at the nut
+    above J/r^2 (1 + m tan s)/(tan s (m - tan s)), J the moment of inertia of the shaft. No motion of rigid parts exists
+    then, and a run ends with zones that did not settle. Give the load a SpringDamper, and the nut a Mass of its own
+    below that.
     """
 
     screw = Rotational("the screw")
@@ -124,6 +128,10 @@ class Worm(Screw):
 
     The worm is a screw whose nut is the rim of the wheel, see LeadScrew: it locks itself where mu is above the slope of
     the thread. `lead` is the number of threads times pi times the module. `half_angle` is the pressure angle.
+
+    Limits: those of LeadScrew. A worm that locks itself jams while a load is let down if the inertia at the wheel is
+    too large for the one at the worm (m' is moment/wheel_radius^2 there), and a run ends with zones that did not
+    settle. Give the load a TorsionSpring, and the wheel an Inertia of its own.
     """
 
     worm = Rotational("the worm")

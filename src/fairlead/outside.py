@@ -36,7 +36,7 @@ from fairlead.integrate.underway import Saved, Underway
 from fairlead.outer import Read, find_inputs, find_outputs, set_already
 from fairlead.quantities import QuantityError, si
 from fairlead.renamed import now_called
-from fairlead.running import failed, failure_of, not_allowed
+from fairlead.running import failed, failure_of, not_allowed, open_at
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
@@ -311,6 +311,8 @@ class Stepping:
         if said := failure_of(scope.problem, status, self.t):
             return said, self.t
         culprits = culprits_of(status, scope.memory, scope.problem)
+        if said := open_at(scope.problem, status, culprits, self.t):
+            return said, self.t
         said = sentence_of(status, scope.memory, scope.problem, self._going.run, culprits)
         return (with_way_out(said, self._of, culprits) if status == Status.NOT_SETTLED else said), self.t
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import pathlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from fairlead.analysis.record.below_weight import BelowWeight
@@ -41,6 +41,7 @@ from fairlead.netlist.settings import RunSettings
 from fairlead.processor import processor
 from fairlead.result import Result
 from fairlead.results import MemoryRun, RunDirectory, Signal, Sink
+from fairlead.system.assembly.left_open import left_open
 from fairlead.system.compiled.out_of_range import beyond_their_tables
 from fairlead.watch import Watch, least_jumps
 
@@ -119,6 +120,8 @@ def _explained(outcome: Outcome, system: System) -> Outcome:
     if outcome.status == Status.NOT_SETTLED:
         said = with_way_out(outcome.sentence, system, outcome.culprits)
         return dataclasses.replace(outcome, sentence=said)
+    if said := open_at(outcome.problem, outcome.status, outcome.culprits, outcome.t):
+        return dataclasses.replace(outcome, sentence=said)
     said = failure_of(outcome.problem, outcome.status, outcome.t)
     if not said:
         return outcome
@@ -142,6 +145,14 @@ def failure_of(problem: Any, status: Status, t: float) -> str:
     if status == Status.NOT_FINITE and (beyond := beyond_their_tables(problem)):
         return f"t = {t:.6g} s: {few(beyond)} moved beyond the range in which its law has values."
     return ""
+
+
+def open_at(problem: Any, status: Status, culprits: Sequence[str], t: float) -> str:
+    """Which part belongs where the equations leave a pressure, a voltage or a temperature open; or ""."""
+    if status != Status.SINGULAR or len(culprits) != 1:
+        return ""
+    said = left_open(problem.flat, problem.numbering, culprits[0])
+    return said and f"t = {t:.6g} s: {said}"
 
 
 def _patterns(netlist: Netlist) -> list[str]:

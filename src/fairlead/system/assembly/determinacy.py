@@ -28,6 +28,7 @@ from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.shares import shares
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.assembly.left_open import OPEN, as_written
 from fairlead.system.assembly.light_holds import held_entries, light_parts, relations
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -89,9 +90,11 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
     for groups in connected_parts(of_paths(range(len(flat.groups)), joints)):
         if held.isdisjoint(groups):
             nodes = [flat.nodes[number] for k in sorted(groups) for number in flat.groups[k].nodes]
-            what = f"{_named(nodes)} hang together without any mass, and on no fixed or driven point."
+            hangs = "hang together without any mass, and on no fixed or driven point"
             way_out = "Join one of them to a Ground or a source of motion, or add a Mass."
-            yield Fault(_written(flat, nodes[0]), what, way_out)
+            if not any(node.domain.mechanical for node in nodes):
+                hangs, way_out = OPEN[nodes[0].domain.name].hangs, OPEN[nodes[0].domain.name].anchor
+            yield Fault(_written(flat, nodes[0]), f"{_named(flat, nodes)} {hangs}.", way_out)
 
 
 def _depends_on_motion(block: Block) -> bool:
@@ -108,7 +111,8 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
     near = dict.fromkeys([*owners, *(port.instance for node in nodes for port in node.ports)])
     while_ = "" if always else _zones_at_start(blocks, set(near))
     if nodes:
-        what = f"{_named(nodes)} has no mass and no law determines its {THROUGH[nodes[0].domain.name]}{while_}."
+        lacks = "has no mass and no" if nodes[0].domain.mechanical else "has nothing that gives way, and no"
+        what = f"{_named(flat, nodes)} {lacks} law determines its {THROUGH[nodes[0].domain.name]}{while_}."
         return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
     if owners and owners.keys() <= _holding(blocks):
         what = f"{_hold(owners)} in a closed circle, and {_unequal(blocks, owners)}, so how they share is not known."
@@ -192,15 +196,20 @@ def _written(flat: FlatModel, node: Node) -> Location:
 
 def _way_out(node: Node, joined: bool) -> str:
     if not node.domain.mechanical:
-        return "Connect something there whose law ties it to the rest."
+        return OPEN[node.domain.name].way_out
     body = "a Mass" if node.domain.name == "translational" else "an Inertia"
     if joined:
         return f"Add {body} there, join the two contacts into one, or write friction: {{method: binding}}."
     return f"Add {body} there, or a damper to something that moves freely."
 
 
-def _named(nodes: list[Node]) -> str:
-    names = [node.name for node in nodes[:MOST_NAMED]]
+def _ports(flat: FlatModel, node: Node) -> str:
+    names = as_written(flat, node)
+    return ", ".join(names[:6]) + (", ..." if len(names) > 6 else "")
+
+
+def _named(flat: FlatModel, nodes: list[Node]) -> str:
+    names = [f"{{{_ports(flat, node)}}}" for node in nodes[:MOST_NAMED]]
     return f"node{'s' if len(names) > 1 else ''} {_and(names)}{' and more' if len(nodes) > MOST_NAMED else ''}"
 
 

@@ -1,0 +1,79 @@
+"""Where nothing determines a pressure, a voltage or a temperature, the message says which part belongs there."""
+
+import pytest
+
+from fairlead.errors import ModelError
+
+LOWERED = """
+    components:
+      diesel: {type: SpeedSource, speed: 150 rad/s}
+      pump: {type: VariablePump, displacement: 28 cm^3/rev, leakage: 1e-13 m^3/s/Pa}
+      swash: {type: SignalSource, value: {ramp: {to: 0.5, over: 0.5 s, start: 0.2 s}}}
+      charge: {type: PressureSource, pressure: 20 bar}
+      feed_a: {type: CheckValve, area: 50 mm^2}
+      feed_b: {type: CheckValve, area: 50 mm^2}
+      counter: {type: CounterbalanceValve, area: 20 mm^2, setting: 90 bar, ratio: 3}
+      motor: {type: HydraulicMotor, displacement: 100 cm^3/rev, internal_leakage: 1e-13 m^3/s/Pa}
+      rotor: {type: Inertia, moment: 0.2 kg*m^2}
+      weight: {type: TorqueSource, torque: -98 N*m}
+    connections:
+      - [diesel.shaft, pump.shaft]
+      - [swash.signal, pump.setting]
+      - [charge.port, feed_a.a, feed_b.a]
+      - [pump.inlet, feed_a.b, counter.valve]
+      - [pump.outlet, feed_b.b, counter.pilot, motor.b]
+      - [counter.load, motor.a]
+      - [motor.shaft, rotor.shaft, weight.shaft]
+    run: {stop: 0.1 s}
+"""
+OPEN = {
+    "hydraulic, joined by closed valves": ("""
+        components:
+          tank: {type: Tank}
+          one: {type: CheckValve, area: 50 mm^2}
+          two: {type: CheckValve, area: 50 mm^2}
+        connections: [[tank.port, one.a, two.a], [one.b, two.b]]
+        run: {stop: 1 s}
+    """, "node {one.b, two.b} has nothing that gives way, and no law determines its pressure", "Add a Volume there"),
+    "electrical": ("""
+        components:
+          source: {type: VoltageSource, voltage: 10 V}
+          load: {type: Resistor, resistance: 5 ohm}
+        connections: [[source.plus, load.plus], [source.minus, load.minus]]
+        run: {stop: 1 s}
+    """, "are joined without a Capacitor, and to no place whose voltage is known", "Join one of them to an Earth."),
+    "thermal": ("""
+        components:
+          one: {type: HeatConductor, conductance: 3 W/K}
+          two: {type: HeatConductor, conductance: 3 W/K}
+        connections: [[one.a, two.a], [one.b, two.b]]
+        run: {stop: 1 s}
+    """, "are joined without a HeatCapacity, and to no place", "Join one of them to a FixedTemperature"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("domain", OPEN)
+def test_check_says_what_belongs_at_a_node_that_is_left_open(scene, domain):
+    text, what, way_out = OPEN[domain]
+    with pytest.raises(ModelError) as told:
+        scene(text).check()
+    assert what in str(told.value)
+    assert way_out in str(told.value)
+    assert "mass" not in str(told.value).lower()
+
+
+def test_a_run_says_which_pressure_is_open_by_the_names_of_the_netlist_and_asks_for_a_volume(scene):
+    """While the counterbalance valve is shut, oil between it and the motor has nowhere to go."""
+    result = scene(LOWERED).run(out=None, check=False)
+    said = result.run["sentence"]
+    assert "the equations do not determine the pressure at counter.load, motor.a." in said
+    assert "Add a Volume there" in said
+    assert "mass" not in said
+
+
+def test_with_volumes_it_runs(scene):
+    text = LOWERED
+    for name, port in {"load": "counter.load", "inlet": "pump.inlet", "outlet": "pump.outlet"}.items():
+        text = text.replace("rotor: {", f"{name}: {{type: Volume, volume: 0.1 L}}\n      rotor: {{")
+        text = text.replace(f"[{port}, ", f"[{port}, {name}.port, ")
+    assert scene(text).run(out=None).ok
