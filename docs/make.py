@@ -1,7 +1,7 @@
 """The pages in docs/treatments and the figures of docs/friction.md, made from the classes and by the code.
 
     python docs/make.py            pages and figures, half a minute; also the table in docs/stepping.md
-    python docs/make.py pages      pages only
+    python docs/make.py pages      pages only, docs/howto/parts.md among them
 
 A test compares the pages with what this writes, so they cannot go stale.
 """
@@ -47,6 +47,14 @@ def stepping() -> tuple[pathlib.Path, str]:
     path = HERE / "stepping.md"
     before, rest = path.read_text(encoding="utf-8").split(TABLE_BEGINS)
     return path, f"{before}{TABLE_BEGINS}\n{table()}\n{TABLE_ENDS}{rest.split(TABLE_ENDS)[1]}"
+
+
+def which_part() -> tuple[pathlib.Path, str]:
+    """The page that leads from what an engineer calls a part to its type."""
+    from fairlead.describe.part_names import page
+
+    bundled = {name: kind for name, kind in known_types().items() if kind.__module__.startswith("fairlead.")}
+    return HERE / "howto" / "parts.md", "\n".join(page(bundled, NOTE.replace("class", "classes")))
 
 
 def page(word: str, member: Any, base: Any) -> Iterator[str]:
@@ -179,7 +187,7 @@ def small(path: pathlib.Path) -> None:
 def main() -> None:
     """Write everything."""
     PAGES.mkdir(exist_ok=True)
-    for path, text in [*pages().items(), stepping()]:
+    for path, text in [*pages().items(), stepping(), which_part()]:
         path.write_text(text, encoding="utf-8")
     if sys.argv[1:] != ["pages"]:
         figures()

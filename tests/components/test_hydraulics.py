@@ -371,6 +371,21 @@ def test_a_cylinder_open_on_both_sides_stays_where_it_is(simulate):
     assert without["load.x"][-1] > 0.11
 
 
+def test_seals_that_stick_are_a_contact_whose_curve_has_forces(simulate):
+    """docs/howto/parts.md: pressed with 1 N, its coefficients are forces; 400 N do not move it, 1000 N do."""
+    curve = "{curve: stribeck, stiction: 900, coulomb: 600, velocity: 10 mm/s}"
+    seals = f"{{type: Contact, normal_force: 1 N, curve: {curve}}}"
+    text = VENTED.replace("wall:", f"seals: {seals}\n      pull: {{type: ForceSource, force: 400 N}}\n      wall:", 1)
+    text = text.replace("area: 20 mm^2", "area: 2000 mm^2").replace("cylinder.body]", "cylinder.body, seals.a]")
+    text = text.replace("load.flange]", "load.flange, seals.b, pull.flange]")
+    text = text.replace("stroke: 0.5 m", "stroke: 0.5 m, effects: {seal_friction: off}")
+    at_rest = simulate(text)
+    assert np.abs(at_rest["load.x"] - 0.1).max() < 1e-6
+    moved = simulate(text, **{"pull.force": "1000 N", "run.stop": "50 ms"})
+    assert moved["load.x"][-1] > 0.13
+    assert moved["seals.friction"][-1] == pytest.approx(600, rel=1e-3)
+
+
 @pytest.mark.parametrize("oil", ["on", "off"])
 @pytest.mark.parametrize("leakage", ["on", "off"])
 def test_a_drive_whose_valve_vents_it_stays_too(simulate, oil, leakage):

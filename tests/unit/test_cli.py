@@ -239,6 +239,14 @@ def test_warnings_are_one_line_on_standard_error(
     assert command("check", "belt", model=model).stderr == "warning: kernel cache not used\n"
 
 
+def test_describe_alone_says_what_may_follow(command: Command) -> None:
+    answer = command("describe")
+    assert answer.exit_code == 2
+    for word in ("describe types", "describe Worm", "describe belt", "describe hold"):
+        assert word in answer.output
+        assert command(*word.split()).exit_code == 0
+
+
 def test_describe_tells_types_from_models(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fairlead, "describe_type", lambda name, libraries: f"the type {name}", raising=False)
     assert command("describe", "Spring", "--all").stdout == "the type Spring\n"

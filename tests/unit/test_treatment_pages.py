@@ -2,10 +2,12 @@
 
 import importlib.util
 import pathlib
+import re
 
 import pytest
 
 from fairlead.component.registry import known_types
+from fairlead.describe.part_names import COMBINED, NAMES, shown_types
 
 DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
 
@@ -26,6 +28,28 @@ def test_the_pages_are_those_that_the_classes_give():
 def test_the_table_of_stepping_is_the_one_that_check_goes_by():
     path, text = made().stepping()
     assert path.read_text(encoding="utf-8") == text, "run python docs/make.py pages"
+
+
+def test_the_page_that_leads_to_a_part_has_every_bundled_type_and_its_sentence():
+    path, text = made().which_part()
+    assert path.read_text(encoding="utf-8") == text, "run python docs/make.py pages"
+
+
+@pytest.mark.parametrize(("word", "name"), [
+    ("planetary gear", "Planetary"), ("worm gear", "Worm"), ("belt drive", "BeltDrive"), ("backlash", "Backlash"),
+    ("counterbalance valve", "CounterbalanceValve"), ("dead band", "DeadZone"), ("freewheel", "OneWayClutch"),
+    ("lead screw", "LeadScrew"), ("hydraulic cylinder", "Cylinder"), ("variable pump", "VariablePump"),
+])  # fmt: skip
+def test_a_part_is_found_by_what_an_engineer_calls_it(word: str, name: str):
+    lines = (DOCS / "howto" / "parts.md").read_text(encoding="utf-8").splitlines()
+    assert any(line.startswith(f"| {word}") and f"[{name}]" in line for line in lines)
+
+
+def test_names_are_of_types_that_there_are():
+    shown = {name for names in shown_types(known_types()).values() for name in names}
+    assert set(NAMES) <= shown
+    for parts in COMBINED.values():
+        assert set(re.findall(r"`([A-Z]\w+)`", parts)) <= shown
 
 
 @pytest.mark.slow

@@ -9,6 +9,13 @@ import typer
 import fairlead.cli.completion as completion
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
 from fairlead.cli.terminal import echo
+from fairlead.errors import UsageError
+
+WHAT = """Describe what?
+    fairlead describe types      all types of parts, a sentence each
+    fairlead describe Worm       a type: its ports, parameters and signals; --all has its zones and equations as well
+    fairlead describe belt       a netlist or a bundled model, as the pipeline sees it; --stage says at which stage
+    fairlead describe hold       a word of a netlist, such as a treatment of friction"""
 
 
 class Stage(enum.StrEnum):
@@ -26,6 +33,8 @@ def describe(
         typer.Argument(
             help="A netlist, a bundled model, a type such as Spring, `types` for the list, or a word such as hold.",
             autocompletion=completion.subjects,
+            default_factory=str,
+            show_default=False,
         ),
     ],
     settings: Settings,
@@ -39,6 +48,8 @@ def describe(
     """Print a netlist as a stage left it, or a component type: ports, parameters, signals, and --all of it."""
     import fairlead
 
+    if not subject:
+        raise UsageError(WHAT)
     if is_type_name(subject) and everything and not as_json:
         text = fairlead.describe_type(subject, libraries)
     elif is_type_name(subject):

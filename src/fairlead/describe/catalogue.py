@@ -50,6 +50,7 @@ def catalogue(types: Mapping[str, type[Declared]]) -> Iterator[str]:
         yield from columns([("", ", ".join(sorted(inside)))])
         yield ""
     yield "`fairlead describe TYPE` tells how to use one of them, with --all its equations as well."
+    yield "docs/howto/parts.md has them by what engineers call them: a freewheel is a OneWayClutch."
 
 
 def innards(types: Mapping[str, type[Declared]]) -> set[str]:
