@@ -155,6 +155,11 @@ def open_at(problem: Any, status: Status, culprits: Sequence[str], t: float) -> 
     return said and f"t = {t:.6g} s: {said}"
 
 
+def chosen_signals(netlist: Netlist, system: System) -> list[OutputSignal]:
+    """What a run records of what the netlist asks for."""
+    return system.recording(_patterns(netlist)).chosen
+
+
 def _patterns(netlist: Netlist) -> list[str]:
     """What to record: what is asked for, and what plots and limits need."""
     plotted = [pattern for plot in netlist.record.plots for pattern in (*plot.signals, plot.along) if pattern]

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -29,6 +30,28 @@ def test_results_of_more_than_the_limit_are_told_with_their_size_and_a_way_out(t
     few = CliRunner().invoke(app, [*words, "--set", "record.every=0.2 s"])
     assert "note: the results take" not in few.stderr
     assert json.loads((tmp_path / "run" / "run.json").read_text())["record_every"] == 0.2
+
+
+def test_what_will_be_large_is_told_before_the_run_where_a_grid_says_it_and_early_in_it_where_not(
+    tmp_path: Path, monkeypatch
+) -> None:
+    monkeypatch.setattr("fairlead.cli.run.LARGE", 1e5)
+    words = ["run", "belt", "--out", str(tmp_path / "run"), "--force"]
+    told = CliRunner().invoke(app, [*words, "--set", "run.stop=2 s", "--set", "record.every=1 ms"])
+    first = told.stderr.splitlines()[0]
+    size = (tmp_path / "run" / "series.nc").stat().st_size
+    assert first.startswith("note: the results will take about ")
+    rows, signals = re.search(r"\((\d+) rows of (\d+) signals", first).groups()
+    assert 8 * int(rows) * (int(signals) + 1) == pytest.approx(size, rel=0.2)
+    assert "record.every is 0.001 s" in first
+    monkeypatch.setattr("fairlead.cli.run.LARGE", 1e4)
+    monkeypatch.setattr("fairlead.cli.growing.EARLY", 1e-9)
+    every = [*words, "--set", "run.stop=2000 s", "--set", "record.every=null"]
+    told = CliRunner().invoke(app, every)
+    said = [line for line in told.stderr.splitlines() if "will take about" in line]
+    assert len(said) == 1
+    assert "at this rate" in said[0]
+    assert "Give record.every a time" in said[0]
 
 
 def test_where_jumps_make_the_rows_the_signals_that_jump_are_named(tmp_path: Path, monkeypatch) -> None:

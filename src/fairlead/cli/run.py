@@ -48,6 +48,7 @@ def run(
 ) -> None:
     """Simulate a netlist. Ctrl-C ends a run early and keeps what was computed."""
     import fairlead
+    from fairlead.cli.growing import Growing
     from fairlead.cli.progress import progress_bar
     from fairlead.netlist.settings_file import read_settings
     from fairlead.simulate import Place
@@ -60,7 +61,11 @@ def run(
         shown_besides(model)
     with progress_bar(pathlib.Path(netlist).stem, quiet or as_json) as progress, warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # told below the table
-        result = model.run(out=out or Place.RESULTS, force=force, progress=progress, profile=profile, check=False)
+        seen = progress
+        if not (quiet or as_json):
+            seen = Growing(model, out or pathlib.Path("results") / model.netlist.name, LARGE, progress)
+            seen.before()
+        result = model.run(out=out or Place.RESULTS, force=force, progress=seen, profile=profile, check=False)
     cut_short = bool(result.run.get("routes")) and _interrupted(lambda: _compare_with_statics(model, result))
     if not as_json:  # the run is whole, and its summary waits for no figure
         _tell(result, quiet=quiet, profile=profile)
