@@ -22,7 +22,9 @@ class Crank(Component):
 
     At angle 0 without offset the slider is in its outer dead centre, at pi in the inner one; both are passed. Shaft
     and slider each need an inertia of their own, unless their motion is given. Of angle and position one may be given
-    at the start, and one of the speeds; the others follow. Limits: what the rod weighs is to be added to the two.
+    at the start, and one of the speeds; the others follow. The rod leans, so it presses the slider on its guide with
+    `thrust`: a guide that rubs is a Contact whose `normal` is a SignalSize of it. Limits: what the rod weighs is to be
+    added to the two.
     """
 
     shaft = Rotational("the shaft with the crank")
@@ -33,13 +35,15 @@ class Crank(Component):
     centre = Parameter("m", "Position of the shaft along the slider's line.", default=0.0)
     push = Unknown("N", "Force of the rod on the slider along its line.")
     force = Output("N", "Force of the rod on the slider along its line, outwards positive.")
+    thrust = Output("N", "Force of the slider on its guide, across its line, to the side of angle pi/2 positive.")
     gap = Output("m", "What the slider is off its place, which a run keeps below its error weight.")
 
     def law(p, shaft, slider, push):
         """One relation of positions; its force acts on both ports."""
         across = p.radius * sin(shaft.angle) - p.offset
-        gap = slider.x - p.centre - p.radius * cos(shaft.angle) - sqrt(p.rod**2 - across**2)
-        return Law(push=hold_position(gap), force=push, gap=gap)
+        along = sqrt(p.rod**2 - across**2)
+        gap = slider.x - p.centre - p.radius * cos(shaft.angle) - along
+        return Law(push=hold_position(gap), force=push, thrust=-push * across / along, gap=gap)
 
     def check(p):
         """The crank turns all the way round."""

@@ -95,6 +95,37 @@ def test_a_driven_crank_needs_the_force_of_its_closed_form(simulate, offset) -> 
     assert abs(result["piston.v"] - 10 * first).max() < 1e-7
     assert result["crank.force"] == pytest.approx(MASS * 100 * second, abs=1e-5)
     assert result["drive.force"] == pytest.approx(MASS * 100 * second * first / 0.1, abs=1e-5)
+    # the shaft gives the moment about it of the rod's force on the slider, which is thrust across and force along
+    moment = x * result["crank.thrust"] - offset * result["crank.force"]
+    assert moment == pytest.approx(MASS * 100 * second * first, abs=1e-5)
+
+
+def test_a_guide_rubs_with_the_thrust_of_the_rod_that_leans(simulate) -> None:
+    """Friction mu |thrust| is part of the force whose thrust it is, in a loop:  F (1 - mu |tan| sign(v F)) = m a."""
+    result = simulate("""
+    components:
+      drive: {type: SpeedSource, speed: 10 rad/s}
+      crank: {type: Crank, radius: 50 mm, rod: 200 mm}
+      piston: {type: Mass, mass: 1.5 kg}
+      wall: {type: Ground}
+      size: {type: SignalSize}
+      guide: {type: Contact, curve: 0.2}
+    connections:
+      - [drive.shaft, crank.shaft]
+      - [crank.slider, piston.flange, guide.b]
+      - [wall.flange, guide.a]
+      - [crank.thrust, size.value]
+      - [size.signal, guide.normal]
+    run: {stop: 0.28 s, accuracy: 1e-6}
+    record: {signals: ["*"]}
+    """)
+    moving = (result.t > 0.02) & (result.t < 0.28)
+    _, first, second = crank(RADIUS, ROD, 0.0)(10 * result.t[moving])
+    across = RADIUS * np.sin(10 * result.t[moving])
+    inertial, leans = MASS * 100 * second, np.abs(across / np.sqrt(ROD**2 - across**2))
+    force = inertial / (1 - 0.2 * leans * np.sign(first * inertial))
+    assert result["crank.force"][moving] == pytest.approx(force, abs=2e-3)
+    assert result["guide.friction"][moving] == pytest.approx(0.2 * leans * np.abs(force) * np.sign(first), abs=1e-3)
 
 
 def test_a_crank_with_friction_at_its_slider_sticks_and_breaks_away(simulate) -> None:
