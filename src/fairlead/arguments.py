@@ -8,18 +8,38 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import math
 import os
-from collections.abc import Collection, Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import Any, ParamSpec, TypeVar
 
-from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
+from fairlead.errors import Fault, Location, ModelError, UsageError, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si
 
 NAN = "Look where it comes from: an empty cell of a table is nan, and 0/0."
 NONE = 'Give a value, or "null" for a parameter as if it were not given; a part is left out in the netlist.'
 ONE = "Give one value; for several make a model of each, in a loop."
+P, T = ParamSpec("P"), TypeVar("T")
+
+
+def keywords_told(call: Callable[P, T]) -> Callable[P, T]:
+    """The call, which tells a keyword that it does not know with a near one: a UsageError in place of a TypeError."""
+    takes = inspect.signature(call).parameters.values()
+    known = [one.name for one in takes if one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY)]
+    name = call.__qualname__.removesuffix(".__init__")
+
+    @functools.wraps(call)
+    def told(*arguments: P.args, **given: P.kwargs) -> T:
+        for word in given:
+            if word not in known:
+                names = [one for one in known if one != "self"]
+                what = f"{name}: there is no argument {shown(word)}. {did_you_mean(word, names)}".rstrip()
+                raise UsageError(f"{what}\n    Arguments are {listing(names)}.")
+        return call(*arguments, **given)
+
+    return told
 
 
 class Arguments:
@@ -40,10 +60,69 @@ class Arguments:
             return
         self._wrong(name, value, "is not a path", f"Give a text or a pathlib.Path{f', or {none}' if none else ''}.")
 
+    def folder(self, name: str, value: object, none: str) -> None:
+        """A path for results; a time is none, it is meant for `stop`."""
+        self.path(name, value, none)
+        if isinstance(value, str) and not value.replace(".", "").isdigit() and _fits(value, "s"):
+            way_out = f'The end of a run is stop={value!r}. A folder of that name is pathlib.Path({value!r}).'
+            self._wrong(name, value, "is a time, not a folder", way_out)
+
+    def new_file(self, name: str, value: object) -> None:
+        """A path of a file to write, whose folder is there."""
+        before = len(self.faults)
+        self.path(name, value)
+        if len(self.faults) > before or not isinstance(value, str | os.PathLike):
+            return
+        folder = os.path.dirname(os.fspath(value))
+        if folder and not os.path.isdir(folder):
+            self._wrong(name, os.fspath(value), f"cannot be written: there is no folder {shown(str(folder))}",
+                        "Make the folder first, or give another one.")  # fmt: skip
+
     def model(self, value: object) -> None:
-        """A model that was loaded; its name or its file is none."""
+        """A model that was loaded; its name or its file is none, nor is a result of it."""
         if value is None or isinstance(value, str | os.PathLike):
             self._wrong("model", value, "is not a Model", f"Load it: fairlead.load({value!r}).")
+        elif not (hasattr(value, "netlist") and hasattr(value, "beside")):
+            way_out = "Give the model of which it is a run; fairlead.load(PATH) gives one."
+            self._wrong("model", f"a {type(value).__name__}", "is not a Model", way_out)
+
+    def whole(self, name: str, value: object, least: int) -> None:
+        """A whole number from `least` on."""
+        number = value.item() if getattr(value, "shape", None) == () and hasattr(value, "item") else value
+        if isinstance(number, bool) or not isinstance(number, int):
+            self._wrong(name, value, "is not a whole number", f"Give a whole number, {least} or more.")
+        elif number < least:
+            self._wrong(name, value, f"is below {least}", f"Give a whole number, {least} or more.")
+
+    def text(self, name: str, value: object, example: str) -> None:
+        """A text."""
+        if not isinstance(value, str):
+            self._wrong(name, value, "is not a text", f"Write it as {example}.")
+
+    def map_of(self, name: str, value: object, example: str, kind: Any = object) -> None:
+        """A map; where its values have to be of a kind, its names have to be texts."""
+        if not isinstance(value, Mapping):
+            self._wrong(name, value, "is not a map", f"Write it as {example}.")
+            return
+        for key, one in value.items() if kind is not object else ():
+            if not isinstance(key, str):
+                self._wrong(name, key, "is not a name, which is a text", f"Write it as {example}.")
+            elif not _is(one, kind):
+                self._wrong(f"{name}[{shown(key)}]", one, "is not known", f"Write it as {example}.")
+
+    def names(self, name: str, value: object, example: str, *, functions: bool = False) -> None:
+        """One text, or several in a list; also functions, where these may be."""
+        if not isinstance(value, Iterable) or isinstance(value, bytes):
+            self._wrong(name, value, "is neither a text nor a list", f"Write it as {example}.")
+            return
+        for one in [value] if isinstance(value, str) else _again(value):
+            if not isinstance(one, str) and not (functions and callable(one)):
+                self._wrong(name, one, "is not a text", f"Write it as {example}.")
+
+    def nothing_twice(self, name: str, value: Iterable[str], other: Iterable[str]) -> None:
+        """Names that may be given in one of two places, and not in both."""
+        for one in sorted({*value} & {*other}):
+            self._wrong(name, one, "is given twice", "Give it once, in the map or by its name.")
 
     def yes_or_no(self, name: str, value: object) -> None:
         """True or False; a text would count as true, whatever it says."""
@@ -79,6 +158,14 @@ class Arguments:
             self.faults.append(Fault(self.place, f"{name} = {error.what}", error.allowed))
             return math.nan
 
+    def alone(self, name: str, value: object, way_out: str) -> None:
+        """What is of no use without others, and is given without them."""
+        self._wrong(name, value, "is given alone", way_out)
+
+    def outside(self, name: str, value: object, recorded: str) -> None:
+        """A span in which there is nothing."""
+        self._wrong(name, value, "has nothing to show", f"The run {recorded}.")
+
     def pair(self, name: str, value: object, example: str) -> None:
         """Not two numbers in rising order, which is a mistake."""
         self._wrong(name, value, "are not two numbers, the first below the second", f"Write it as {example}.")
@@ -89,9 +176,9 @@ class Arguments:
             near = did_you_mean(value, allowed) if isinstance(value, str) else ""
             self._wrong(name, value, "is not known", f"{near} Allowed are {listing(allowed)}.".strip())
 
-    def values_by_name(self, name: str, value: object) -> None:
-        """A map of names to texts or numbers, or None."""
-        if value is None:
+    def values_by_name(self, name: str, value: object, *, none: bool = True) -> None:
+        """A map of names to texts or numbers, or None where that may be."""
+        if value is None and none:
             return
         if not isinstance(value, Mapping):
             self._wrong(name, value, "is not a map", 'Write it as {"run.stop": "5 s"}.')
@@ -105,16 +192,29 @@ class Arguments:
             elif one != one:
                 self._wrong(f"{name}[{shown(key)}]", one, "is not a number", NAN)
 
-    def texts(self, name: str, value: object, example: str) -> None:
-        """Several texts or paths; a single one is taken for the mistake it is."""
+    def texts(self, name: str, value: object, example: str, each: str = "path") -> None:
+        """Several texts or paths; a single one is taken for the mistake it is. `each` says what one of them is."""
         if isinstance(value, str | bytes | os.PathLike) or not isinstance(value, Iterable):
             self._wrong(name, value, "is not a list", f"Write it as [{example}].")
-        elif wrong := [one for one in value if not isinstance(one, str | os.PathLike)]:
-            self._wrong(name, wrong[0], "is not a path", f"Write it as [{example}].")
+        elif wrong := [one for one in _again(value) if not isinstance(one, str | os.PathLike)]:
+            self._wrong(name, wrong[0], f"is not a {each}", f"Write it as [{example}].")
 
     def _wrong(self, name: str, value: object, what: str, way_out: str) -> None:
         told = shown(value if isinstance(value, str) else repr(value))
         self.faults.append(Fault(self.place, f"{name} = {told} {what}", way_out))
+
+
+def _again(value: Iterable[Any]) -> Iterable[Any]:
+    """What can be gone through twice; of an iterator nothing, for the call itself would find it empty."""
+    return () if isinstance(value, Iterator) else value
+
+
+def _fits(text: str, unit: str) -> bool:
+    try:
+        si(text, unit)
+    except QuantityError:
+        return False
+    return True
 
 
 def _is(value: object, kind: Any) -> bool:

@@ -143,13 +143,13 @@ def no_attribute(owner: object, name: str, called: Mapping[str, str], more: str 
     return AttributeError(f"a {type(owner).__name__} has no {shown(name)}. {meant}".rstrip())
 
 
-def did_you_mean(word: str, allowed: Iterable[str]) -> str:
-    """The sentence "Did you mean X?" for the nearest allowed word, or "" when none is near.
+def did_you_mean(word: object, allowed: Iterable[str]) -> str:
+    """The sentence "Did you mean X?" for the nearest allowed word, or "" when none is near, or `word` is no text.
 
     Case, underscores and hyphens do not count as differences. A longer name that contains `word` as a whole
     (`force` for `normal_force`) is offered when it is the only one.
     """
-    if not 0 < len(word) <= LONGEST_WORD_COMPARED:
+    if not isinstance(word, str) or not 0 < len(word) <= LONGEST_WORD_COMPARED:
         return ""
     by_key: dict[str, str] = {}
     for name in allowed:

@@ -23,6 +23,7 @@ import numpy as np
 
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.analysis.record.unsettled import with_way_out
+from fairlead.arguments import Arguments, keywords_told
 from fairlead.engine import engine_settings, refused
 from fairlead.errors import ModelError, SteppingError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.codes import TRY
@@ -138,11 +139,11 @@ class Stepping:
 
         Raises UsageError for a name that is neither, and for a value that does not fit; ModelError for a parameter's.
         """
-        if name in self.tunable:
+        if isinstance(name, str) and name in self.tunable:
             self._tune(name, value)
             return
-        if name not in self._inputs:
-            near = did_you_mean(name, self._inputs) if isinstance(name, str) else ""
+        if not isinstance(name, str) or name not in self._inputs:
+            near = did_you_mean(name, self._inputs)
             known = f"Inputs are {listing(self._inputs)}." if self._inputs else "The scene has none (`interface`)."
             of_start = f"A parameter is named at the start: model.start(tunable=[{shown(repr(name))}])."
             known += f" Tunable are {listing(self.tunable)}." if self.tunable else f" {of_start}"
@@ -186,6 +187,8 @@ class Stepping:
         """A signal where the run is, in SI. Raises UsageError for a name that no signal has."""
         self._begin()
         name = now_called(name, self._columns) or name if isinstance(name, str) else name
+        if not isinstance(name, str):
+            raise UsageError(f"get: name = {shown(name)} is not the name of a signal, which is a text; one at a time.")
         if name not in self._columns:
             near, way_out = suggest(str(name), list(self._columns))
             raise UsageError(f"get: no signal has the name {shown(str(name))}. {near} {way_out}".rstrip())
@@ -195,12 +198,17 @@ class Stepping:
         take, columns = self._columns[name]
         return (max if take == "max" else min)(float(self._values[k]) for k in columns)
 
+    @keywords_told
     def advance(self, t: float | str, *, until_change: bool = False) -> float:
         """Go on to `t` [s] and return the time reached: `t`, or with `until_change` that of a zone change before.
 
         The `stop` of the netlist is no end here. Raises SteppingError where the run fails; it stays where it got to.
         Raises UsageError for a time before that reached. `max_wall` bounds every call by itself: call again to go on.
         """
+        if until_change is not True and until_change is not False:
+            asked = Arguments("advance")
+            asked.yes_or_no("until_change", until_change)
+            asked.refuse()
         goal = self._time(t)
         self.changes = []
         self._go_over()

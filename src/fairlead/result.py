@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 import fairlead.results as results
 from fairlead.analysis.record.reported import remarks
+from fairlead.arguments import keywords_told
 from fairlead.errors import no_attribute
+from fairlead.results.asked import refuse_no_height
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -57,6 +59,7 @@ class Result(results.Result):
         """What the run has to say: what `check` would remark, chatter, an open energy ledger, broken limits."""
         return remarks(self.run)
 
+    @keywords_told
     def margins(self, line: str = "*") -> Table:
         """How near the lines came to what they bear, by station and over the run, with time and place of the worst.
 
@@ -95,6 +98,7 @@ class Result(results.Result):
 
         return energy(self)
 
+    @keywords_told
     def switches(self, pattern: str = "*") -> Table:
         """Zone changes counted by component and zones: how many, the first and the last time [s].
 
@@ -104,6 +108,7 @@ class Result(results.Result):
 
         return switches(self, pattern)
 
+    @keywords_told
     def animation(self, height: int = 640) -> Animation:
         """The moving picture of the report, for a cell of a notebook; `height` of its frame in px.
 
@@ -111,8 +116,10 @@ class Result(results.Result):
         """
         from fairlead.report.page.inline import Animation
 
+        refuse_no_height(height)
         return Animation.of(self, height)
 
+    @keywords_told
     def plot(
         self, *names: str | Iterable[str] | None, title: str = "",
         between: tuple[float | str, float | str] | None = None, file: str | Path | None = None,

@@ -195,7 +195,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bo
         "build": str(processor()),
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every, "friction": friction_record(system.flat),
-        "remarks": [str(one) for one in (*remarks(system.flat), *engine_remarks(settings, system))] if told else [],
+        "remarks": [str(one) for one in (*remarks(system.flat, settings), *engine_remarks(settings, system))] if told else [],
         "routes": _routes(system.flat),
         "scene": scene_record(netlist, system.flat),
         "zones": zone_record(system.machine_names, system.machine_zones, system.zones),

@@ -20,9 +20,19 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
-from fairlead.arguments import Arguments
+from fairlead.arguments import Arguments, keywords_told
 from fairlead.brief import in_a_line
-from fairlead.errors import Fault, ModelError, RunError, RunInterrupted, RunWarning, UsageError, no_attribute, shown
+from fairlead.errors import (
+    Fault,
+    Location,
+    ModelError,
+    RunError,
+    RunInterrupted,
+    RunWarning,
+    UsageError,
+    no_attribute,
+    shown,
+)
 
 if TYPE_CHECKING:
     from fairlead.component.instantiate import Assembly
@@ -50,6 +60,7 @@ class Place(enum.Enum):
     RESULTS = "results/NAME"
 
 
+@keywords_told
 def load(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = None,
          libraries: Iterable[str | os.PathLike[str]] = (), allow_fmu: bool = False) -> Model:  # fmt: skip
     """Read a netlist, by path or by the name of a bundled model. Raises ModelError with every mistake.
@@ -287,12 +298,12 @@ class Model:
 
         begun = time.perf_counter()
         asked = Arguments(called)
-        asked.path("out", "results" if isinstance(out, Place) else out, none="None to keep the result in memory")
+        asked.folder("out", "results" if isinstance(out, Place) else out, none="None to keep the result in memory")
         for name, value in (("force", force), ("profile", profile), ("check", check)):
             asked.yes_or_no(name, value)
         asked.function("progress", progress, ("the fraction done", "the time reached [s]", "None"))
         try:
-            netlist = with_keywords(self.netlist.run, settings, self.netlist.parameters)
+            netlist = with_keywords(self.netlist.run, settings, self.netlist.parameters, called)
         except ModelError as error:
             raise ModelError([*asked.faults, *error.faults]) from None
         asked.refuse()
@@ -322,11 +333,11 @@ class Model:
         from fairlead.tuning import Tunable
 
         asked = Arguments("Model.start")
-        asked.texts("inputs", inputs, '"valve.command"')
-        asked.texts("tunable", tunable, '"pad.normal_force"')
+        asked.texts("inputs", inputs, '"valve.command"', "name")
+        asked.texts("tunable", tunable, '"pad.normal_force"', "name")
         asked.refuse()
         named = Tunable.of(self, tunable)
-        chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters)
+        chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters, "Model.start")
         return Stepping(self.netlist, chosen, self.system, inputs, tunable=named)
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
@@ -340,14 +351,22 @@ class Model:
         asked = Arguments("Model.with_values")
         asked.values_by_name("values", values)
         asked.values_by_name("values", more)
+        asked.nothing_twice("values", values if isinstance(values, Mapping) else (), more)
         asked.refuse()
-        return self.beside({**(values or {}), **more}, self)
+        return _told_by("Model.with_values", self._renewed, {**(values or {}), **more}, self)
 
     def beside(self, values: Mapping[str, float | str], near: Model | None = None) -> Model:
         """This model with other values, on what `near` has compiled; with None nothing is compiled.
 
         `near` is this model, or one made from it, whatever its values are. Raises ModelError as `with_values` does.
         """
+        asked = Arguments("Model.beside")
+        asked.values_by_name("values", values, none=False)
+        asked.refuse()
+        return _told_by("Model.beside", self._renewed, values, near)
+
+    def _renewed(self, values: Mapping[str, float | str], near: Model | None) -> Model:
+        """`beside`, with arguments that are sound."""
         from fairlead.renewal import renew
 
         given = {**self._overrides, **_as_text(values)}
@@ -356,6 +375,8 @@ class Model:
             new.check()
         if near is not None:
             renew(near, new)  # type: ignore[arg-type]  # mypy takes cached properties for read-only
+        else:
+            new.assembly  # noqa: B018 - a value that does not fit is told here
         return new
 
     @property
@@ -397,6 +418,17 @@ def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Itera
         yield replace(fault, way_out="\n".join([fault.way_out, *given])) if given else fault
 
 
+def _told_by(called: str, renewed: Callable[..., Model], values: Mapping[str, float | str], near: Model | None) -> Model:
+    """The model with other values; what is wrong with them is told as of the call, where nobody wrote --set."""
+    from fairlead.netlist.overrides import PLACE
+
+    try:
+        return renewed(values, near)
+    except ModelError as error:
+        place = Location(called)
+        raise ModelError([replace(one, where=place) if one.where == PLACE else one for one in error.faults]) from None
+
+
 def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
     """Raise ModelError for a word that is not among those allowed."""
     asked = Arguments(call)
@@ -415,11 +447,16 @@ def _in_order(faults: Iterable[Fault]) -> list[Fault]:
     return sorted(dict.fromkeys(faults), key=lambda f: (f.where is None, f.where, f.what))
 
 
+@keywords_told
 def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
     """Ports, parameters, zones with guards, and equations of the component type `name`; a notebook shows it as a page.
 
     `libraries` are files with types of one's own. Raises UsageError for a type that there is not.
     """
+    asked = Arguments("describe_type")
+    asked.text("name", name, 'describe_type("DryContact")')
+    asked.texts("libraries", libraries, '"parts.py"')
+    asked.refuse()
     from fairlead.component.registry import known_types
     from fairlead.describe.page import describe
     from fairlead.describe.shown import Page

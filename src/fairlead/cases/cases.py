@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.arguments import Arguments, keywords_told
 from fairlead.cases.figures import Figure, Function, default_figures, read_figures
 from fairlead.cases.identity import key_of, scene_digest
 from fairlead.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
 from fairlead.cases.values_of import value_of
-from fairlead.errors import FairleadError, ModelError
+from fairlead.errors import FairleadError, Location, ModelError
 from fairlead.netlist.settings import RecordSettings
 from fairlead.running import run
 
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Take = Callable[["Result"], None]
+PLACE, BESIDE = Location("values"), Location("Model.beside")
+"""What is wrong with values of a case is told as of these, by whatever call they came."""
+EXAMPLE = '{"peak": "peak(block.x)"}'
 MOST_STRUCTURES = 4
 """Compiled structures that are kept; a sweep over words has a few, and one over sizes comes back to none."""
 
@@ -39,12 +43,20 @@ MOST_STRUCTURES = 4
 class Cases:
     """Cases of a model: figures asked of it, and the structures compiled so far. It pickles as its model does."""
 
+    @keywords_told
     def __init__(self, model: Model, figures: Mapping[str, str | Function] | None = None, *,
                  max_steps: int | None = None) -> None:  # fmt: skip
         """`figures` by name (see `figures.py`), None for those of the netlist; `max_steps` ends a case that takes more.
 
         Raises ModelError for a model or figures that are wrong.
         """
+        asked = Arguments("Cases")
+        asked.model(model)
+        if figures is not None:
+            asked.map_of("figures", figures, EXAMPLE, (str, Callable))
+        if max_steps is not None:
+            asked.whole("max_steps", max_steps, 1)
+        asked.refuse()
         self.model, self.max_steps = model, max_steps
         self.wanted = dict(default_figures(model) if figures is None else figures)
         self.figures: tuple[Figure, ...] = read_figures(self.wanted, model)
@@ -76,10 +88,15 @@ class Cases:
 
     def check(self, values: Mapping[str, Value]) -> None:
         """Raise ModelError if the model has no such values; nothing is run or compiled."""
-        assert self.model.beside(values).assembly is not None
+        _refuse_no_map("Cases.check", values)
+        assert self._beside(values).assembly is not None
 
     def row(self, values: Mapping[str, Value]) -> Row:
-        """Run the case of these values. What goes wrong in it is told by its status and sentence."""
+        """Run the case of these values. What goes wrong in it is told by its status and sentence.
+
+        Raises ModelError where `values` is no map.
+        """
+        _refuse_no_map("Cases.row", values)
         return self._told_row(values)
 
     def _told_row(self, values: Mapping[str, Value], also: tuple[str, ...] = (), take: Take | None = None) -> Row:
@@ -136,14 +153,24 @@ class Cases:
 
     def _model(self, values: Mapping[str, Value]) -> Model:
         """The model of these values, on a structure that is compiled already where there is one that fits."""
+        asked = Arguments("Cases.row")
+        asked.values_by_name("values", values)
+        asked.refuse()
         words = tuple(f"{name}={values[name]}" for name in sorted(values) if not _is_number(values[name]))
         near = self._structures.pop(words, self.model)
-        model = self.model.beside(values, near)
+        model = self._beside(values, near)
         near = model if model.rebuilt or near is self.model else near
         self._structures[words] = near
         if len(self._structures) > MOST_STRUCTURES:
             del self._structures[next(iter(self._structures))]
         return model
+
+    def _beside(self, values: Mapping[str, Value], near: Model | None = None) -> Model:
+        try:
+            return self.model.beside(values, near)
+        except ModelError as error:
+            told = [replace(one, where=PLACE) if one.where == BESIDE else one for one in error.faults]
+            raise ModelError(told) from None
 
     def _result(self, model: Model, also: tuple[str, ...] = ()) -> Result:
         record = RecordSettings.model_construct(signals=list(also), every=None, plots=[]) if also else None
@@ -168,6 +195,13 @@ class Cases:
         else:
             every = settings.stop - settings.start
         return RecordSettings.model_construct(signals=list(signals), every=every, plots=[])
+
+
+def _refuse_no_map(called: str, values: object) -> None:
+    """Raise ModelError for values that have no names; what is wrong with one of them is the row's to tell."""
+    asked = Arguments(called)
+    asked.map_of("values", values, '{"pad.normal_force": "12 N"}')
+    asked.refuse()
 
 
 def _is_number(value: Value) -> bool:

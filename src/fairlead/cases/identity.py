@@ -38,7 +38,7 @@ def scene_digest(model: Model, asked: Iterable[object]) -> str:
 
 def key_of(scene: str, values: Mapping[str, float | str]) -> str:
     """The key of one case of a scene."""
-    said = "\0".join(f"{name}={values[name]}" for name in sorted(values))
+    said = "\0".join(f"{name}={values[name]}" for name in sorted(values, key=str))
     return hashlib.sha256(f"{scene}\0{said}".encode("utf-8", "surrogatepass")).hexdigest()[:LENGTH]
 
 

@@ -15,7 +15,9 @@ from fairlead.netlist.netlist import Value
 from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
 from fairlead.netlist.translate import validate
 
-PLACE = Location("Model.run")
+FRICTION = ("hold", "karnopp", "binding", "tanh", "arctan", "root", "reset_integrator", "dahl", "lugre",
+            "elastoplastic", "maxwell_slip")  # fmt: skip
+"""Treatments of friction of the bundled laws, which are no methods of an engine."""
 Quantity = float | str
 """A number in SI, or a text with its unit: `5.0` or `"5 s"`."""
 
@@ -42,40 +44,46 @@ class _Block(Strict):
     run: RunSettings
 
 
-def with_keywords(settings: RunSettings, given: Mapping[str, Any], parameters: Collection[str] = ()) -> RunSettings:
+def with_keywords(settings: RunSettings, given: Mapping[str, Any], parameters: Collection[str] = (),
+                  called: str = "Model.run") -> RunSettings:  # fmt: skip
     """The settings of a netlist with those that are given. Raises ModelError with every mistake in them.
 
-    `parameters` are those of the scene: who gives one here is told where it goes.
+    `parameters` are those of the scene: who gives one here is told where it goes. `called` is the call.
     """
-    strays = [*_strays(given, parameters)]
-    names = {fault.what.rpartition(" ")[2] for fault in strays}
-    known = {name: value for name, value in given.items() if name not in names}
-    made, faults = validate(_Block, _written({"run": settings.model_dump() | known}))
+    place = Location(called)
+    strays = {name: Fault(place, *said) for name, *said in _strays(given, parameters)}
+    known = {name: value for name, value in given.items() if name not in strays}
+    made, faults = validate(_Block, _written({"run": settings.model_dump() | known}, place))
     if made is None or strays:
-        raise ModelError([*strays, *faults])
+        raise ModelError([*strays.values(), *faults])
     return made.run
 
 
-def _strays(given: Mapping[str, Any], parameters: Collection[str]) -> Iterator[Fault]:
-    """What is no setting of a run, but of its record, of the scene or of a part."""
+def _strays(given: Mapping[str, Any], parameters: Collection[str]) -> Iterator[tuple[str, str, str]]:
+    """What is no setting of a run, but of its record, of friction, of the scene or of a part: name, what, way out."""
     for name, value in given.items():
+        if name == "method" and isinstance(value, str) and value in FRICTION:
+            what = f"run.method = {value} is a treatment of friction, not a method of the engine"
+            yield name, what, f'Give it to the model: load(..., set={{"friction.method": {value!r}}}).'
         if name in RunSettings.model_fields:  # also where the scene has a parameter of that name
             continue
         if name in RecordSettings.model_fields:
             way_out = f'It stands in the block record: load(..., set={{"record.{name}": ...}}).'
+        elif name == "record":
+            way_out = 'It is a block of the netlist: load(..., set={"record.every": ...}); its signals stand there.'
         elif name in parameters:
             way_out = f"It is a parameter of the scene: model.with_values({name}={shown(repr(value))}).run()."
         elif "." in name:
             way_out = f"What a part has is given before: model.with_values({{{name!r}: {shown(repr(value))}}}).run()."
         else:
             continue
-        yield Fault(PLACE, f"run has no key {name}", way_out)
+        yield name, f"run has no key {name}", way_out
 
 
-def _written(value: Any) -> Value:
+def _written(value: Any, place: Location) -> Value:
     """A value as if it stood in a netlist; numbers of numpy as Python's own."""
     if isinstance(value, dict):
-        return Value({str(name): _written(one) for name, one in value.items()}, PLACE, PLACE)
+        return Value({str(name): _written(one, place) for name, one in value.items()}, place, place)
     if isinstance(value, list | tuple):
-        return Value([_written(one) for one in value], PLACE, PLACE)
-    return Value(value.item() if isinstance(value, np.generic) else value, PLACE, PLACE)
+        return Value([_written(one, place) for one in value], place, place)
+    return Value(value.item() if isinstance(value, np.generic) else value, place, place)

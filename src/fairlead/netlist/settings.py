@@ -86,7 +86,8 @@ class RunSettings(Strict):
     @model_validator(mode="after")
     def _ends_after_it_starts(self) -> RunSettings:
         if self.stop <= self.start:
-            raise QuantityError(f"stop = {self.stop:g} s is not after start = {self.start:g} s")
+            raise QuantityError(f"stop = {self.stop:g} s is not after start = {self.start:g} s",
+                                "Give a stop above the start; both are times, not lengths of a run.")  # fmt: skip
         least = SHORTEST * max(1.0, abs(self.start), abs(self.stop))
         if self.stop - self.start < least:
             what = f"stop = {self.stop:.15g} s is {self.stop - self.start:.2g} s after start = {self.start:.15g} s"

@@ -30,8 +30,8 @@ def plot(
 
     asked = Arguments("Result.plot")
     if file is not None:
-        asked.path("file", file)
-    span = None if between is None else _span(asked, between)
+        asked.new_file("file", file)
+    span = None if between is None else _span(asked, between, result)
     asked.refuse()
     if file is not None and Path(file).suffix.lower() not in FORMATS:
         raise UsageError(f"{shown(str(file))} is no figure that can be drawn.\n    Formats are {listing(FORMATS)}.")
@@ -50,13 +50,15 @@ def plot(
     return drawn
 
 
-def _span(asked: Arguments, between: tuple[float | str, float | str]) -> tuple[float, float]:
+def _span(asked: Arguments, between: tuple[float | str, float | str], result: Result) -> tuple[float, float]:
     if not isinstance(between, tuple | list) or len(between) != 2:
         asked.pair("between", between, "(1.0, 2.5)")
         return 0.0, 1.0
     first, last = (asked.quantity(f"between[{k}]", value, "s") for k, value in enumerate(between))
     if last <= first:
         asked.pair("between", f"({first:g}, {last:g})", "(1.0, 2.5)")
+    elif len(result.t) and (last <= result.t[0] or first >= result.t[-1]):
+        asked.outside("between", f"({first:g}, {last:g})", f"was recorded from {result.t[0]:g} s to {result.t[-1]:g} s")
     return first, last
 
 

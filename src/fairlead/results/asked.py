@@ -2,14 +2,56 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
 from fairlead.arguments import Arguments
+from fairlead.errors import UsageError, shown
+from fairlead.quantities import QuantityError, si
+
+SEVERAL = '"block.x", "block.*" or ["block.x", "pad.slip"]'
 
 
-def refuse_no_path(called: str, path: object) -> None:
-    """Raise ModelError for a path that is neither a text nor a Path; `called` is the method."""
+def refuse_no_file(called: str, path: object, names: object = None) -> None:
+    """Raise ModelError for a file that cannot be written, and for no names at all; `called` is the method."""
     asked = Arguments(f"Result.{called}")
-    asked.path("path", path)
+    asked.new_file("path", path)
+    if isinstance(names, list | tuple) and not names:
+        asked.alone("names", names, "Leave it out to have all signals.")
     asked.refuse()
+
+
+def refuse_no_height(height: object) -> None:
+    """Raise ModelError for the height of a frame that is no number of pixels."""
+    asked = Arguments("Result.animation")
+    asked.whole("height", height, 1)
+    asked.refuse()
+
+
+def not_names(names: object) -> str:
+    """Why these are no names of signals; "" where they may be. What one of several is, is told where it is looked up."""
+    if names is None or (isinstance(names, Iterable) and not isinstance(names, bytes)):
+        return ""
+    return f"Write it as {SEVERAL}, or leave it out to have all."
+
+
+def times_of(t: Any) -> NDArray[np.float64]:
+    """Times [s]: a number, a text with its unit, or an array of numbers. Raises UsageError."""
+    if isinstance(t, str):
+        try:
+            return np.asarray(si(t, "s"))
+        except QuantityError as error:
+            raise UsageError(f"t = {shown(t)} is no time: {error.what}.\n    {error.allowed}") from None
+    try:
+        times = np.asarray(t, dtype="f8")
+    except (TypeError, ValueError):
+        times = np.array(np.nan)
+    if np.isnan(times).any():  # also of None
+        raise UsageError(f"t = {shown(t)} is no time: give a number of seconds, or an array of them.")
+    return times
 
 
 def instead_of(name: object) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex, overload
 
 from fairlead.brief import brief
 from fairlead.results.events import Event
@@ -15,7 +15,20 @@ if TYPE_CHECKING:
 
 
 class Events(list[Event]):
-    """Zone changes in order, each (t, component, zone_from, zone_to, guard)."""
+    """Zone changes in order, each (t, component, zone_from, zone_to, guard); a text gives a column, as of a table."""
+
+    @overload
+    def __getitem__(self, which: SupportsIndex, /) -> Event: ...
+    @overload
+    def __getitem__(self, which: slice, /) -> list[Event]: ...
+    @overload
+    def __getitem__(self, which: str, /) -> list[Any]: ...
+
+    def __getitem__(self, which: Any, /) -> Any:
+        try:
+            return super().__getitem__(which)
+        except (TypeError, IndexError):
+            return self.table()[which]  # a column, or what a table says of one that it has not
 
     def table(self) -> Table:
         """The same as a table."""

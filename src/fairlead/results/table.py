@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any, overload
 
-from fairlead.errors import printable
+from fairlead.errors import FairleadError, did_you_mean, printable, shown
 
 if TYPE_CHECKING:
     import pandas
@@ -24,6 +24,17 @@ MOST_ROWS = 24
 WIDEST, WIDEST_CELL = 110, 36
 MOST_NOTES = 6
 LONGEST_CELL = 200  # of a page, which breaks lines
+
+
+class NoColumnError(FairleadError, KeyError):
+    """A column that a table has not."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])  # KeyError would show the message in quotes.
+
+
+class NoRowError(FairleadError, IndexError):
+    """A row that a table has not."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -52,15 +63,22 @@ class Table:
     def __getitem__(self, which: int) -> dict[str, Any]: ...
 
     def __getitem__(self, which: str | int) -> Any:
-        """The column of that name, or the row of that number. Raises KeyError, IndexError."""
+        """The column of that name, or the row of that number. Raises NoColumnError, NoRowError."""
         if isinstance(which, int):
-            if not -len(self.rows) <= which < len(self.rows):
-                raise IndexError(f"{which}: {f'rows are 0 to {len(self.rows) - 1}' if self.rows else 'it has no rows'}")
-            return dict(zip(self.columns, self.rows[which], strict=True))
-        if which not in self.columns:
-            raise KeyError(f"{which}: the columns are {', '.join(self.columns)}")
+            return dict(zip(self.columns, self.rows[row_of(which, self.rows)], strict=True))
+        if not isinstance(which, str) or which not in self.columns:
+            raise NoColumnError(f"{shown(which)}: the columns are {', '.join(self.columns)}. {self._instead(which)}")
         at = self.columns.index(which)
         return [row[at] for row in self.rows]
+
+    def _instead(self, which: object) -> str:
+        """What to write for a row that is asked for by its first cell, or for a misspelt name."""
+        heads = [row[0] for row in self.rows if isinstance(row[0], str)]
+        if isinstance(which, str) and which in heads:
+            number = [row[0] for row in self.rows].index(which)
+            return f"\n    {shown(which)} is a row: [{number}] gives it."
+        near = did_you_mean(which, self.columns) or did_you_mean(which, heads)
+        return near if near else "\n    A row goes by its number: [0] is the first."
 
     def to_pandas(self) -> pandas.DataFrame:
         """All rows; `frame.attrs["units"]` maps columns to units."""
@@ -90,6 +108,13 @@ class Table:
     def _below(self) -> list[str]:
         notes = [_cut(f"note: {_text(note)}", WIDEST) for note in self.notes[:MOST_NOTES]]
         return [*_left_out(self.rows), *notes]
+
+
+def row_of(which: int, rows: Sequence[Any]) -> int:
+    """The number of a row, also counted from the end. Raises NoRowError."""
+    if not -len(rows) <= which < len(rows):
+        raise NoRowError(f"{which}: {f'rows are 0 to {len(rows) - 1}' if rows else 'it has no rows'}")
+    return which
 
 
 def _left_out(rows: Sequence[Any]) -> list[str]:

@@ -24,9 +24,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
+from fairlead.arguments import keywords_told
 from fairlead.errors import FairleadError, RunWarning, UsageError, did_you_mean, listing, shown
 from fairlead.renamed import of_today
-from fairlead.results.asked import instead_of, refuse_no_path
+from fairlead.results.asked import instead_of, not_names, refuse_no_file, times_of
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
@@ -151,6 +152,7 @@ class Result:
 
         return extremes(self.named(run_file.RUN_FILE), self.run)
 
+    @keywords_told
     def extremes(self, name: str) -> Extremes:
         """Lowest and highest value of the signal `name`, and when: (lowest, t_lowest, highest, t_highest), in SI and s.
 
@@ -219,8 +221,11 @@ class Result:
         """Return the SI unit of the signal `name`. Raises UnknownSignalError."""
         return self._signal(name).unit
 
+    @keywords_told
     def match(self, pattern: str) -> list[str]:
         """Return the recorded names that fit a pattern such as `line.*.tension` (see `signal.matching`)."""
+        if not isinstance(pattern, str):
+            raise UnknownSignalError(f"match: pattern = {shown(pattern)} is not a text.\n    Write it as \"block.*\".")
         return matching(self._signals, pattern) or self._of_old(pattern)
 
     def _of_old(self, pattern: str) -> list[str]:
@@ -232,8 +237,9 @@ class Result:
             warnings.warn(f"{pattern} is called {today} now; write that.", RunWarning, stacklevel=4)
         return [name for name in self._signals if name in found]
 
+    @keywords_told
     def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
-        """Return the value of the signal `name` at the times `t` [s] (a number or an array).
+        """Return the value of the signal `name` at the times `t` [s] (a number, a text with its unit, or an array).
 
         Between two recorded rows the value is that of the dense output of the step, within the accuracy of the run,
         where every step was recorded. On a grid (`record.every`) it is that of a cubic through four rows, where nothing
@@ -244,10 +250,7 @@ class Result:
         Raises FairleadError for a time that the run did not reach.
         """
         values = self[name]
-        try:
-            times = np.asarray(t, dtype="f8")
-        except (TypeError, ValueError):
-            raise UsageError(f"t = {shown(t)} is no time: give a number of seconds, or an array of them.") from None
+        times = times_of(t)
         if not len(self.t) or not np.all((times >= self.t[0]) & (times <= self.t[-1])):
             reached = f"from {self.t[0]:g} s to {self.t[-1]:g} s" if len(self.t) else "at no time"
             raise FairleadError(f"{name} was recorded {reached}; there is no value at t = {times} s.")
@@ -264,6 +267,7 @@ class Result:
 
         return pandas.DataFrame(self.events, columns=list(Event._fields))
 
+    @keywords_told
     def to_xarray(self, names: str | Iterable[str] | None = None, side: Side = "both") -> xarray.Dataset:
         """Return the signals (all, or those of `names` or patterns) as a dataset along `time`, with units.
 
@@ -275,6 +279,7 @@ class Result:
 
         return to_xarray(self, self.chosen(names), side)
 
+    @keywords_told
     def to_pandas(self, names: str | Iterable[str] | None = None, side: Side = "both") -> pandas.DataFrame:
         """Return the signals (all, or those of `names` or patterns) as columns over time [s]; units are in `.attrs`.
 
@@ -284,6 +289,7 @@ class Result:
 
         return to_pandas(self, self.chosen(names), side)
 
+    @keywords_told
     def to_excel(self, path: str | Path, names: str | Iterable[str] | None = None, side: Side = "both") -> None:
         """Write a workbook `path` with sheets for signals, zone changes and the run; wants the extra `fairlead[excel]`.
 
@@ -292,10 +298,11 @@ class Result:
         """
         from fairlead.results.excel import to_excel
 
-        refuse_no_path("to_excel", path)
+        refuse_no_file("to_excel", path, names)
         self._refuse_another()
         to_excel(self, path, self.chosen(names), side)
 
+    @keywords_told
     def elements(self, pattern: str, side: Side = "both") -> xarray.DataArray:
         """Return the elements of a line (`line.hose[*].tension`) as one array by `time` and `element`.
 
@@ -317,6 +324,7 @@ class Result:
         """Return the entries of run.json as a table, long ones by kind and size."""
         return RunRecord(self.run).table()
 
+    @keywords_told
     def to_csv(self, path: str | Path, names: str | Iterable[str] | None = None) -> None:
         """Write signals (all, or those of `names` or patterns) to the file `path`, with units and every digit.
 
@@ -325,7 +333,7 @@ class Result:
         from fairlead.results.export import to_csv
         from fairlead.results.placing import placing
 
-        refuse_no_path("to_csv", path)
+        refuse_no_file("to_csv", path, names)
         if self.path is None or Path(path).parent.resolve() != self.path.resolve():
             to_csv(self, path, self.chosen(names))
             return
@@ -333,6 +341,7 @@ class Result:
         with placing(Path(path)) as part:
             to_csv(self, part, self.chosen(names))
 
+    @keywords_told
     def columns(self, names: str | Iterable[str] | None = None) -> NDArray[np.float64]:
         """Return several signals (all, or those of `names` or patterns) side by side, shape (rows, signals), in SI."""
         return self._columns(self.chosen(names))
@@ -367,6 +376,8 @@ class Result:
         """The names of signals: all, one or several, each a name or a pattern. Raises UnknownSignalError."""
         if names is None:
             return list(self._signals)
+        if way_out := not_names(names):
+            raise UnknownSignalError(f"names = {shown(names)} is neither a text nor a list of texts.\n    {way_out}")
         given = [names] if isinstance(names, str) else list(names)
         found = [one for each in given
                  for one in ([each] if each in self._signals else self._fitting(each))]  # fmt: skip

@@ -18,7 +18,8 @@ from __future__ import annotations
 import contextlib
 import importlib
 import io
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,6 +33,8 @@ ROOT_FOUND = 2
 """The status of IDA for a step that ends at a root."""
 CLOSEST = 4 * float(np.finfo(float).eps)
 """IDA refuses a way below 2 eps (|t| + |stop|), its IDA_TOO_CLOSE: two samples that rounding alone parts."""
+WARNINGS = "SUNLOGGER_WARNING_FILENAME"
+"""Where the logger of SUNDIALS writes warnings; empty for nowhere."""
 FACTORISED, SINGULAR = 0, 1
 """What `prepare` returns, as in linear.py; anything else asks for other pivots."""
 
@@ -86,11 +89,11 @@ class Solver:
         """Start from (t, y, y'), which must be consistent; `options` are those of IDA."""
         if self.n_guards > 0:
             options |= {"eventsfn": self._events(), "num_events": self.n_guards}
-        self.object = self.package.IDA(
-            self._residual, linsolver="gmres", precond=self.package.IDAPrecond(None, self._solve),
-            jactimes=self.package.IDAJacTimes(self._prepare, self._multiply), **options,
-        )  # fmt: skip
-        with _silence():
+        with _silence(), _no_warnings():
+            self.object = self.package.IDA(
+                self._residual, linsolver="gmres", precond=self.package.IDAPrecond(None, self._solve),
+                jactimes=self.package.IDAJacTimes(self._prepare, self._multiply), **options,
+            )  # fmt: skip
             self.object.init_step(t, y, rate)
 
     def step(self, stop: float) -> Step | None:
@@ -138,6 +141,24 @@ class Solver:
 
         guards.direction = [1] * self.n_guards  # type: ignore[attr-defined]
         return guards
+
+
+@contextlib.contextmanager
+def _no_warnings() -> Iterator[None]:
+    """What is made meanwhile gives no warnings of SUNDIALS, which go to the stdout of the process, below Python's.
+
+    The one that comes with every start is of root functions that stay at zero over the first step: the guards of
+    contacts at rest, say. A variable of the environment that is set already stands: SUNLOGGER_WARNING_FILENAME names a
+    file for them (SUNDIALS 7.9 documentation, "Status and error logging").
+    """
+    if WARNINGS in os.environ:
+        yield
+        return
+    os.environ[WARNINGS] = ""
+    try:
+        yield
+    finally:
+        os.environ.pop(WARNINGS, None)
 
 
 def _silence() -> contextlib.redirect_stdout[io.StringIO]:

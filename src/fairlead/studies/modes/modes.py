@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.arguments import Arguments
+from fairlead.arguments import Arguments, keywords_told
 from fairlead.errors import Fault, Location, ModelError, shown
 from fairlead.quantities import quotient
 from fairlead.studies.modes.linear import equations, linear
@@ -30,6 +30,7 @@ Integers = NDArray[np.int64]
 SAMPLED = "Controllers that take samples are held: modes are those between two samples."
 
 
+@keywords_told
 def modes(
     model: Model, at: float | str | None = None, zones: Mapping[str, str] | None = None, *, acting: str = "",
     out: str = "", frequencies: tuple[float | str, float | str] | None = None, change: int = 0,
@@ -49,6 +50,13 @@ def modes(
     asked.model(model)
     time = None if at is None else asked.quantity("at", at, "s")
     span = None if frequencies is None else _span(asked, frequencies)
+    if zones is not None:
+        asked.map_of("zones", zones, '{"pad": "held"}', str)
+    asked.text("acting", acting, '"block"')
+    asked.text("out", out, '"block.x"')
+    asked.whole("change", change, 0)
+    if frequencies is not None and not (acting or out):
+        asked.alone("frequencies", frequencies, 'A response needs acting="block" and out="block.x" as well.')
     asked.refuse()
     run = model.start()
     if time is not None and time > run.t:
@@ -83,7 +91,7 @@ def _missing(acting: str, out: str) -> list[Fault]:
 
 
 def _span(asked: Arguments, given: tuple[float | str, float | str]) -> tuple[float, float] | None:
-    if len(given) != 2:
+    if not isinstance(given, tuple | list) or len(given) != 2:
         asked.pair("frequencies", given, "(0.1, 100)")
         return None
     low, high = (asked.above_zero("frequencies", one, "Hz") for one in given)

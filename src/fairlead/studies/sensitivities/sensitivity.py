@@ -5,12 +5,12 @@ fairlead.sensitivity(model, of="peak(block.x)", to=["pad.normal_force", "pad.cur
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fairlead.arguments import Arguments
+from fairlead.arguments import Arguments, keywords_told
 from fairlead.cases.cases import Cases
 from fairlead.cases.figures import Function
 from fairlead.errors import FairleadError, Fault, ModelError
@@ -28,6 +28,7 @@ Figures = str | Function | Iterable[str] | Mapping[str, str | Function]
 Parameters = str | Iterable[str] | Mapping[str, str | float | None]
 
 
+@keywords_told
 def sensitivity(
     model: Model, of: Figures | None = None, to: Parameters | None = None, *, max_steps: int | None = None,
     told: Told | None = None,
@@ -36,13 +37,18 @@ def sensitivity(
 
     `of`: a figure as text (docs/studies.md), a function of the result, several of them, or a map of names; None stands
     for the figures of the netlist. `to`: names as after `--set`, or a map of names to the size in which changes of each
-    are counted, which a parameter that is 0 needs; None stands for the numbers among the parameters of the scene.
+    are counted, which a parameter that is 0 needs; the size None is its own value. Without `to` the parameters are the
+    numbers among those of the scene.
     `max_steps` bounds each run. `told` is called with a line before each run.
 
     Raises ModelError with every mistake in what is asked, FairleadError when the run of the model as it is fails.
     """
     asked = Arguments("sensitivity")
     asked.model(model)
+    _sound(asked, of, to)
+    if max_steps is not None:
+        asked.whole("max_steps", max_steps, 1)
+    asked.function("told", told, ("a line of text",))
     asked.refuse()
     cases, varied = _asked(model, of, to, max_steps)
     runs = Runs(cases, varied, told)
@@ -78,6 +84,18 @@ def _asked(
     if faults:
         raise ModelError(faults)
     return cases, varied
+
+
+def _sound(asked: Arguments, of: object, to: object) -> None:
+    """Figures and parameters that are of no kind that can be meant; their names are looked up later."""
+    if isinstance(of, Mapping):
+        asked.map_of("of", of, '{"peak": "peak(block.x)"}', (str, Callable))
+    elif of is not None and not callable(of):
+        asked.names("of", of, '["peak(block.x)"]', functions=True)
+    if isinstance(to, Mapping):
+        asked.map_of("to", to, '{"pad.normal_force": "1 N"}', (str, int, float, type(None)))
+    elif to is not None:
+        asked.names("to", to, '["pad.normal_force"]')
 
 
 def _figures(of: Figures | None) -> dict[str, str | Function] | None:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
+from fairlead.cases.cases import PLACE as OF_CASE
 from fairlead.cases.row import FINISHED, Row, Value
 from fairlead.errors import Location, ModelError
-from fairlead.netlist.overrides import PLACE as SET
 from fairlead.studies.sweeps.design import Design
 from fairlead.studies.sweeps.farm import Case, Farm, Here
 from fairlead.studies.sweeps.job import Job
@@ -93,11 +93,11 @@ def sweep(job: Job, design: Design, folder: Path, *, computers: Callable[[Job], 
 
 
 def _check(job: Job, values: Mapping[str, Value]) -> None:
-    """Raise ModelError for values of a case that the model has not; they were not given by `--set`, as it says."""
+    """Raise ModelError for values of a case that the model has not; they are told as those of the sweep."""
     try:
         job.check(values)
     except ModelError as error:
-        raise ModelError([replace(one, where=PLACE) if one.where == SET else one for one in error.faults]) from None
+        raise ModelError([replace(one, where=PLACE) if one.where == OF_CASE else one for one in error.faults]) from None
 
 
 def cores() -> int:
