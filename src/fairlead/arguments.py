@@ -13,6 +13,7 @@ import inspect
 import math
 import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from fairlead.errors import Fault, Location, ModelError, UsageError, did_you_mean, listing, shown
@@ -21,7 +22,8 @@ from fairlead.quantities import QuantityError, si
 NAN = "Look where it comes from: an empty cell of a table is nan, and 0/0."
 NONE = 'Give a value, or "null" for a parameter as if it were not given; a part is left out in the netlist.'
 ONE = "Give one value; for several make a model of each, in a loop."
-P, T = ParamSpec("P"), TypeVar("T")
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 def keywords_told(call: Callable[P, T]) -> Callable[P, T]:
@@ -73,10 +75,12 @@ class Arguments:
         self.path(name, value)
         if len(self.faults) > before or not isinstance(value, str | os.PathLike):
             return
-        folder = os.path.dirname(os.fspath(value))
-        if folder and not os.path.isdir(folder):
-            self._wrong(name, os.fspath(value), f"cannot be written: there is no folder {shown(str(folder))}",
-                        "Make the folder first, or give another one.")  # fmt: skip
+        file = Path(os.fsdecode(value))
+        if file.is_dir():
+            self._wrong(name, str(file), "is a folder", "Give the name of a file in it.")
+        elif not file.parent.is_dir():
+            what = f"cannot be written: there is no folder {shown(str(file.parent))}"
+            self._wrong(name, str(file), what, "Make the folder first, or give another one.")
 
     def model(self, value: object) -> None:
         """A model that was loaded; its name or its file is none, nor is a result of it."""

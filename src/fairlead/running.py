@@ -186,6 +186,7 @@ def not_allowed(system: System) -> Fault | None:
 
 def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bool) -> dict[str, Any]:
     engine, reason = engine_of(settings, system)
+    odd = [*remarks(system.flat, settings), *engine_remarks(settings, system)] if told else []
     return {
         "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
         "description": netlist.description, "settings": settings.model_dump(),
@@ -195,7 +196,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bo
         "build": str(processor()),
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every, "friction": friction_record(system.flat),
-        "remarks": [str(one) for one in (*remarks(system.flat, settings), *engine_remarks(settings, system))] if told else [],
+        "remarks": [str(one) for one in odd],
         "routes": _routes(system.flat),
         "scene": scene_record(netlist, system.flat),
         "zones": zone_record(system.machine_names, system.machine_zones, system.zones),

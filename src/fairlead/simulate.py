@@ -418,7 +418,9 @@ def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Itera
         yield replace(fault, way_out="\n".join([fault.way_out, *given])) if given else fault
 
 
-def _told_by(called: str, renewed: Callable[..., Model], values: Mapping[str, float | str], near: Model | None) -> Model:
+def _told_by(
+    called: str, renewed: Callable[..., Model], values: Mapping[str, float | str], near: Model | None
+) -> Model:
     """The model with other values; what is wrong with them is told as of the call, where nobody wrote --set."""
     from fairlead.netlist.overrides import PLACE
 

@@ -32,7 +32,7 @@ def refuse_no_height(height: object) -> None:
 
 
 def not_names(names: object) -> str:
-    """Why these are no names of signals; "" where they may be. What one of several is, is told where it is looked up."""
+    """How to write names of signals instead of these; "" where they may be names. Each is looked up elsewhere."""
     if names is None or (isinstance(names, Iterable) and not isinstance(names, bytes)):
         return ""
     return f"Write it as {SEVERAL}, or leave it out to have all."
