@@ -200,6 +200,11 @@ def test_a_result_refuses_them_and_writes_nothing(result, call, says, tmp_path, 
     assert not list(tmp_path.iterdir())
 
 
+def test_a_mode_that_there_is_not_is_told_by_number(model):
+    assert told(lambda: fairlead.modes(model, zones={"pad": "sliding"})[5]) == "5: modes are 0 to 0"
+    assert told(lambda: fairlead.modes(model)[5]) == "5: there are no modes"
+
+
 def test_errors_of_tables_are_those_of_python_as_well(result):
     with pytest.raises(KeyError, match="the columns are"):
         result.energy["stord"]

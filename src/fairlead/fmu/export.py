@@ -47,7 +47,7 @@ def export(
     given.texts("tunable", tunable, '"pad.normal_force"')
     given.refuse()
     refuse_version(version)
-    asked = asked_of(model, inputs, outputs, tunable, settings)
+    asked = asked_of(model, inputs, outputs, tunable, settings, "export")
     name = identifier(model.netlist.name)
     target = pathlib.Path(f"{name}.fmu" if file is None else file)
     write(target, _made(asked, name, version))

@@ -61,7 +61,7 @@ def export_library(
     given.texts("outputs", outputs, '"spring.force"')
     given.texts("tunable", tunable, '"pad.normal_force"')
     given.refuse()
-    asked = asked_of(model, inputs, outputs, tunable, settings)
+    asked = asked_of(model, inputs, outputs, tunable, settings, "export_library")
     made = made_of(asked)
     name = prefix(model.netlist.name)
     target = pathlib.Path(name if folder is None else folder)

@@ -65,14 +65,15 @@ class Made(NamedTuple):
 
 
 def asked_of(
-    model: Model, inputs: Iterable[str], outputs: Iterable[str], tunable: Iterable[str], settings: RunKeywords
-) -> Asked:
-    """What is asked for, or UsageError for what this machine or a copy of the model cannot do."""
+    model: Model, inputs: Iterable[str], outputs: Iterable[str], tunable: Iterable[str], settings: RunKeywords,
+    called: str,
+) -> Asked:  # fmt: skip
+    """What is asked for by a call, or UsageError for what this machine or a copy of the model cannot do."""
     from fairlead.netlist.keywords import with_keywords
 
     refuse_platform()
     compiler()
-    chosen = with_keywords(model.netlist.run, settings, model.netlist.parameters)
+    chosen = with_keywords(model.netlist.run, settings, model.netlist.parameters, called)
     refuse_engine(engine_of(chosen, model.system)[0])
     parameters, faults = find_tunable(model.netlist, model.assembly.entries, tunable)
     given, _ = find_inputs(model.netlist, model.system, inputs)

@@ -110,10 +110,10 @@ class Table:
         return [*_left_out(self.rows), *notes]
 
 
-def row_of(which: int, rows: Sequence[Any]) -> int:
-    """The number of a row, also counted from the end. Raises NoRowError."""
-    if not -len(rows) <= which < len(rows):
-        raise NoRowError(f"{which}: {f'rows are 0 to {len(rows) - 1}' if rows else 'it has no rows'}")
+def row_of(which: int, rows: Sequence[Any], called: str = "rows") -> int:
+    """The number of a row, also counted from the end; `called` is what rows are. Raises NoRowError."""
+    if isinstance(which, int) and not -len(rows) <= which < len(rows):
+        raise NoRowError(f"{which}: {f'{called} are 0 to {len(rows) - 1}' if rows else f'there are no {called}'}")
     return which
 
 

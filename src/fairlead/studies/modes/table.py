@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from fairlead.results.table import row_of
 from fairlead.studies.modes.linear import Linear
 from fairlead.studies.modes.response import Response
 from fairlead.studies.modes.spectrum import Mode, Zeros
@@ -52,8 +53,8 @@ class Modes:
         return len(self.modes)
 
     def __getitem__(self, index: int) -> Mode:
-        """A mode."""
-        return self.modes[index]
+        """A mode. Raises NoRowError, which is an IndexError."""
+        return self.modes[row_of(index, self.modes, "modes")]
 
     @property
     def unstable(self) -> tuple[Mode, ...]:
