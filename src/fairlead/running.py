@@ -43,6 +43,7 @@ from fairlead.result import Result
 from fairlead.results import MemoryRun, RunDirectory, Signal, Sink
 from fairlead.system.assembly.left_open import left_open
 from fairlead.system.compiled.out_of_range import beyond_their_tables
+from fairlead.versions import versions
 from fairlead.watch import Watch, least_jumps
 
 if TYPE_CHECKING:
@@ -193,7 +194,7 @@ def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bo
         "engine": engine, "engine_reason": reason,
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
-        "build": str(processor()),
+        "build": str(processor()), "versions": versions(),
         "unknowns": system.n, "machines": len(system.zones),
         "record_every": netlist.record.every, "friction": friction_record(system.flat),
         "remarks": [str(one) for one in odd],

@@ -94,9 +94,11 @@ def test_a_cause_that_the_numbers_do_not_bear_is_not_told(rucking):
 def test_figures_of_the_cause_agree_when_a_reader_adds_them(rucking, inboard, outboard):
     text = dict(why(cause_of(rucking, inboard=inboard, outboard=outboard)))["Why"]
     number = r"(-?[0-9]+(?:\.[0-9]+)?)"
-    inner, outer = map(float, re.search(rf"tension is {number} N inboard of the bend and {number} N", text).groups())
+    goes = rf"tension goes from {number} N inboard of the bend to {number} N"
+    inner, outer = map(float, re.search(goes, text).groups())
     (acts,) = map(float, re.search(rf"These {number} N act", text).groups())
-    left = float((re.search(rf"left with {number} N", text) or re.search(rf"as well: {number} N in all", text))[1])
+    stay, all_of_it = rf"The other {number} N stay in the hose", rf"as well: {number} N in all"
+    left = float((re.search(stay, text) or re.search(all_of_it, text))[1])
     assert inner - outer == pytest.approx(left, abs=1e-9)
     if passed := re.search(rf"pass {number} N of them", text):
         assert acts - float(passed[1]) == pytest.approx(left, abs=1e-9)
@@ -117,11 +119,11 @@ def test_the_verdict_names_the_greatest_compression_and_the_longest_time_of_ruck
             counts.setdefault(event.component, []).append((event.t, event.zone_to in ("beyond", "rucking")))
     spans = [(t, after[k + 1][0] if k + 1 < len(after) else rucking.run["end_time"])
              for after in counts.values() for k, (t, on) in enumerate(after) if on]  # fmt: skip
-    inside = np.linspace(float(begin), end, 200)  # told to four digits
-    assert all(any(a - 1e-3 <= t <= b + 1e-3 for a, b in spans) for t in inside)
+    inside = np.linspace(float(begin), end, 200)  # told to three digits
+    assert all(any(a - 5e-3 <= t <= b + 5e-3 for a, b in spans) for t in inside)
     tensions = rucking.elements("line.hose[*].tension")
     most, t = re.search(r"greatest compression is ([0-9.]+) N at t = ([0-9.]+) s", told["How much"]).groups()
-    assert float(most) >= -tensions.values.min() - 0.1  # rounded; rows may miss it
+    assert float(most) >= -tensions.values.min() - 0.5  # rounded; rows may miss it
     assert float(most) == pytest.approx(-tensions.values.min(), rel=2e-2)
     row = int(tensions.values.min(axis=1).argmin())
     assert float(t) == pytest.approx(float(tensions["time"][row]), abs=0.011)
@@ -170,7 +172,7 @@ def test_of_several_bends_the_one_at_the_place_is_told_and_the_sum_of_all_outboa
     (found,) = verdicts(fairlead.load(tmp_path / "two.yaml").run(out=None))
     assert found["rucks"]
     told = dict(why(found))
-    assert told["Why"].startswith("Friction on near.")
+    assert told["Why it began"].startswith("Friction on near.")  # it rucks elsewhere later
     assert "runs over near and far" in told["Capstan"]
     assert found["cause"]["sum"] == pytest.approx(0.6 * math.pi / 3 + 0.2 * math.pi / 6)
     assert "Below mu = 0.295 on near" in told["Way out"]  # 0.3 * 500/508

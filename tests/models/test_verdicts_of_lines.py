@@ -47,7 +47,7 @@ def test_where_a_line_rucks_first_is_told_by_its_tensions(rucking):
     assert 3.0 <= found["place"] <= 3.0 + np.pi / 2  # on the bend
     assert found["station"] == "bend"
     assert found["margin"] == pytest.approx(RUCK / -tensions.values.min(), rel=2e-3)
-    assert sentence(found).startswith(f"line rucks: beyond 160 N first at t = {found['t']:.4g} s, element")
+    assert sentence(found).startswith(f"line rucks: beyond 160 N first at t = {found['t']:.3g} s, element")
 
 
 def test_a_line_that_does_not_ruck_is_told_its_margin(bundled):

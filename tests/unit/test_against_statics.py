@@ -59,7 +59,7 @@ def test_the_largest_difference_is_told_with_place_and_time(scene, tmp_path):
     model = scene(BENDS)
     found = against_statics(model.flat, written(model, tmp_path / "run", 1.03))
     assert found["difference"] == pytest.approx(0.03)
-    assert found["where"] in ("outboard of the inboard end", "outboard of bend")
+    assert found["where"] in ("at the inboard end", "outboard of bend")
     assert (found["from"], found["to"]) == (3.0, 5.0)  # the second half of the stretch at 0.5 m/s
     (row,) = [text for name, text in summary_rows({"against_statics": found}, "x") if name == "against statics"]
     assert row.startswith("3 % at most (")

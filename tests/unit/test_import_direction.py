@@ -14,12 +14,13 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # stage -> what it may import beside itself. `sealed` is the files of caches, `native` the cache of compiled code,
-# `processor` what it is made for;
+# `processor` what it is made for; `versions` which program that is;
 # `testing` is the contract suite that ships with the package; the empty name is `fairlead/__init__.py` itself.
 ALLOWED = {
     "errors": set(),
     "quantities": {"errors"},
     "processor": {"errors"},
+    "versions": set(),
     "sealed": set(),
     "native": {"errors", "processor", "sealed"},
     "renamed": set(),

@@ -86,10 +86,20 @@ def _together(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
 
 
 def _against_statics(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
-    """How far the tensions of a line in steady motion are from those of `fairlead statics`; nothing without a route."""
+    """How far a line at constant speed is from the tensions of `fairlead statics`; nothing without a route."""
     if found is None:
         return []
-    return [("against statics", _total(found)), *_shares(found.get("shares")), *_lowest(found.get("lowest"))]
+    return [("against statics", _total(found)), *_drift(found.get("drift")), *_shares(found.get("shares")),
+            *_lowest(found.get("lowest"))]  # fmt: skip
+
+
+def _drift(found: dict[str, Any] | None) -> list[tuple[str, str]]:
+    """What still changes at constant speed; nothing where the motion has settled."""
+    if found is None or found["settled"]:
+        return []
+    from fairlead.analysis.margins.settled import sentence
+
+    return [("not settled", sentence(found))]
 
 
 def _total(found: Mapping[str, Any]) -> str:
@@ -97,7 +107,8 @@ def _total(found: Mapping[str, Any]) -> str:
     if found.get("difference") is None:
         return f"not compared: {found.get('reason', UNKNOWN)}"
     both = f"{found['run']:.4g} N for {found['statics']:.4g} N {found['where']}"
-    return f"{100 * found['difference']:.2g} % at most ({both}, {found['from']:.3g} ... {found['to']:.3g} s)"
+    what = " of hose and core together" if found.get("shares") else ""
+    return f"{100 * found['difference']:.2g} % at most{what} ({both}, {found['from']:.3g} ... {found['to']:.3g} s)"
 
 
 def _shares(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from fairlead.analysis.margins.hose_against_statics import lowest_compared, mean_along, shares_compared
 from fairlead.analysis.margins.margins import margins
+from fairlead.analysis.margins.settled import drift
 from fairlead.analysis.record.recorded_line import RecordedLine
 from fairlead.analysis.statics.schedule import STILL, Schedule, Stretch
 from fairlead.analysis.statics.solution import Statics, state, statics
@@ -31,6 +32,7 @@ def against_statics(flat: FlatModel, result: Result) -> dict[str, Any]:
     """The largest difference, for `run.json`: relative, with both tensions [N], place, time; or a `reason` for none.
 
     Of an array also `shares`, the largest difference in hose or core, and `lowest`, that of the lowest hose tension.
+    `drift` is what still changes at constant speed (`settled.py`), of the line and stretch where that is most.
     """
     lines = {record["line"]: RecordedLine(result, record) for record in result.run.get("routes") or ()}
     solved = statics(flat)
@@ -57,7 +59,17 @@ def against_statics(flat: FlatModel, result: Result) -> dict[str, Any]:
         found["shares"] = max(layers, key=lambda each: abs(each["too_high"]))
     if lowest:
         found["lowest"] = max(lowest, key=lambda each: each["too_high"])
+    if drifts := list(_drifts(solved, lines, result)):
+        found["drift"] = max(drifts, key=lambda each: each["change"])
     return found
+
+
+def _drifts(solved: list[Statics], lines: dict[str, RecordedLine], result: Result) -> Iterator[dict[str, Any]]:
+    """What changes at constant speed, also where statics cannot be compared."""
+    for one in solved:
+        line = lines.get(one.route.line.path)
+        if line is not None and one.schedule is not None:
+            yield from filter(None, (drift(line, stretch) for stretch in _stretches(one, one.schedule, result)))
 
 
 def _lowest(solved: list[Statics], result: Result) -> Iterator[dict[str, Any]]:
@@ -126,13 +138,13 @@ def _compared(
 
 def _spans(found: State, element: float) -> Iterator[tuple[str, float]]:
     """The middle of every span in which nothing acts on the line, and what it is called."""
-    before = found.route.winch.name if found.route.winch else "the inboard end"
+    before = f"outboard of {found.route.winch.name}" if found.route.winch else "at the inboard end"
     for one in found.passages:
         free = one.device is None or not (one.device.touches or one.device.station.slope)
         if free and not one.piece.load and one.piece.length >= element:
-            yield f"outboard of {before}", (one.piece.begin + one.piece.end) / 2
+            yield before, (one.piece.begin + one.piece.end) / 2
         elif one.device is not None:
-            before = one.device.name
+            before = f"outboard of {one.device.name}"
 
 
 def _laid(states: list[State], place: float) -> bool:

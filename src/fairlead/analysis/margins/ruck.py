@@ -6,6 +6,8 @@ import math
 from typing import Any
 
 from fairlead.analysis.margins.ruck_cause import cause
+from fairlead.analysis.margins.ruck_places import ruck_places
+from fairlead.analysis.margins.ruck_words import figure, moment
 from fairlead.results import Result
 from fairlead.results.run_file import RUN_FILE
 from fairlead.results.run_schema import routes
@@ -20,7 +22,8 @@ def verdicts(result: Result) -> list[dict[str, Any]]:
     `cause` is what the bend at its place does there (`ruck_cause.py`), None where that cannot be told.
     `margin` is what it bears over the most it had; None where tensions were not recorded, infinity (null in run.json)
     where it was never compressed. Of a line that rucks, `most` has `t`, `element` and place of the greatest
-    compression, where tensions were recorded. Raises DamagedResultsError.
+    compression, where tensions were recorded, and `places` are all at which elements ruck (`ruck_places.py`). Raises
+    DamagedResultsError.
     """
     found = routes(result.named(RUN_FILE), result.run)
     return [_verdict(result, record) for record in found if record["ruck_force"] is not None]
@@ -35,9 +38,9 @@ def _verdict(result: Result, record: dict[str, Any]) -> dict[str, Any]:
         least, made["t"], made["element"] = lowest
         made["compressed"] = max(-least, 0.0)
         made["margin"] = bears / -least if least < 0 else math.inf
-    first = next((one for one in result.events
-                  if one.zone_to in BEYOND and one.component.startswith(f"{line}.{layer}[")), None)  # fmt: skip
-    if first is not None:
+    begins = [one for one in result.events if one.zone_to in BEYOND and one.component.startswith(f"{line}.{layer}[")]
+    if begins:
+        first, made["places"] = begins[0], ruck_places(result, record, begins)
         if lowest is not None:
             made["most"] = {"t": lowest[1], "element": lowest[2], **_place(result, record, lowest[2], lowest[1])}
         made |= {"rucks": True, "t": first.t, "element": int(first.component.rpartition("[")[2].rstrip("]"))}
@@ -73,21 +76,25 @@ def _place(result: Result, record: dict[str, Any], element: int, t: float) -> di
 
 def sentence(found: dict[str, Any]) -> str:
     """One verdict in words."""
-    bears = f"{found['ruck_force']:.4g} N"
+    line, limit = found["line"], figure(found["ruck_force"])
     if found["rucks"]:
-        most = f"; up to {found['compressed']:.4g} N, a margin of {found['margin']:.2g}" if found["margin"] else ""
-        return f"{found['line']} rucks: beyond {bears} first at t = {found['t']:.4g} s, {_where(found)}{most}"
+        most = f"; up to {figure(found['compressed'])} N, {_margin(found)}" if found["margin"] else ""
+        return f"{line} rucks: beyond {limit} N first at t = {moment(found['t'])} s, {_where(found)}{most}"
     if found["compressed"] is None:
-        return f"{found['line']} does not ruck: no element was compressed by {bears}"
+        return f"{line} does not ruck: no element was compressed by {limit} N"
     if not found["compressed"]:
-        return f"{found['line']} does not ruck: it was never compressed"
-    when = f"at t = {found['t']:.4g} s, {_where(found)}"
-    most = f"compressed by at most {found['compressed']:.4g} N, {when}"
-    return f"{found['line']} does not ruck: margin {found['margin']:.2g}; {most}; an element rucks beyond {bears}"
+        return f"{line} does not ruck: it was never compressed"
+    most = f"compressed by at most {figure(found['compressed'])} N, at t = {moment(found['t'])} s, {_where(found)}"
+    return f"{line} does not ruck: {_margin(found)}; {most}; an element rucks beyond {limit} N"
+
+
+def _margin(found: dict[str, Any]) -> str:
+    """The margin, and what it comes from."""
+    return f"margin {figure(found['ruck_force'])}/{figure(found['compressed'])} = {found['margin']:.2g}"
 
 
 def _where(found: dict[str, Any]) -> str:
-    route = f", {found['place']:.4g} m on the route" if found.get("place") is not None else ""
-    along = f" ({found['along']:.4g} m along the line{route})" if found.get("along") is not None else ""
+    route = f", {figure(found['place'])} m on the route" if found.get("place") is not None else ""
+    along = f" ({figure(found['along'])} m along the line{route})" if found.get("along") is not None else ""
     station = f" in {found['station']}" if found.get("station") else ""
     return f"element {found['element']}{along}{station}"

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.analysis.margins.ruck_words import DIGITS, called, figure, moment
 from fairlead.analysis.record.recorded_line import RecordedLine
 from fairlead.results import Result
 
@@ -45,9 +46,9 @@ def cause(result: Result, record: dict[str, Any], found: Mapping[str, Any]) -> d
     bends = [one for one in record["stations"] if _rubs(one) and not one["moves"]
              and here["begin"] <= one["begin"] < nodes[row][-1]]  # fmt: skip
     return {
-        "station": _called(here), "friction": list(here["friction"]), "turn": _turn(here), "moves": here["moves"],
+        "station": called(here), "friction": list(here["friction"]), "turn": _turn(here), "moves": here["moves"],
         "inner_friction": record.get("inner_friction"), "inboard": inboard, "outboard": outboard,
-        "critical": _critical(record, here), "devices": [_called(one) for one in bends],
+        "critical": _critical(record, here), "devices": [called(one) for one in bends],
         "sum": sum(one["friction"][1] * _turn(one) for one in bends),
     }  # fmt: skip
 
@@ -83,12 +84,6 @@ def _sides(nodes: Any, begin: float, end: float) -> tuple[int, int]:
     return min(max(inner, 0), last), min(max(outer, 0), last)
 
 
-def _called(station: Mapping[str, Any]) -> str:
-    """Its name; with an article where it was given none and has that of its type."""
-    name = str(station["name"])
-    return f"the {name}" if name == str(station["type"]).lower() else name
-
-
 def _turn(station: Mapping[str, Any]) -> float:
     return float(station["curvature"] * (station["end"] - station["begin"]))
 
@@ -114,8 +109,10 @@ def why(found: Mapping[str, Any]) -> list[tuple[str, str]]:
         return [("Why", f"Not told: on both sides of {one['station']} the hose has nearly the same tension "
                         f"({_f(hose[0])} and {_f(hose[1])} N), so friction there is not the cause.")]  # fmt: skip
     first = (f"On {one['station']} the compression differs from element to element; element {found['element']} is the "
-             f"first to pass {_n(found['ruck_force'])} N.")  # fmt: skip
-    return [("Why", f"{_friction(one, found['t'])} {_shared(one)} {first}"), *_capstan(one), *_way_out(one)]
+             f"first to pass {figure(found['ruck_force'])} N.")  # fmt: skip
+    about = "Why" if len(found.get("places") or ()) < 2 else "Why it began"
+    said = f"{_friction(one, found['t'])} {_shared(one)} {first}"
+    return [(about, said), *_capstan(one, found["element"]), *_way_out(one)]
 
 
 def _friction(one: Mapping[str, Any], t: float) -> str:
@@ -123,8 +120,8 @@ def _friction(one: Mapping[str, Any], t: float) -> str:
     low, high = sorted((sum(one["inboard"]), sum(one["outboard"])))
     grows = f"from {_f(low)} to {_f(high)} N" if low > 0 else f"by {_f(high - low)} N"
     return (
-        f"Friction on {one['station']}. At t = {t:.4g} s the line slides over it with mu = "
-        f"{_n(one['friction'][1])}, and its tension grows {grows} there. These {_f(high - low)} N act on the hose, "
+        f"Friction on {one['station']}. At t = {moment(t)} s the line slides over it with mu = "
+        f"{figure(one['friction'][1])}, and its tension grows {grows} there. These {_f(high - low)} N act on the hose, "
         f"which touches {one['station']}."
     )
 
@@ -136,40 +133,40 @@ def _shared(one: Mapping[str, Any]) -> str:
     inner, critical = one["inner_friction"], one["critical"]
     limit = ""
     if critical is not None and one["friction"][1] > critical:
-        limit = (f" They cannot pass on all, for only the core's tension presses them (mu = {_n(inner[0])} while they "
-                 f"hold, {_n(inner[1])} while they slide).")  # fmt: skip
-    passed = f"The bulkheads pass {_f(core)} N of them on to the core.{limit} The hose is left with {_f(hose)} N"
+        limit = (f" They cannot pass on all, for only the core's tension presses them (mu = {figure(inner[0])} while "
+                 f"they hold, {figure(inner[1])} while they slide).")  # fmt: skip
+    passed = f"The bulkheads pass {_f(core)} N of them on to the core.{limit} The other {_f(hose)} N stay in the hose"
     if core < 0:
-        passed = f"The core's tension falls by {_f(-core)} N there, which the hose bears as well: {_f(hose)} N in all"
+        passed = f"The core's tension falls by {_f(-core)} N there, which the hose takes as well: {_f(hose)} N in all"
     return (
-        f"{passed}: its tension is {_f(one['inboard'][0])} N inboard of {one['station']} and {_f(one['outboard'][0])} "
-        "N outboard of it. Below zero it is pushed together."
+        f"{passed}: its tension goes from {_f(one['inboard'][0])} N inboard of {one['station']} to "
+        f"{_f(one['outboard'][0])} N outboard of it. A tension below zero is a compression."
     )
 
 
 def _rounded(one: Mapping[str, Any]) -> dict[str, Any]:
-    """The cause with all tensions rounded to one digit, so that sums and differences of what is told agree."""
+    """The cause with all tensions rounded to one place, so that sums and differences of what is told agree."""
     most = max(abs(sum(one[side])) for side in ("inboard", "outboard"))
-    digit = 3 - math.floor(math.log10(most)) if most > 0 else 0
+    digit = DIGITS - 1 - math.floor(math.log10(most)) if most > 0 else 0
     return {**one, **{side: [round(each, digit) for each in one[side]] for side in ("inboard", "outboard")}}
 
 
-def _capstan(one: Mapping[str, Any]) -> list[tuple[str, str]]:
+def _capstan(one: Mapping[str, Any], element: int) -> list[tuple[str, str]]:
     devices: Sequence[str] = one["devices"]
     if not devices or not one["sum"]:
         return []
     names = devices[0] if len(devices) == 1 else f"{', '.join(devices[:-1])} and {devices[-1]}"
-    return [("Capstan", f"From the outboard end to here the line runs over {names}. The sum of mu × angle is "
-                        f"{_n(one['sum'])}, which multiplies a steady tension by exp({_n(one['sum'])}) = "
-                        f"{_n(math.exp(one['sum']))}.")]  # fmt: skip
+    return [("Capstan", f"Between the outboard end and element {element} the line runs over {names}. The sum of mu × "
+                        f"angle is {figure(one['sum'])}, which multiplies a steady tension by "
+                        f"exp({figure(one['sum'])}) = {figure(math.exp(one['sum']))}.")]  # fmt: skip
 
 
 def _way_out(one: Mapping[str, Any]) -> list[tuple[str, str]]:
     critical = one["critical"]
     if critical is None or one["friction"][1] <= critical:
         return []
-    inner = _n(one["inner_friction"][0])
-    return [("Way out", f"Below mu = {_n(critical)} on {one['station']} the bulkheads would hold the hose. "
+    inner = figure(one["inner_friction"][0])
+    return [("Way out", f"Below mu = {figure(critical)} on {one['station']} the bulkheads would hold the hose. "
                         f"That is their mu, {inner}, times the core's share of the tension.")]  # fmt: skip
 
 
@@ -178,7 +175,7 @@ def _holds(one: Mapping[str, Any]) -> list[tuple[str, str]]:
     critical = one["critical"]
     if critical is None or one["friction"][1] > critical:
         return []
-    return [("Why", f"On {one['station']} mu = {_n(one['friction'][1])} is below {_n(critical)}, up to which "
+    return [("Why", f"On {one['station']} mu = {figure(one['friction'][1])} is below {figure(critical)}, up to which "
                     "the bulkheads hold the hose on the core. So both move as one, and the core bears the friction.",
              )]  # fmt: skip
 
@@ -187,7 +184,3 @@ def _f(value: float) -> str:
     """A sum or difference of rounded tensions: all its digits, but not what binary fractions add."""
     return np.format_float_positional(float(f"{value:.10g}"), trim="-")
 
-
-def _n(value: float) -> str:
-    """Three digits, without an exponent where a reader would not write one."""
-    return f"{float(f'{value:.3g}'):g}"
