@@ -89,8 +89,8 @@ def sentence(found: dict[str, Any]) -> str:
         rucks = f" {_percent(found['rucking'][0])}, then {_percent(found['rucking'][1])} of its elements ruck."
     return (
         f"The speed is constant from {moment(begin)} to {moment(end)} s, but the {layer} still changes. In the first "
-        f"half of that time its tension lies between {figure(first[0])} and {figure(first[1])} N, in the second between "
-        f"{figure(second[0])} and {figure(second[1])} N (means of the extremes).{rucks}"
+        f"half of that time its tension lies between {figure(first[0])} and {figure(first[1])} N, in the second "
+        f"between {figure(second[0])} and {figure(second[1])} N (means of the extremes).{rucks}"
     )
 
 

@@ -42,8 +42,8 @@ def _statics(run: dict[str, Any]) -> Iterator[Sentence]:
     brief = f"{what} {'as in' if off <= CLOSE else 'not as in'} statics"
     yield Sentence("Against statics", "good" if off <= CLOSE else "fair",
                    f"At constant speed, {moment(found['from'])} to {moment(found['to'])} s, the mean {what} differs "
-                   f"from that of statics by {100 * off:.2g} % at most: {found['run']:.4g} N for {found['statics']:.4g} N "
-                   f"{found['where']}.{rest}", brief=brief)  # fmt: skip
+                   f"from that of statics by {100 * off:.2g} % at most: {found['run']:.4g} N for "
+                   f"{found['statics']:.4g} N {found['where']}.{rest}", brief=brief)  # fmt: skip
 
 
 def _settled(run: dict[str, Any]) -> Iterator[Sentence]:
@@ -56,8 +56,8 @@ def _settled(run: dict[str, Any]) -> Iterator[Sentence]:
         return
     yield Sentence("Settled", "good",
                    f"At constant speed, {moment(found['from'])} to {moment(found['to'])} s, the extremes of the "
-                   f"tension of the {found['layer']} change by {100 * found['change']:.2g} % at most from the first half of "
-                   "that time to the second.")  # fmt: skip
+                   f"tension of the {found['layer']} change by {100 * found['change']:.2g} % at most from the first "
+                   "half of that time to the second.")  # fmt: skip
 
 
 def _hose(run: dict[str, Any]) -> Iterator[Sentence]:
