@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fairlead.results import Result
 
 APART = ("scene", "zones", "routes", "extremes", "effects_in_force", "ruck", "limits", "against_statics", "files",
-         "description", "friction", "effects", "profile", "energy", "remarks")  # fmt: skip
-"""Entries of run.json that other parts of the page show, or that are too long to read."""
+         "description", "friction", "effects", "profile", "energy", "remarks", "format", "process", "host", "boot",
+         "locked", "name", "sentence")  # fmt: skip
+"""Entries of run.json that other parts of the page show, that are too long to read, or that serve a running process."""
+SAYS = {"switches": "zone changes", "machines": "parts with zones", "build": "compiled for", "versions": "version of",
+        "rhs": "evaluations of the laws", "guards": "evaluations of the guards",
+        "located": "zone changes located in time", "settling_passes": "passes of settling", "record_every": "recorded every [s]"}  # fmt: skip
+"""What a reader calls an entry that run.json has a word of the program for."""
+UNKNOWN = "not kept: an earlier version of fairlead wrote this run"
 LONGEST = 300
 
 
@@ -31,8 +37,16 @@ def scene_data(result: Result) -> dict[str, Any]:
 
 
 def settings_rows(run: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Settings, versions and counters, nested ones under the words above them."""
-    return [(words, _told(value)) for words, value in _flat({key: run[key] for key in run if key not in APART})]
+    """Versions, settings and counters, nested ones under the words above them."""
+    first = {"versions": run.get("versions") or {"fairlead": UNKNOWN}}
+    rest = {key: value for key, value in run.items() if key not in APART and key not in first}
+    return [(words, _told(value)) for words, value in _flat(first | rest)]
+
+
+def shared(scenes: Sequence[dict[str, Any]], labels: Sequence[str]) -> list[str]:
+    """By run, the label of an earlier one whose files are the same, so that none is printed twice; else ""."""
+    return [next((labels[j] for j in range(k) if scenes[j]["files"] and scenes[j]["files"] == one["files"]), "")
+            for k, one in enumerate(scenes)]  # fmt: skip
 
 
 def _given(parameters: Mapping[str, Any]) -> str:
@@ -41,7 +55,7 @@ def _given(parameters: Mapping[str, Any]) -> str:
 
 def _flat(entries: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
     for key, value in entries.items():
-        words = f"{above} {str(key).replace('_', ' ')}".strip()
+        words = f"{above} {SAYS.get(str(key), str(key).replace('_', ' '))}".strip()
         if isinstance(value, Mapping):
             yield from _flat(value, words)
         elif value is not None and value != []:
@@ -49,5 +63,14 @@ def _flat(entries: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, An
 
 
 def _told(value: Any) -> str:
-    text = f"{value:.6g}" if isinstance(value, float) else str(value)
+    text = _written(value)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
+
+
+def _written(value: Any) -> str:
+    """A value as a netlist writes it: `{mass: 1.6 kg/m}`, `[1, 2]`."""
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{key}: {_written(one)}' for key, one in value.items())}}}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_written, value))}]"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

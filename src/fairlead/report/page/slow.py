@@ -144,7 +144,7 @@ def _roles(result: Result) -> dict[str, str]:
         if len(layers) > 1:
             found[f"{line}.inner[*]"] = f" ({layers[1]} on {layers[0]})"
         found[f"{line}.outer[*]"] = " (line on its devices)"
-        bend = " (a node comes to the next piece of a bend)"
+        bend = " (what presses the contacts; it changes where a node reaches the next part of a bend)"
         found |= {f"{line}.{which}_load[*]": bend for which in ("inner", "outer")}
         found |= {f"{line}.{layer}[*]": f" (elements of the {layer})" for layer in layers}
     return found

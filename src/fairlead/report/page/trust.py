@@ -52,7 +52,10 @@ def _settled(run: dict[str, Any]) -> Iterator[Sentence]:
     if not found:
         return
     if not found["settled"]:
-        yield Sentence("Not settled", "fair", of_drift(found), brief="not settled")
+        told = any(one["line"] == found["line"] for one in run.get("ruck") or ())  # with the verdict on that line
+        said = (f"The {found['layer']} still changes at constant speed, by {100 * found['change']:.2g} % from one half "
+                "of the time to the other. The verdict has the figures.")  # fmt: skip
+        yield Sentence("Not settled", "fair", said if told else of_drift(found), brief="not settled")
         return
     yield Sentence("Settled", "good",
                    f"At constant speed, {moment(found['from'])} to {moment(found['to'])} s, the extremes of the "

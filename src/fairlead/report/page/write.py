@@ -12,7 +12,7 @@ from fairlead.errors import UsageError
 from fairlead.report.page.ledger import ledger_rows
 from fairlead.report.page.line import line_data
 from fairlead.report.page.mechanism import mechanism_data, wiring
-from fairlead.report.page.scene import scene_data, settings_rows
+from fairlead.report.page.scene import scene_data, settings_rows, shared
 from fairlead.report.page.signals import first_panels, signal_data, worst_rows
 from fairlead.report.page.slow import slow_data
 from fairlead.report.page.verdict import verdict
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "report.html"
 PARTS = Path(__file__).parent / "parts"
-SCRIPTS = ("data.js", "clock.js", "colours.js", "hover.js", "route.js", "mechanism.js", "plots.js", "zones.js",
-           "main.js")  # fmt: skip
+SCRIPTS = ("data.js", "clock.js", "colours.js", "hover.js", "scale.js", "route.js", "mechanism.js", "plots.js",
+           "legend.js", "panel.js", "profile.js", "adding.js", "maps.js", "zones.js", "printing.js", "main.js")  # fmt: skip
 MOST_RUNS = 8
 
 
@@ -47,6 +47,8 @@ def page(runs: Sequence[Result], only: str = "") -> str:
     """The text of the page; `only` shows one of its sections (`moving`)."""
     labels = _labels(runs)
     told = [_run(result, label) for result, label in zip(runs, labels, strict=True)]
+    for one, same in zip(told, shared([each["scene"] for each in told], labels), strict=True):
+        one["same"] = same
     data = {"runs": [_data(result, label, 1 / len(runs)) for result, label in zip(runs, labels, strict=True)]}
     return str(_template().render(
         title=", ".join(dict.fromkeys(str(one.run.get("name") or one.folder.name) for one in runs)),

@@ -1,5 +1,7 @@
 /* The time of the page: whoever shows something at a time asks to be told when it changes. */
 const clock = {
+  /* A time in digits that tell rows apart; all that says the time of the page says it so. */
+  said(t) { const digits = Math.min(Math.max(4 - Math.floor(Math.log10(this.end || 1)), 0), 9); return `${t.toFixed(digits)} s`; },
   t: 0, end: 0, playing: false, rate: 1, heard: [],
   set(t) { this.t = Math.min(Math.max(t, 0), this.end); for (const tell of this.heard) tell(this.t); },
   play(on) { this.playing = on; if (on) { if (this.t >= this.end) this.set(0); this.last = null; requestAnimationFrame(now => this.tick(now)); } },

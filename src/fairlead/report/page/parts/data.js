@@ -50,8 +50,8 @@ class Run {
     }
     return kinds === 3 ? {first: out[0], low: out[1], high: out[2]} : {first: out[0], low: out[0], high: out[0]};
   }
-  /* The row that holds at time t: the last one that is not later. */
-  row(t) { return Math.max(upper(this.times, t) - 1, 0); }
+  /* The row that holds at time t: the last one that is not later, but for the rounding of a sum of time steps. */
+  row(t) { return Math.max(upper(this.times, t + 1e-9 * Math.max(1, this.end)) - 1, 0); }
   /* A place between two rows: [row, share of the way to the next]. */
   between(t) {
     const i = this.row(t), j = Math.min(i + 1, this.rows - 1), span = this.times[j] - this.times[i];
@@ -100,4 +100,22 @@ const shown = (value, unit = "") => {
   if (size === 0 || (size >= 1e-3 && size < 1e5)) return digits(value) + behind;
   const [scale, prefix] = PREFIXES.find(([scale]) => size >= scale) || [0, ""];
   return scale && size < 1e12 && /^(Pa|N|W|J|Hz|m|s|V|A|rad)\b(?!\^)/.test(unit) ? `${digits(value / scale)} ${prefix}${unit}` : value.toExponential(2) + behind;
+};
+/* From when to when and how long, the ends with as many decimals as the length needs. */
+const spell = (from, to) => {
+  const long = to - from, decimals = long > 0 ? Math.min(Math.max(2 - Math.floor(Math.log10(long)), 0), 12) : 3, t = at => `${+at.toFixed(decimals)} s`;
+  return `${t(from)} to ${t(to)}, ${shown(long, "s")} long`;
+};
+/* Figures of a colour bar: as many digits as tell its ends apart. */
+const ticks = (low, high, n = 5) => {
+  const wide = high - low, raw = wide / n, ten = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map(k => k * ten).find(one => one >= raw), found = [];
+  for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * wide; k++) found.push(Math.abs(k * step) < step / 2 ? 0 : k * step);
+  return found;
+};
+/* Values side by side in one power of ten: [[value, text]], and the factor that stands with the unit. */
+const scaled = (values, unit) => {
+  const size = Math.max(...values.map(Math.abs), 0), power = size && (size < 1e-3 || size >= 1e5) ? 3 * Math.floor(Math.log10(size) / 3) : 0;
+  const prefix = (PREFIXES.find(([scale]) => Math.abs(Math.log10(scale) - power) < .1) || [])[1], takes = /^(Pa|N|W|J|Hz|m|s|V|A|rad)\b(?!\^)/.test(unit) && prefix;
+  const text = one => `${+(one / 10 ** power).toPrecision(4)}`;
+  return {texts: values.map(one => [one, text(one)]), unit: !power ? unit : takes ? prefix + unit : `1e${power} ${unit}`};
 };

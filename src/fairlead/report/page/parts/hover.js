@@ -19,23 +19,18 @@ function hover(box, view, tell) {
 /* Lines across a plot: what a hose or a signal must not pass, and when a hose rucks first. */
 function marked(p, runs, names, time) {
   const told = [], ruck = css("ruck"), across = (location, label) => {
-    p.add_layout(new Bokeh.Span({location, dimension: "width", line_color: ruck, line_width: 1.4, line_dash: [7, 4]})); told.push([dashed(ruck, "dashed"), label]);
+    p.add_layout(new Bokeh.Span({location, dimension: "width", line_color: ruck, line_width: 1.4, line_dash: [7, 4]})); told.push([dashed(ruck, "7 4"), label]);
   };
   const once = new Set();
   for (const run of runs) {
     for (const line of run.lines) if (line.ruck_force && names.includes(`${line.line}.${line.layers[0]}[*].tension`)) once.add(-line.ruck_force);
     if (time) for (const one of run.rucks) {
       p.add_layout(new Bokeh.Span({location: one.t, dimension: "height", line_color: ruck, line_width: 1.4, line_dash: [2, 3]}));
-      told.push([dashed(ruck, "dotted"), `first ruck, ${shown(one.t, "s")}${runs.length > 1 ? ", " + run.short : ""}`]);
+      told.push([upright(ruck, "2 3"), `first ruck, ${shown(one.t, "s")}${runs.length > 1 ? ", " + run.short : ""}`]);
     }
   }
   for (const at of once) across(at, `below ${shown(at, "N")} the hose rucks`);
   const limits = new Map(runs.flatMap(run => run.limits || []).filter(one => names.some(n => n === one.signal || n.replace("[*]", "") === one.signal.replace(/\[[^\]]*\]/, ""))).map(one => [one.text + one.signal, one]));
   for (const one of limits.values()) if (!once.has(one.bound)) across(one.bound, `limit: ${one.text}`);
   return told;
-}
-/* A chip of a legend that looks like a line of that dash. */
-function dashed(colour, dash) {
-  const part = {dashed: "0 6px, transparent 6px 9px", dotted: "0 2px, transparent 2px 4px", dotdash: "0 2px, transparent 2px 4px", dashdot: "0 6px, transparent 6px 8px"}[dash];
-  return part ? `repeating-linear-gradient(90deg, ${colour} ${part})` : colour;
 }

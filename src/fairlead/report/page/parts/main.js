@@ -31,32 +31,22 @@ async function drawRest() {
   for (let k = 0; k < page.waiting.length; k++) { await idle(); if (!page.waiting[k].made) await page.waiting[k](); }
   document.body.dataset.drawn = "yes";
 }
-/* On paper: light colours, pictures of the plots, and what is folded open if it is for readers of paper; back again afterwards. */
-function printing() {
-  const opened = [], root = document.documentElement, stage = $("stage"); let undo = null;
-  addEventListener("beforeprint", () => {
-    if (undo) return;
-    root.dataset.print = "yes";
-    for (const d of document.querySelectorAll("#scene details, details.worth, #words, .legend details")) if (!d.open) { d.open = true; opened.push(d); }
-    const back = pictured(), picture = new Image();
-    stage.style.width = `${PAPER}px`; page.resized(); picture.className = "picture"; picture.src = stage.toDataURL(); picture.alt = $("state").textContent;
-    stage.before(picture); stage.classList.add("screen");
-    undo = () => { back(); picture.remove(); stage.style.width = ""; stage.classList.remove("screen"); page.resized(); };
-  });
-  addEventListener("afterprint", () => {
-    delete root.dataset.print;
-    for (const d of opened.splice(0)) d.open = false;
-    if (undo) undo();
-    undo = null;
-  });
+/* Steps of the slider: one for each row that was recorded, within what a slider can resolve and a key can cross. */
+function slides(runs) {
+  const t = runs[0].times, apart = Array.from(t.subarray(1), (one, k) => one - t[k]).filter(d => d > 0).sort((a, b) => a - b), usual = apart[apart.length >> 1];
+  return Math.min(Math.max(usual ? Math.round(clock.end / usual) : 0, 1000), 20000);
 }
-
-function player() {
-  const scrub = $("scrub"), play = $("play"), end = clock.end, steps = 1000;
-  const say = () => { play.textContent = clock.playing ? "Pause" : "Play"; play.setAttribute("aria-pressed", String(clock.playing)); };
+/* Buttons that set the time to an instant of a verdict, which may lie between two rows. */
+function instants(run) {
+  const found = run.rucks.flatMap(one => [["first ruck", one.t], ...(one.most ? [["most compressed", one.most.t]] : [])].map(([text, t]) => [run.rucks.length > 1 ? `${one.line}: ${text}` : text, t]));
+  $("instants").replaceChildren(...found.map(([text, t]) => { const one = document.createElement("button"); one.type = "button"; one.textContent = text; one.title = clock.said(t); one.onclick = () => clock.set(t); return one; }));
+}
+function player(runs) {
+  const scrub = $("scrub"), play = $("play"), end = clock.end, steps = slides(runs); scrub.max = steps;
+  const say = () => { play.textContent = clock.playing ? "Pause" : "Play"; play.setAttribute("aria-pressed", String(clock.playing)); $("state").setAttribute("aria-live", clock.playing ? "off" : "polite"); };
   play.onclick = () => { clock.play(!clock.playing); say(); }; clock.stopped = [say];
   scrub.oninput = () => clock.set(end * scrub.value / steps);
-  clock.heard.push(t => { scrub.value = end ? steps * t / end : 0; scrub.setAttribute("aria-valuetext", shown(t, "s")); $("now").textContent = `${t.toFixed(end < 1 ? 4 : 2)} s`; });
+  clock.heard.push(t => { scrub.value = end ? steps * t / end : 0; scrub.setAttribute("aria-valuetext", clock.said(t)); $("now").textContent = clock.said(t); });
   const about = end / 16 || 1, rates = [.01, .02, .05, .1, .2, .5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   const near = rates.reduce((a, b) => Math.abs(Math.log(b / about)) < Math.abs(Math.log(a / about)) ? b : a), k = rates.indexOf(near);
   const offered = [...new Set([...rates.slice(Math.max(k - 3, 0), k + 4), 1])].sort((a, b) => a - b);
@@ -71,44 +61,25 @@ function player() {
   });
 }
 
-async function stage(run) {
+async function stage(run, runs) {
   const line = run.lines[0], canvas = $("stage"), view = line ? new RouteView(run, line, canvas) : new MechanismView(run, canvas);
   canvas.className = line ? "" : view.m.boxes.length > 8 ? "mechanism tall" : "mechanism"; await view.begin(); page.view = view;
+  let all = [];
   if (line) {
     $("by-label").hidden = !line.along.length; $("fit-label").hidden = !view.x;
     options($("by"), line.along.map(n => [n, `${n} [${run.family.get(n).unit}]`]), view.by);
-    $("by").onchange = async () => { await view.colour($("by").value); tell(); };
+    const paint = async () => { all = view.by ? await scales(runs, view.by) : []; $("same-label").hidden = all.length < 2; await view.colour(view.by, $("same").checked && all.length ? {low: Math.min(...all.map(s => s.low)), high: Math.max(...all.map(s => s.high))} : undefined); };
+    $("by").onchange = async () => { view.by = $("by").value; await paint(); tell(); };
+    $("same").onchange = async () => { await paint(); tell(); };
+    await paint();
     $("fit").onchange = () => { view.whole = $("fit").checked; view.fit(); view.resize(); view.back = null; view.draw(clock.t); };
-  } else { $("by-label").hidden = $("fit-label").hidden = true; }
-  const tell = () => { legend($("legend"), view.legend()); $("scale").textContent = view.scale() + (line && !view.x ? " The places of its nodes were not recorded, so the line is not drawn: run with --report." : ""); view.draw(clock.t); words(); };
-  let spoken = 0;
-  const words = () => { spoken = performance.now(); $("state").textContent = `At ${shown(clock.t, "s")}: ${view.words(clock.t) || "nothing was recorded that a picture could show"}.`; };
-  page.draw = t => { view.draw(t); if (performance.now() - spoken > (clock.playing ? 400 : 60)) words(); else { clearTimeout(page.soon); page.soon = setTimeout(words, 120); } };
+  } else { $("by-label").hidden = $("fit-label").hidden = $("same-label").hidden = $("bar").hidden = true; }
+  const tell = () => { legend($("legend"), view.legend()); if (line) colourBar($("bar"), view); $("scale").textContent = view.scale() + (view.values && !$("same").checked ? apart(view, all) : "") + (line && !view.x ? " The places of its nodes were not recorded, so the line is not drawn: run with --report." : ""); view.draw(clock.t); words(); };
+  const words = () => { $("state").textContent = `At ${clock.said(clock.t)}: ${view.words(clock.t) || "nothing was recorded that a picture could show"}.`; };
+  page.draw = t => { view.draw(t); words(); };
   page.resized = () => { view.resize(); view.back = null; view.draw(clock.t); };
-  page.resized(); tell();
-}
-
-function signals(runs) {
-  const list = $("panels"), all = [...new Set(runs.flatMap(r => [...r.family.keys()]))];
-  options($("names"), all.map(n => [n, ""]));
-  const first = runs[0].panels.filter(p => p.families.length);
-  page.panels = [];
-  const add = async (title, families, top) => { const p = new Panel(runs, title, families); page.panels.push(p); await p.show(list); if (top) list.prepend(p.box); return p; };
-  whenSeen($("signals"), async () => { for (const p of first) await add(p.title, p.families); });
-  $("add").onclick = async () => {
-    const wanted = $("pick").value.trim(), found = all.filter(n => n === wanted), some = found.length ? found : all.filter(n => wanted && n.includes(wanted)).slice(0, 1);
-    if (some.length) { await add(some[0], some, true); $("pick").value = ""; }
-  };
-  $("pick").onkeydown = e => { if (e.key === "Enter") $("add").click(); };
-  $("whole").onclick = () => span.whole();
-  const line = runs[0].lines[0];
-  if (line && line.along.length) {
-    $("profile-box").hidden = false; const profile = new Profile(runs, line);
-    options($("profile-of"), line.along.map(n => [n, n]), line.along[0]);
-    whenSeen($("profile-box"), () => profile.show($("profile-of").value));
-    $("profile-of").onchange = () => profile.show($("profile-of").value);
-    clock.heard.push(t => profile.draw(t));
-  }
+  page.resized(); tell(); instants(run);
+  $("picture-of").textContent = runs.length > 1 ? `Run: ${run.label}` : "";
 }
 
 /* A choice of one of several runs for a section; nothing to choose where there is one. */
@@ -116,7 +87,9 @@ function ofRun(runs, id, make) {
   const list = $(id);
   list.parentElement.hidden = runs.length < 2;
   options(list, runs.map((r, k) => [k, r.label]), 0);
-  list.onchange = () => make(runs[list.value], true);
+  const name = run => { $(`${id}-name`).textContent = runs.length > 1 ? `Run: ${run.label}` : ""; }; // for paper, which has no list
+  list.onchange = () => { name(runs[list.value]); make(runs[list.value], true); };
+  name(runs[0]);
   make(runs[0], false);
 }
 function zones(runs) {
@@ -126,23 +99,9 @@ function zones(runs) {
     if (!choices.length) { $("zone-note").textContent = "Nothing in this scene has zones."; $("zone-chart").replaceChildren(); $("zone-legend").replaceChildren(); return; }
     options($("zone-of"), choices.map(([text], k) => [k, text]), Math.max(0, choices.findIndex(([text]) => text === before)));
     const draw = () => chart.show(...choices[$("zone-of").value].slice(1));
-    $("zone-of").onchange = draw;
+    $("zone-of").onchange = $("zone-whole").onchange = draw; $("zone-whole").parentElement.hidden = !run.lines.some(one => one.positions);
     if (now) draw(); else whenSeen($("zones"), draw);
   });
-}
-
-function maps(runs) {
-  const with_maps = runs.filter(run => mapped(run).length);
-  $("maps").hidden = !with_maps.length;
-  if (!with_maps.length) return;
-  ofRun(with_maps, "map-run", (run, now) => {
-    const draw = async gently => { const made = document.createElement("div"); $("map-list").replaceChildren(made); for (const name of mapped(run)) { await map(run, run.lines[0], name, made); if (gently) await idle(); } };
-    if (now) draw(false); else whenSeen($("maps"), () => draw(true));
-  });
-}
-function mapped(run) {
-  const line = run.lines[0];
-  return line ? line.along.filter(n => /\.(tension|torque|d|slip|angle|turned)$/.test(n) && run.family.get(n).elements.length > 3).slice(0, 5) : [];
 }
 
 async function begin() {
@@ -153,9 +112,9 @@ async function begin() {
   clock.end = Math.max(...page.runs.map(r => r.end)); span.begin(clock.end);
   const readable = page.runs.filter(r => r.rows > 0);
   if (!readable.length) { $("state").textContent = "No row of signals was recorded."; for (const id of ["signals", "zones", "maps"]) $(id).hidden = true; $("stage").hidden = true; return; }
-  player();
-  if (readable.length > 1) { $("run-label").hidden = false; options($("which"), readable.map((r, k) => [k, r.label]), 0); $("which").onchange = () => stage(readable[$("which").value]); }
-  await stage(readable[0]);
+  player(readable);
+  if (readable.length > 1) { $("run-label").hidden = false; options($("which"), readable.map((r, k) => [k, r.label]), 0); $("which").onchange = () => stage(readable[$("which").value], readable); }
+  await stage(readable[0], readable);
   clock.heard.push(t => page.draw(t));
   let later; new ResizeObserver(() => { clearTimeout(later); later = setTimeout(() => page.resized(), 80); }).observe($("stage"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { if (!document.documentElement.dataset.print) location.reload(); });

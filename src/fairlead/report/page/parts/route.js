@@ -52,16 +52,12 @@ class RouteView {
     this.fit();
   }
   means(word) { const w = this.run.zones.words.find(one => one.name === word); return w && ["stuck", "forward", "backward", "between"].includes(w.means); }
-  async colour(name) {
+  /* Colours by a family; `scale` goes from where to where, by default what holds nearly all of this run. */
+  async colour(name, scale) {
     this.by = name; this.values = null;
     if (!name) return;
     const family = this.run.family.get(name), values = await this.run.values(name);
-    const some = [], step = Math.max(1, Math.floor(values.first.length * this.run.rows / 20000));
-    let i = 0;
-    for (const v of values.first) for (let r = (i++ * 7) % step; r < v.length; r += step) if (Number.isFinite(v[r])) some.push(v[r]);
-    some.sort((a, b) => a - b);
-    const low = some[Math.floor(0.005 * some.length)] ?? 0, high = some[Math.floor(0.995 * some.length)] ?? 1;
-    Object.assign(this, {values: values.first, family, low, high: high > low ? high : low + 1});
+    Object.assign(this, {values: values.first, family}, scale || await levels(this.run, name));
   }
   fit() {
     const finite = this.line.stations.flatMap(s => [s.begin, s.end]).filter(v => v !== null);
@@ -221,9 +217,9 @@ class RouteView {
     for (const z of this.layers) for (const row of z.rows) {
       const means = this.run.zones.words[zoneAt(row, t)].means, a = nodes[row.element], b = nodes[row.element + 1];
       if ((means !== "ruck" && means !== "slack") || a === undefined || b === undefined || !inside((a + b) / 2)) continue;
-      const p = this.path.at((a + b) / 2), [x, y] = this.screen(p), h = p[2] + this.tilt;
-      ctx.strokeStyle = css(means); ctx.lineWidth = 3; ctx.beginPath();
-      if (means === "ruck") { const l = Math.max((b - a) * this.zoom / 2, 7); for (let i = -3; i <= 3; i++) { const u = l * i / 3, w = 9 * (i % 2 ? 1 : -1);
+      const from = Math.max(a, this.first), to = Math.min(b, this.to), p = this.path.at((from + to) / 2), [x, y] = this.screen(p), h = p[2] + this.tilt;
+      ctx.strokeStyle = css(means); ctx.lineWidth = 2; ctx.beginPath(); // thin, so that the colour below is seen
+      if (means === "ruck") { const l = Math.max((to - from) * this.zoom / 2, 7); for (let i = -3; i <= 3; i++) { const u = l * i / 3, w = 9 * (i % 2 ? 1 : -1);
         const px = x + u * Math.cos(h) - w * Math.sin(h), py = y + u * Math.sin(h) + w * Math.cos(h); if (i === -3) ctx.moveTo(px, py); else ctx.lineTo(px, py); } }
       else { ctx.setLineDash([2, 5]); this.curve(ctx, a, b, -7); }
       ctx.stroke(); ctx.setLineDash([]); ctx.lineWidth = 7;
@@ -241,16 +237,19 @@ class RouteView {
     if (this.values) {
       const row = this.run.row(t); let k = -1, least = Infinity, most = -Infinity, m = -1;
       this.values.forEach((v, i) => { if (v[row] < least) { least = v[row]; k = i; } if (v[row] > most) { most = v[row]; m = i; } });
-      if (k >= 0) told.push(`sticking, sliding and rucks are those of this instant, but the colours are of the row recorded at ${shown(this.run.times[row], "s")}, where ${this.by.replace("[*]", "")} goes from ${shown(least, this.family.unit)} (element ${this.family.elements[k]}) to ${shown(most, this.family.unit)} (element ${this.family.elements[m]})`);
+      if (k >= 0) told.push(`sticking, sliding and rucks are those of this instant, but the colours are of the row recorded at ${clock.said(this.run.times[row])}, where ${this.by.replace("[*]", "")} goes from ${shown(least, this.family.unit)} (element ${this.family.elements[k]}) to ${shown(most, this.family.unit)} (element ${this.family.elements[m]})`);
     }
     return told.join("; ");
   }
   legend() {
     const has = new Set([...this.outer, ...this.inner, ...this.layers].flatMap(z => z.zones).map(w => (this.run.zones.words.find(one => one.name === w) || {}).means));
-    const entries = [["stuck", "square: sticks"], ["forward", "triangle: slides outboard"], ["backward", "triangle: slides inboard"], ["between", "between sticking and sliding"], ["ruck", "zigzag: rucks"], ["slack", "dots: slack"]];
-    const told = entries.filter(([means]) => has.has(means)).map(([means, text]) => [css(means), text]);
-    if (this.outer.length) told.push(["transparent", "on the side of the device: contacts with it" + (this.inner.length ? "; on the other side: core in hose" : "")]);
+    const entries = [["stuck", "square", "sticks"], ["forward", "right", "slides outboard"], ["backward", "left", "slides inboard"], ["between", "square", "between sticking and sliding"], ["ruck", "zigzag", "rucks"], ["slack", "dots", "slack"]];
+    const told = entries.filter(([means]) => has.has(means)).map(([means, shape, text]) => [{colour: css(means), shape}, text]);
+    if (this.outer.length) told.push(["transparent", "Marks on the side of the device: contacts with it" + (this.inner.length ? "; on the other side: core in hose" : "")]);
     return told;
   }
-  scale() { return this.values ? `Colour: ${this.by}, ${shown(this.low, this.family.unit)} (dark) to ${shown(this.high, this.family.unit)} (bright), which hold 99 % of all values; over the whole run, also between recorded rows, it went from ${shown(this.family.min, this.family.unit)} to ${shown(this.family.max, this.family.unit)}. The route is to scale; curves are laid into one plane.` : "The route is to scale; curves are laid into one plane."; }
+  scale() {
+    const flat = "The route is to scale and flat: a bend out of the plane is drawn as if it lay in it.", said = v => shown(v, this.family.unit);
+    return this.values ? `The bar holds 99 % of the recorded values. Over the whole run, also between recorded rows, the quantity goes from ${said(this.family.min)} to ${said(this.family.max)}. ${flat}` : flat;
+  }
 }

@@ -31,7 +31,7 @@ class ZoneChart {
     if (left) told.push(`${left} parts that change too often for a page are left out`);
     document.getElementById("zone-note").textContent = told.length ? `${told.join(". ")}.` : "";
     const words = [...this.used].map(z => this.run.zones.words[z]).sort((a, b) => (RANK[b.means] ?? 3) - (RANK[a.means] ?? 3));
-    legend(document.getElementById("zone-legend"), words.map(w => [zoneColour(this.run, this.run.zones.words.indexOf(w)), this.told(w)]));
+    legend(document.getElementById("zone-legend"), words.map(w => [zoneColour(this.run, this.run.zones.words.indexOf(w)), this.told(w)]).concat([NOW()]));
   }
   /* A zone by its word, and what that means where the word does not say it itself. */
   told(word) {
@@ -61,7 +61,7 @@ class ZoneChart {
   /* What a row does at time t, and from when to when. */
   tells(row, t) {
     const k = upper(row.t, t), zone = this.run.zones.words[k ? row.to[k - 1] : row.start], from = k ? row.t[k - 1] : this.run.times[0], to = k < row.t.length ? row.t[k] : this.run.end;
-    return [row.name, this.told(zone), `${shown(from, "s")} to ${shown(to, "s")}, ${shown(to - from, "s")} long`];
+    return [row.name, this.told(zone), spell(from, to)];
   }
 }
 
@@ -74,10 +74,10 @@ class ZoneMap {
   async show(element) {
     const {run, family} = this, at = document.createElement("div"), title = document.createElement("b"); at.className = "panel low";
     const changed = family.rows.filter(r => r.t.length).length; title.textContent = `${family.name}${this.role()}: ${family.counts.reduce((a, b) => a + b, 0)} changes in ${changed} of ${family.rows.length}`;
-    const plot = document.createElement("div"); at.append(title, plot); element.append(at);
+    const plot = document.createElement("div"), note = document.createElement("p"); note.className = "small"; at.append(title, note, plot); element.append(at);
     this.x = this.line && this.line.positions ? (await run.values(this.line.positions)).first : null;
     this.between = this.line && this.line.layers.some(l => family.name === `${this.line.line}.${l}[*]`);
-    this.reach();
+    this.reach(); note.textContent = this.x ? cut(run, this.line, this.bottom, this.top) : ""; note.hidden = !note.textContent;
     const p = figure({height: 210, x_range: span.range(), y_range: new Bokeh.Range1d({start: this.bottom, end: this.top})}, "time [s]", this.x ? "place on the route [m]" : "number");
     this.source = new Bokeh.ColumnDataSource({data: {url: [], x: [], w: []}});
     p.image_url({field: "url"}, {field: "x"}, this.bottom, {field: "w"}, this.top - this.bottom, {source: this.source, anchor: "bottom_left"});
@@ -104,6 +104,7 @@ class ZoneMap {
   }
   /* The places at which something happens, with devices. */
   reach() {
+    if (this.x && document.getElementById("zone-whole").checked) { const all = this.run.family.get(this.line.positions); this.bottom = all.min; this.top = all.max; return; }
     let low = Infinity, high = -Infinity;
     const quiet = z => ["off", "sound"].includes(this.run.zones.words[z].means);
     for (const row of this.family.rows) row.t.forEach((t, i) => {
