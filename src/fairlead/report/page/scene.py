@@ -12,9 +12,11 @@ APART = ("scene", "zones", "routes", "extremes", "effects_in_force", "ruck", "li
          "description", "friction", "effects", "profile", "energy", "remarks", "format", "process", "host", "boot",
          "locked", "name", "sentence")  # fmt: skip
 """Entries of run.json that other parts of the page show, that are too long to read, or that serve a running process."""
-SAYS = {"switches": "zone changes", "machines": "parts with zones", "build": "compiled for", "versions": "version of",
-        "rhs": "evaluations of the laws", "guards": "evaluations of the guards",
-        "located": "zone changes located in time", "settling_passes": "passes of settling", "record_every": "recorded every [s]"}  # fmt: skip
+SAYS = {
+    "switches": "zone changes", "machines": "parts with zones", "build": "compiled for", "versions": "version of",
+    "rhs": "evaluations of the laws", "guards": "evaluations of the guards", "located": "zone changes located in time",
+    "settling_passes": "passes of settling", "record_every": "recorded every [s]",
+}  # fmt: skip
 """What a reader calls an entry that run.json has a word of the program for."""
 UNKNOWN = "not kept: an earlier version of fairlead wrote this run"
 LONGEST = 300

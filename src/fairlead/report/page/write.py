@@ -24,8 +24,10 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "report.html"
 PARTS = Path(__file__).parent / "parts"
-SCRIPTS = ("data.js", "clock.js", "colours.js", "hover.js", "scale.js", "route.js", "mechanism.js", "plots.js",
-           "legend.js", "panel.js", "profile.js", "adding.js", "maps.js", "zones.js", "printing.js", "main.js")  # fmt: skip
+SCRIPTS = (
+    "data.js", "clock.js", "colours.js", "hover.js", "scale.js", "route.js", "mechanism.js", "plots.js", "legend.js",
+    "panel.js", "profile.js", "adding.js", "maps.js", "zones.js", "printing.js", "main.js",
+)  # fmt: skip
 MOST_RUNS = 8
 
 

@@ -106,8 +106,8 @@ const spell = (from, to) => {
   const long = to - from, decimals = long > 0 ? Math.min(Math.max(2 - Math.floor(Math.log10(long)), 0), 12) : 3, t = at => `${+at.toFixed(decimals)} s`;
   return `${t(from)} to ${t(to)}, ${shown(long, "s")} long`;
 };
-/* Figures of a colour bar: as many digits as tell its ends apart. */
-const ticks = (low, high, n = 5) => {
+/* Round values of a colour bar, at most n steps apart. */
+const ticks = (low, high, n = 8) => {
   const wide = high - low, raw = wide / n, ten = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map(k => k * ten).find(one => one >= raw), found = [];
   for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * wide; k++) found.push(Math.abs(k * step) < step / 2 ? 0 : k * step);
   return found;
