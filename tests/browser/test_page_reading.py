@@ -245,3 +245,14 @@ def test_on_paper_picture_zones_and_maps_name_their_run_and_settings_are_there(b
     finally:
         browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
         browser.execute_script("dispatchEvent(new Event('afterprint'))")
+
+
+def test_no_title_of_a_plot_is_broken_within_a_word_on_a_narrow_page(browser, both):
+    show(browser, both, 400)
+    assert settled(browser) is None
+    heights = browser.execute_script(
+        "return [...document.querySelectorAll('#panels .head b')].map(b => b.getBoundingClientRect().height)"
+    )
+    assert len(heights) > 3
+    assert max(heights) < 30  # one line
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= 400

@@ -84,6 +84,8 @@ def test_a_tick_says_what_it_compares_and_none_stands_for_a_hose_that_statics_mi
     hose = said["Hose against statics"]
     assert (hose.mood, hose.brief) == ("fair", "hose alone not as in statics")
     assert "which is the unsafe side" in hose.text
+    slight = told(written(scene(ARRAY), tmp_path / "slight", drifts=10.0))["Hose against statics"]
+    assert (slight.mood, slight.brief) == ("plain", "hose alone not as in statics")  # far from the 50 N all the same
     level = told(written(scene(ARRAY), tmp_path / "level"))["Hose against statics"]
     assert (level.mood, level.brief) == ("good", "hose alone as in statics")
 

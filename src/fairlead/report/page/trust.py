@@ -64,19 +64,23 @@ def _settled(run: dict[str, Any]) -> Iterator[Sentence]:
 
 
 def _hose(run: dict[str, Any]) -> Iterator[Sentence]:
-    """The lowest tension of the hose alone, which statics estimates and which a ruck margin comes from."""
+    """The lowest tension of the hose alone, which statics estimates and which a ruck margin comes from.
+
+    It is marked where an estimate that is so far off could decide whether the hose rucks.
+    """
     one = (run.get("against_statics") or {}).get("lowest")
     if not one:
         return
-    size = max(one["ruck_force"] or 0.0, abs(one["run"]), abs(one["statics"]))
-    close = abs(one["too_high"]) <= CLOSE * size
-    unsafe = one["too_high"] > 0 and not close
+    bears, off = one["ruck_force"], one["too_high"]
+    close = abs(off) <= CLOSE * max(bears or 0.0, abs(one["run"]), abs(one["statics"]))
+    unsafe = off > 0 and not close
+    decides = unsafe and (one["run"] < 0 if bears is None else off - one["run"] > bears)  # so far off it could ruck
     side = "too high, which is the unsafe side: take the margin from the run" if unsafe else "too high"
-    if one["too_high"] <= 0:
+    if off <= 0:
         side = "too low, which is the safe side"
-    yield Sentence("Hose against statics", "fair" if unsafe else "good" if close else "plain",
+    yield Sentence("Hose against statics", "fair" if decides else "good" if close else "plain",
                    f"The lowest tension of the hose alone is {number(one['run'])} N. Statics estimates "
-                   f"{number(one['statics'])} N, {number(abs(one['too_high']))} N {side}.",
+                   f"{number(one['statics'])} N, {number(abs(off))} N {side}.",
                    brief=f"hose alone {'as in' if close else 'not as in'} statics")  # fmt: skip
 
 
