@@ -11,6 +11,7 @@ from fairlead.component import (
     Translational,
     Zones,
     guard,
+    shared,
     sqrt,
     zone,
 )  # fmt: skip
@@ -30,7 +31,7 @@ class Web(Component, abstract=True):
     S' = q_a - q_b        S = (free length)/(1 + strain), the material between the rollers
     q_a = a.v/(1 + before),      q_b = b.v/(1 + strain)        running forward, from a to b
     q_a = a.v/(1 + strain),      q_b = b.v/(1 + after)         running backward, each end for itself
-    tension = stiffness strain + damping d(strain)/dt
+    tension = stiffness strain + damping d(strain)/dt,  and none while damping would push
 
     A web sticks to a roller where it comes on to it and creeps where it leaves it. So it is carried over with the
     strain of the span that it comes from. Connect the `strain` of the span behind to `before`, and of the one ahead to
@@ -55,15 +56,25 @@ class Web(Component, abstract=True):
     after = Input("1", "Strain of the web that comes on to the roller ahead while it runs backward.", default=0.0)
     pull = State("N", "Tension, and below zero what the web is longer than its way, as strain times stiffness.",
                  start="tension")  # fmt: skip
-    carried = Output("N", "Tension; never negative, but for damping.", name="tension")
+    carried = Output("N", "Tension; never negative.", name="tension")
     elastic = Output("N", "Stiffness times strain.")
     strain = Output("1", "Strain, never negative.")
-    zones = Zones("taut", "slack")
+    zones = Zones("taut", "slack", "closing")
 
-    @guard("taut", to="slack", unit="N")
+    @guard("taut", "closing", to="slack", unit="N")
     def slackens(p, pull):
-        """The tension falls through zero."""
+        """The strain falls through zero."""
         return -pull
+
+    @guard("taut", to="closing", unit="N")
+    def would_push(p, damped):
+        """Closing so fast that the damping would push."""
+        return None if p.damping is None else -damped
+
+    @guard("closing", to="taut", unit="N")
+    def catches(p, damped):
+        """Closing no longer so fast."""
+        return damped
 
     @guard("slack", to="taut", unit="N")
     def tightens(p, pull):
@@ -85,28 +96,46 @@ def flows(p, a, b, before, after, strain):
     return q_a, q_b, brings, lost, b.v - a.v - (1 + strain) * (q_b - q_a)
 
 
-def span(p, pull, taut, length, rate, told, **ports):
+def straining(p, pull, length, rate, told):
+    """Rate of strain of a web whose way is `length`, which grows with `rate`; `told` is what `flows` tells."""
+    stretch = pull / p.stiffness
+    return (1 + stretch) * (rate - (1 + stretch) * (told[0] - told[1])) / length
+
+
+def with_damping(p, pull, length, rate, told):
+    """What a stretched web would pull with its damping, below zero where that would push."""
+    return pull if p.damping is None else pull + p.damping * straining(p, pull, length, rate, told)
+
+
+def span(p, pull, zone, length, rate, told, **ports):
     """Law of a web whose way is `length`, which grows with `rate`; `told` is what `flows` tells of its ends.
+
+    While it is closing, what its strain has stored goes into the damping.
 
     `ports` has the port of what moves, if any, and by how much it lengthens the way. The work of damping at a roller
     where the strain changes is told as supplied, as what material brings along.
     """
-    q_a, q_b, brings, lost, slides = told
-    stretch = pull / p.stiffness
-    grows = (1 + stretch) * (rate - (1 + stretch) * (q_a - q_b)) / length
-    elastic = pull if taut else 0
-    damps = p.damping * grows if taut and p.damping is not None else 0
-    tension = elastic + damps
-    stored = length * pull * stretch / (1 + stretch) / 2 if taut else 0
+    _, _, brings, lost, slides = told
+    stretch, grows = pull / p.stiffness, straining(p, pull, length, rate, told)
+    stretched = zone != "slack"
+    elastic = pull if stretched else 0
+    damps = {"taut": 0 if p.damping is None else p.damping * grows, "closing": -pull, "slack": 0}[zone]
+    tension = elastic + damps if zone == "taut" else 0
+    stored = length * pull * stretch / (1 + stretch) / 2 if stretched else 0
     return Law(
         a=-tension, b=+tension, pull=p.stiffness * grows, tension=tension, elastic=elastic, stored=stored,
-        strain=stretch if taut else 0, supplied=brings - damps * slides,
+        strain=stretch if stretched else 0, supplied=brings - damps * slides,
         dissipated=lost + damps * grows * length / (1 + stretch), **{port: n * tension for port, n in ports.items()},
     )  # fmt: skip
 
 
 class FixedSpan(Web, abstract=True):
     """Half-model of a web between rollers that stand, with what may end it."""
+
+    @shared
+    def damped(p, a, b, before, after, pull):
+        """What it would pull with its damping."""
+        return with_damping(p, pull, p.length, 0, flows(p, a, b, before, after, pull / p.stiffness))
 
     cut = Input("1", "Above 1/2 the web is cut.", default=0.0)
     left = Input("m", "Web left on an unwinder; when it is used up, its end comes through.", default=1.0, signed=True)
@@ -115,14 +144,13 @@ class FixedSpan(Web, abstract=True):
 class WholeSpan(FixedSpan):
     """A span that never tears."""
 
-    asked_with = {"stiffness": 1e5}
+    asked_with = {"stiffness": 1e5, "damping": 1e5}
 
-    @zone("taut", "slack")
+    @zone("taut", "slack", "closing")
     def running(p, a, b, before, after, pull, zone):
         """The balance of material."""
-        taut = zone == "taut"
-        ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
-        return span(p, pull, taut, p.length, 0, ends)
+        ends = flows(p, a, b, before, after, pull / p.stiffness if zone != "slack" else 0)
+        return span(p, pull, zone, p.length, 0, ends)
 
 
 class WebSpan(FixedSpan):
@@ -135,17 +163,16 @@ class WebSpan(FixedSpan):
                 tension for the rest of the run. off: it never tears
     """
 
-    asked_with = {"stiffness": 1e5, "strength": 1e5}
+    asked_with = {"stiffness": 1e5, "damping": 1e5, "strength": 1e5}
     strength = Parameter("N", "Tension at which the web tears.", default=1e12, above=0, usual=(1, 1e12))
     breaking = Effect("The web tears, is cut, or runs out.", off=WholeSpan)
-    zones = Zones("taut", "slack", "torn", "gone")
+    zones = Zones("taut", "slack", "closing", "torn", "gone")
 
-    @zone("taut", "slack")
+    @zone("taut", "slack", "closing")
     def running(p, a, b, before, after, pull, zone):
         """The balance of material."""
-        taut = zone == "taut"
-        ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
-        return span(p, pull, taut, p.length, 0, ends)
+        ends = flows(p, a, b, before, after, pull / p.stiffness if zone != "slack" else 0)
+        return span(p, pull, zone, p.length, 0, ends)
 
     @zone("torn")
     def torn(p, a, b, pull):
@@ -165,7 +192,7 @@ class WebSpan(FixedSpan):
         """The tension reaches the strength."""
         return pull - p.strength
 
-    @guard("taut", to="torn", unit="1")
+    @guard("taut", "closing", to="torn", unit="1")
     def is_cut(p, cut):
         """A signal cuts it."""
         return cut - CUT
@@ -175,7 +202,7 @@ class WebSpan(FixedSpan):
         """Likewise, without tension."""
         return cut - CUT
 
-    @guard("taut", to="torn", unit="m")
+    @guard("taut", "closing", to="torn", unit="m")
     def runs_out(p, left):
         """Its end has come off the roll."""
         return -left
@@ -199,29 +226,38 @@ class WebAccumulator(Web):
     above -length/strands. With one strand it is one side of a loop round a dancer.
     """
 
-    asked_with = {"stiffness": 1e5, "length": 1e3}
+    asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     carriage = Translational("what lengthens the way of the web as x grows")
     strands = Parameter("1", "How often the web runs to the carriage or back.", default=2.0, above=0, usual=(1, 200))
     free = Output("m", "Free length, of all strands together.")
 
-    @zone("taut", "slack")
+    @shared
+    def damped(p, a, b, carriage, before, after, pull):
+        """What it would pull with its damping."""
+        length, rate = p.length + p.strands * carriage.x, p.strands * carriage.v
+        return with_damping(p, pull, length, rate, flows(p, a, b, before, after, pull / p.stiffness))
+
+    @zone("taut", "slack", "closing")
     def running(p, a, b, carriage, before, after, pull, zone):
         """The balance of material, over a way that changes."""
         length, rate = p.length + p.strands * carriage.x, p.strands * carriage.v
-        taut = zone == "taut"
-        ends = flows(p, a, b, before, after, pull / p.stiffness if taut else 0)
-        law = span(p, pull, taut, length, rate, ends, carriage=p.strands)
+        ends = flows(p, a, b, before, after, pull / p.stiffness if zone != "slack" else 0)
+        law = span(p, pull, zone, length, rate, ends, carriage=p.strands)
         return Law(**law.terms, free=length)
 
 
-def tail(p, a, before, pull, taut, length, rate):
-    """Law of a rope whose other end is a body: material comes and goes at the roller alone."""
-    strain = pull / p.stiffness if taut else 0
+def tail_flows(p, a, before, strain):
+    """What `flows` tells, of a rope whose other end is a body: material comes and goes at the roller alone."""
     comes, goes = forward(p, a.v) / (1 + before), (a.v - forward(p, a.v)) / (1 + strain)
     half = p.stiffness / 2
     brings, lost = half * (before**2 * comes + strain**2 * goes), half * (strain - before) ** 2 * comes
-    ends = comes + goes, 0, brings, lost, (1 + strain) * (comes + goes) - a.v
-    return span(p, pull, taut, length, rate, ends)
+    return comes + goes, 0, brings, lost, (1 + strain) * (comes + goes) - a.v
+
+
+def tail(p, a, before, pull, zone, length, rate):
+    """Law of a rope whose other end is a body."""
+    strain = pull / p.stiffness if zone != "slack" else 0
+    return span(p, pull, zone, length, rate, tail_flows(p, a, before, strain))
 
 
 class RopeTail(Web):
@@ -233,13 +269,18 @@ class RopeTail(Web):
     Source: docs/physics.md, 4.9. Limits: as of a WebSpan; the free length must stay above zero.
     """
 
-    asked_with = {"stiffness": 1e5, "length": 1e3}
+    asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     b = Translational("the body at its end")
 
-    @zone("taut", "slack")
+    @shared
+    def damped(p, a, b, before, pull):
+        """What it would pull with its damping."""
+        return with_damping(p, pull, p.length + b.x, b.v, tail_flows(p, a, before, pull / p.stiffness))
+
+    @zone("taut", "slack", "closing")
     def running(p, a, b, before, pull, zone):
         """The balance of material, over a way that the body changes."""
-        return tail(p, a, before, pull, zone == "taut", p.length + b.x, b.v)
+        return tail(p, a, before, pull, zone, p.length + b.x, b.v)
 
 
 class MovingTail(Web):
@@ -250,13 +291,19 @@ class MovingTail(Web):
     Source and limits: as of a RopeTail; what the rope on the other side pulls is to be joined with `place` too.
     """
 
-    asked_with = {"stiffness": 1e5, "length": 1e3}
+    asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     exempt = {"balance": "the rope also goes through `a`, whose rim moves with the place"}
     b = Translational("the body at its end")
     place = Translational("the ship")
 
-    @zone("taut", "slack")
+    @shared
+    def damped(p, a, b, place, before, pull):
+        """What it would pull with its damping."""
+        length, rate = p.length + b.x - place.x, b.v - place.v
+        return with_damping(p, pull, length, rate, tail_flows(p, a, before, pull / p.stiffness))
+
+    @zone("taut", "slack", "closing")
     def running(p, a, b, place, before, pull, zone):
         """The balance of material, over a way that both change."""
-        law = tail(p, a, before, pull, zone == "taut", p.length + b.x - place.x, b.v - place.v)
+        law = tail(p, a, before, pull, zone, p.length + b.x - place.x, b.v - place.v)
         return Law(**law.terms, place=-law.terms["b"])

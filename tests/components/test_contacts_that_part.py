@@ -90,3 +90,22 @@ def test_what_is_let_go_slowly_springs_back_as_before(simulate, kind):
     back = -v[-1] * DAMPING
     assert -back - np.log(1 - back) == pytest.approx(orbit, rel=1e-3)
     assert not result.switches().to_pandas()["zone_to"].str.endswith("opening").any()
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", pytest.param("ida", marks=pytest.mark.slow)])
+def test_a_rope_whose_end_is_thrown_back_does_not_push(simulate, engine):
+    """Its damping would push with 5 kN; the body keeps its speed until the rope is slack, and its energy is lost."""
+    result = simulate(f"""
+        components:
+          winch: {{type: Ground}}
+          rope: {{type: RopeTail, length: 1 m, stiffness: 100 kN, damping: 10 kN*s, tension: 10 N}}
+          body: {{type: Mass, mass: 1 kg, position: 0, velocity: -0.5 m/s}}
+        connections: [[winch.flange, rope.a], [rope.b, body.flange]]
+        run: {{stop: 1 ms, engine: {engine}, accuracy: 1e-6}}
+        record: {{signals: ["*"]}}
+    """)
+    strain = 1e-4
+    assert np.abs(result["rope.tension"]).max() == 0
+    assert result["body.v"] == pytest.approx(-0.5, rel=1e-12)
+    assert switched(result, "slack") == pytest.approx(strain / (1 + strain) / 0.5, rel=1e-3)  # 10 N to 10 mN
+    assert result.run["energy"]["dissipated"] == pytest.approx(10 * strain / (1 + strain) / 2, rel=1e-4)

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-MASS, STICTION, STRIBECK, MODULUS, SUPPLY, TANK = 200.0, 1500.0, 10e-3, 1e9, 150e5, 1e5
+MASS, STICTION, STRIBECK, MODULUS, SUPPLY, TANK, AIR = 200.0, 1500.0, 10e-3, 1e9, 150e5, 1e5, 1e5
 CAP, RING = np.pi * 0.05**2 / 4, np.pi * (0.05**2 - 0.028**2) / 4
 LAND, BORE = 12e-3 / 60 / np.sqrt(35e5), 0.62 * np.pi * 0.02**2 / 4 * np.sqrt(2 / 870)
 WANTED, STROKE, DEAD = 0.15, 0.3, 0.2e-3
@@ -31,7 +31,7 @@ def servo_cylinder(stop, gain, integral_time, share):
     """
 
     def push(y):
-        return CAP * y[2] - RING * y[3]
+        return CAP * y[2] - RING * y[3] - (CAP - RING) * AIR
 
     def rates(_, y, way):
         x, v, a, b, integral = y
