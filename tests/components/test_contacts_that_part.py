@@ -108,4 +108,4 @@ def test_a_rope_whose_end_is_thrown_back_does_not_push(simulate, engine):
     assert np.abs(result["rope.tension"]).max() == 0
     assert result["body.v"] == pytest.approx(-0.5, rel=1e-12)
     assert switched(result, "slack") == pytest.approx(strain / (1 + strain) / 0.5, rel=1e-5)
-    assert result.run["energy"]["dissipated"] == pytest.approx(10 * strain / (1 + strain) / 2, rel=1e-3)  # as ida gathers it
+    assert result.run["energy"]["dissipated"] == pytest.approx(10 * strain / (1 + strain) / 2, rel=1e-3)
