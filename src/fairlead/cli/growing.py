@@ -29,9 +29,10 @@ class Growing:
         """Tell of it before the run, where `record.every` gives the rows."""
         from fairlead.running import chosen_signals
 
-        every, run = self.model.netlist.record.every, self.model.netlist.run
-        if every is None or self.large <= 0:
+        every = self.model.netlist.record.every
+        if every is None:
             return
+        run = self.model.netlist.run
         rows, signals = (run.stop - run.start) / every, len(chosen_signals(self.model.netlist, self.model.system))
         size = NUMBER * rows * (signals + 1)
         if size > self.large:
