@@ -97,7 +97,8 @@ def _bumper(name: str, part: Any, machine: Machine, run: Observed) -> str:
     right = 0.0
     for d, at in ((1, part["upper"]), (-1, part.get("lower", 0.0))):
         deep = d * (xb - xa - at)
-        right = right + d * part["stiffness"] * np.maximum(0.0, deep) * (1 + part["damping"] * d * (vb - va))
+        pushes = np.maximum(0.0, 1 + part["damping"] * d * (vb - va))  # torn off, it holds nothing
+        right = right + d * part["stiffness"] * np.maximum(0.0, deep) * pushes
     return _unlike(name, "force", right, run)
 
 
