@@ -46,12 +46,11 @@ def times_of(t: Any) -> NDArray[np.float64]:
         except QuantityError as error:
             raise UsageError(f"t = {shown(t)} is no time: {error.what}.\n    {error.allowed}") from None
     try:
-        times = np.asarray(t, dtype="f8")
+        if (given := np.asarray(t)).dtype != object:  # None would become nan
+            return given.astype("f8")
     except (TypeError, ValueError):
-        times = np.array(np.nan)
-    if np.isnan(times).any():  # also of None
-        raise UsageError(f"t = {shown(t)} is no time: give a number of seconds, or an array of them.")
-    return times
+        pass
+    raise UsageError(f"t = {shown(t)} is no time: give a number of seconds, or an array of them.")
 
 
 def instead_of(name: object) -> str:
