@@ -119,11 +119,11 @@ def plain(value):
 
 
 def mistakes(call):
-    """What a call refuses; nothing if it does not."""
+    """What a call refuses; nothing if it does not. Each call says of what is wrong by which of them it came."""
     try:
         call()
     except ModelError as error:
-        return [str(fault) for fault in error.faults]
+        return [str(fault).replace("Model.with_values: ", "--set: ") for fault in error.faults]
     return []
 
 
