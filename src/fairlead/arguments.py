@@ -103,8 +103,8 @@ class Arguments:
         if not isinstance(value, str):
             self._wrong(name, value, "is not a text", f"Write it as {example}.")
 
-    def map_of(self, name: str, value: object, example: str, kind: Any = object) -> None:
-        """A map; where its values have to be of a kind, its names have to be texts."""
+    def map_of(self, name: str, value: object, example: str, kind: Any = object, otherwise: str = "") -> None:
+        """A map; where its values are of a kind, its names are texts. `otherwise` says what a value is that is not."""
         if not isinstance(value, Mapping):
             self._wrong(name, value, "is not a map", f"Write it as {example}.")
             return
@@ -112,7 +112,7 @@ class Arguments:
             if not isinstance(key, str):
                 self._wrong(name, key, "is not a name, which is a text", f"Write it as {example}.")
             elif not _is(one, kind):
-                self._wrong(f"{name}[{shown(key)}]", one, "is not known", f"Write it as {example}.")
+                self._wrong(f"{name}[{shown(key)}]", one, otherwise, f"Write it as {example}.")
 
     def names(self, name: str, value: object, example: str, *, functions: bool = False) -> None:
         """One text, or several in a list; also functions, where these may be."""

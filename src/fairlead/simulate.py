@@ -466,8 +466,12 @@ def describe_type(name: str, libraries: Iterable[str] = ()) -> str:
     return Page(describe(name, known_types(libraries)))
 
 
+@keywords_told
 def json_schema(libraries: Iterable[str] = ()) -> dict[str, Any]:
     """JSON Schema (draft-07) of netlists, from the component classes and those in the files `libraries`."""
+    asked = Arguments("json_schema")
+    asked.texts("libraries", libraries, '"parts.py"')
+    asked.refuse()
     from fairlead.component.json_schema import json_schema as make
     from fairlead.component.registry import known_types
 

@@ -43,7 +43,7 @@ def told(call, *given):
     ("asked", "says"),
     [
         ({"zones": "held"}, 'modes: zones = held is not a map Write it as {"pad": "held"}.'),
-        ({"zones": {"pad": None}}, "modes: zones[pad] = None is not known Write it as"),
+        ({"zones": {"pad": None}}, "modes: zones[pad] = None is not the name of a zone Write it as"),
         ({"zones": {3: "held"}}, "modes: zones = 3 is not a name, which is a text"),
         ({"acting": 3, "out": 4}, 'modes: acting = 3 is not a text Write it as "block". modes: out = 4'),
         ({"frequencies": (1, 10)}, "modes: frequencies = (1, 10) is given alone A response needs acting"),
@@ -76,7 +76,7 @@ def test_a_study_refuses_what_is_no_model(result, study, given):
         ({3: "peak(block.x)"}, None, {}, "sensitivity: of = 3 is not a name, which is a text"),
         ("peak(block.x)", 3, {}, "sensitivity: to = 3 is neither a text nor a list"),
         ("peak(block.x)", [None], {}, "sensitivity: to = None is not a text"),
-        ("peak(block.x)", {"block.mass": [1]}, {}, "sensitivity: to[block.mass] = [1] is not known"),
+        ("peak(block.x)", {"block.mass": [1]}, {}, "sensitivity: to[block.mass] = [1] is no size of changes"),
         ("peak(block.x)", "block.mass", {"told": 3}, "sensitivity: told = 3 is not a function Give a"),
         ("peak(block.x)", "block.mass", {"max_steps": "x"}, "sensitivity: max_steps = x is not a whole number"),
         ("peak(block.x)", "block.mass", {"max_steps": 0}, "sensitivity: max_steps = 0 is below 1"),
@@ -93,7 +93,7 @@ def test_sensitivity_refuses_them(model, of, to, more, says):
         ("peak(block.x)", {}, 'Cases: figures = peak(block.x) is not a map Write it as {"peak": "peak(block.x)"}.'),
         (["peak(block.x)"], {}, "Cases: figures = ['peak(block.x)'] is not a map"),
         ({3: "peak(block.x)"}, {}, "Cases: figures = 3 is not a name, which is a text"),
-        ({"peak": 3}, {}, "Cases: figures[peak] = 3 is not known"),
+        ({"peak": 3}, {}, "Cases: figures[peak] = 3 is neither a text nor a function"),
         (PEAK, {"max_steps": "many"}, "Cases: max_steps = many is not a whole number"),
         (PEAK, {"max_steps": -1}, "Cases: max_steps = -1 is below 1"),
         (PEAK, {"max_steps": 2.5}, "Cases: max_steps = 2.5 is not a whole number"),
@@ -149,6 +149,8 @@ def test_a_value_that_no_model_has_makes_a_refused_row(cases, values, says):
         (lambda m: m.start(inputs=[3]), "Model.start: inputs = 3 is not a name"),
         (lambda m: m.start(tunable=[None]), "Model.start: tunable = None is not a name"),
         (lambda m: fairlead.load("belt", sets={}), "load: there is no argument sets. Did you mean set?"),
+        (lambda m: fairlead.json_schema("parts.py"), "json_schema: libraries = parts.py is not a list"),
+        (lambda m: fairlead.json_schema(3), "json_schema: libraries = 3 is not a list"),
         (lambda m: fairlead.describe_type(None), 'describe_type: name = None is not a text Write it as describe_type'),
     ],
 )  # fmt: skip
@@ -241,6 +243,11 @@ def test_other_names_of_folders_are_taken(model, out, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     model.run(out, stop=0.01)
     assert [one.name for one in tmp_path.iterdir()] == [out]
+
+
+def test_two_frequencies_may_be_an_array(model):
+    found = fairlead.modes(model, acting="block", out="block.x", frequencies=np.array([1.0, 9.0]))
+    assert found.response.frequencies[-1] == pytest.approx(9.0)
 
 
 def test_names_may_come_from_an_iterator(model):

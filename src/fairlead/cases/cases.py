@@ -53,7 +53,7 @@ class Cases:
         asked = Arguments("Cases")
         asked.model(model)
         if figures is not None:
-            asked.map_of("figures", figures, EXAMPLE, (str, Callable))
+            asked.map_of("figures", figures, EXAMPLE, (str, Callable), "is neither a text nor a function")
         if max_steps is not None:
             asked.whole("max_steps", max_steps, 1)
         asked.refuse()

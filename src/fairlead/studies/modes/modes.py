@@ -51,7 +51,7 @@ def modes(
     time = None if at is None else asked.quantity("at", at, "s")
     span = None if frequencies is None else _span(asked, frequencies)
     if zones is not None:
-        asked.map_of("zones", zones, '{"pad": "held"}', str)
+        asked.map_of("zones", zones, '{"pad": "held"}', str, "is not the name of a zone")
     asked.text("acting", acting, '"block"')
     asked.text("out", out, '"block.x"')
     asked.whole("change", change, 0)
@@ -91,7 +91,7 @@ def _missing(acting: str, out: str) -> list[Fault]:
 
 
 def _span(asked: Arguments, given: tuple[float | str, float | str]) -> tuple[float, float] | None:
-    if not isinstance(given, tuple | list) or len(given) != 2:
+    if isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 2:
         asked.pair("frequencies", given, "(0.1, 100)")
         return None
     low, high = (asked.above_zero("frequencies", one, "Hz") for one in given)

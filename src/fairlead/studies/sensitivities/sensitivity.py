@@ -89,11 +89,11 @@ def _asked(
 def _sound(asked: Arguments, of: object, to: object) -> None:
     """Figures and parameters that are of no kind that can be meant; their names are looked up later."""
     if isinstance(of, Mapping):
-        asked.map_of("of", of, '{"peak": "peak(block.x)"}', (str, Callable))
+        asked.map_of("of", of, '{"peak": "peak(block.x)"}', (str, Callable), "is neither a text nor a function")
     elif of is not None and not callable(of):
         asked.names("of", of, '["peak(block.x)"]', functions=True)
     if isinstance(to, Mapping):
-        asked.map_of("to", to, '{"pad.normal_force": "1 N"}', (str, int, float, type(None)))
+        asked.map_of("to", to, '{"pad.normal_force": "1 N"}', (str, int, float, type(None)), "is no size of changes")
     elif to is not None:
         asked.names("to", to, '["pad.normal_force"]')
 
