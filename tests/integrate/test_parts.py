@@ -27,7 +27,7 @@ OF_A_STEP = {
     "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "guessed",
     "distrusted",
     "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
-    "searched", "frozen", "midway", "replanned", "theta_now",
+    "searched", "frozen", "instant", "midway", "replanned", "theta_now",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""
 

@@ -73,6 +73,21 @@ def test_a_theta_above_the_middle_makes_at_most_one_weight_of_error_a_step(theta
     assert np.abs(outcome.y - exact(2.0)).max() < 1e-6 * outcome.counters.steps
 
 
+def test_a_time_event_of_the_same_instant_that_changes_nothing_leaves_no_trace():
+    """No step is taken to it, so none is remembered."""
+    outcomes = []
+    for events in ([0.7], [0.7, 0.7 + 2e-16]):
+        problem, _ = nonlinear_ode(
+            absolute=1e-6, relative=1e-6, at_time=lambda *_: 0,
+            next_time=lambda t, _z, events=events: min((e for e in events if e > t), default=np.inf),
+        )  # fmt: skip
+        outcomes.append(integrate(problem, Run(stop=2.0, engine="stepping")))
+    once, twice = outcomes
+    assert twice.counters.time_events == once.counters.time_events + 1
+    assert twice.counters.steps == once.counters.steps
+    assert twice.y == pytest.approx(once.y, abs=1e-14)
+
+
 def test_a_held_block_does_not_creep():
     problem = belt_block(start=(0.05, 0.2))
     outcome = integrate(problem, Run(stop=0.2, engine="stepping", fixed_step=1e-3))

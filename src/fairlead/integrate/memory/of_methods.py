@@ -33,6 +33,8 @@ RULE = Struct(
         "searched", "midway", "replanned",
         # whether what is stiff is at rest at the end of a step, since friction falls somewhere (jump_inside.py)
         "damps",
+        # whether no step was taken, since the next time event is this instant
+        "instant",
     ),
     numbers=(
         # theta asked for, its rise when zones cycle, theta in force

@@ -80,8 +80,9 @@ def attempt_stepping(m):
     if run.adaptive == 0 and rule.failed == 0 and rule.localising == 0:
         run.h_next = run.fixed_step
     h = propose(run, point)
+    rule.instant = 0
     if is_instant(run, point, m.events.guards, h):
-        m.events.settling.passes = 0
+        m.events.settling.passes, rule.instant = 0, 1
         return GO_ON
     core.skip_meters = 1
     rule.theta_now = min(rule.least_theta + rule.theta_raise, 1.0)
@@ -372,7 +373,7 @@ def arrive_with_zones(m):
         run.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then
         guards.n_fired = 0
     status = arrive(m, False)
-    if run.phase == TRY:
+    if run.phase == TRY and m.stepping.rule.instant == 0:
         remember_slope(run, m.stepping)
     return status
 
