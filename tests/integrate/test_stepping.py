@@ -73,6 +73,16 @@ def test_a_theta_above_the_middle_makes_at_most_one_weight_of_error_a_step(theta
     assert np.abs(outcome.y - exact(2.0)).max() < 1e-6 * outcome.counters.steps
 
 
+def test_the_first_step_makes_no_more_error_than_is_allowed():
+    """A tenth of a weight where every switch is landed on, one weight else."""
+    for located in (40, -1):
+        problem, _ = nonlinear_ode(absolute=1e-6, relative=1e-6)
+        outcome = integrate(problem, Run(stop=2.0, engine="stepping", most_located=located, max_steps=1))
+        assert outcome.counters.steps == 1
+        assert outcome.counters.rejected == 0
+        assert 1e-4 < outcome.t < 1e-1
+
+
 def test_a_time_event_of_the_same_instant_that_changes_nothing_leaves_no_trace():
     """No step is taken to it, so none is remembered."""
     outcomes = []

@@ -19,6 +19,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.point.controller import NO_AMPLITUDE, SAFETY, SHRINK_LIMIT, is_straight, weighted_norm
 from fairlead.integrate.point.curvature import bend_beyond_rounding
 from fairlead.integrate.point.even_steps import COARSE, root_of_power, rounded
+from fairlead.integrate.stepping.located_step import CAREFUL
 from fairlead.integrate.stepping.row_cache import forget_rows
 from fairlead.integrate.stepping.step_error import HELD_THROUGH
 
@@ -90,9 +91,10 @@ def begin_history(run, point, matrices, stepping):
     """After a settlement: the slopes before are those of the consistent point, now and a little earlier.
 
     The first step makes the error of a motion with the time scale T = |y'|/|y''| and the amplitude
-    A = T |y'| equal to one weight: A (h/T)^3 / 12.
+    A = T |y'| equal to what is allowed, one weight or one CAREFUL-th of it: A (h/T)^3 / 12.
     """
     rule = stepping.rule
+    allowed = 1.0 / CAREFUL if rule.locates == 1 else 1.0
     n = point.n
     slope, curvature, u = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
     before, earlier = reals(rule.at_slope_before, n), reals(rule.at_slope_earlier, n)
@@ -109,7 +111,7 @@ def begin_history(run, point, matrices, stepping):
         bend = bend_beyond_rounding(point, matrices)
         if speed * speed > NO_AMPLITUDE * bend and not is_straight(run, bend):
             scale = speed / bend
-            run.h_next = min(run.h_next, root_of_power(scale * (12.0 / (speed * scale)) ** (1.0 / 3.0)))
+            run.h_next = min(run.h_next, root_of_power(scale * (12.0 * allowed / (speed * scale)) ** (1.0 / 3.0)))
         run.h_next = max(run.h_next, 4.0 * smallest_step(run, point))
     rule.gap = 0.0
     rule.gap_before = min(run.h_next, run.max_step)
