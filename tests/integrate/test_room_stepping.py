@@ -347,6 +347,33 @@ def test_a_slip_that_its_friction_stops_has_not_turned_round():
     assert turned()(at, H) == 1.0
 
 
+@functools.cache
+def halved():
+    from fairlead.integrate.stepping.trial import halve_unsolved
+
+    return entry(halve_unsolved, ("",), "di", "i")
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_fixed_step_that_was_halved_is_made_up_before_the_next_of_full_length(seed):
+    """Halves of halves at random: the count is zero when the steps taken since add up to a full one."""
+    from fairlead.integrate.stepping.theta_step import DIVERGES
+
+    rng, at, h, done = np.random.default_rng(seed), memory({"n": 1, "adaptive": 0}), 1.0, 0.0
+    for _ in range(3):
+        halved()(at, h, DIVERGES)
+        h = float(at.number["h_next"])
+    assert h == 0.125
+    while at.number["failed"] > 0:
+        if h > 1e-3 and rng.random() < 0.5:
+            halved()(at, h, DIVERGES)
+            h = float(at.number["h_next"])
+        else:
+            done += h
+            at.number["failed"] -= 1
+    assert done == 1.0
+
+
 def taken(errors, h=0.01):
     """Lengths of the steps that follow ones with these errors, of a method of order two (error of order three)."""
     numbers = {"error_exponent": 1 / 3, "allowed": np.inf, "allowed_before": np.inf, "h_wanted": h}

@@ -249,7 +249,7 @@ def halve_unsolved(m, h, status):
     if status == CYCLES and m.stepping.contacts.expecting == 1:
         rule.failed += 1  # the same step again, without guessing
         return repeat(m, h, TOO_LONG)
-    rule.failed += 2
+    rule.failed = rule.failed + 2 if run.adaptive == 1 else 2 * max(rule.failed, 1)  # halves to go, if fixed
     if status == CYCLES:
         rule.theta_raise = min(rule.theta_raise + THETA_RISE, 0.5)
     repeat(m, 0.5 * h, TOO_LONG)
