@@ -8,7 +8,7 @@ import itertools
 import numpy as np
 import pytest
 
-from tests.integrate.rooms import entry, memory
+from tests.integrate.rooms import entry, fields, memory
 
 
 @functools.cache
@@ -23,6 +23,31 @@ def line():
     from fairlead.integrate.stepping.active_set import next_in_line
 
     return entry(next_in_line, ("stepping.contacts",), "ii", "i")
+
+
+@functools.cache
+def located():
+    from fairlead.integrate.stepping.switch_inside import locate_guard
+
+    return entry(locate_guard, ("problem", "run", "point", "events.guards"), "di", "d")
+
+
+@pytest.mark.parametrize("due", [0.1, 0.3, 0.5, 0.7, 0.9])
+@pytest.mark.parametrize("bend", [-3.0, 0.01, 3.0])
+def test_six_evaluations_find_a_guard_within_two_thousandths_of_a_step(due, bend):
+    """A guard that grows with e^(bend t): 2e-3 of a step is left of half a step by an order of 1.44 an evaluation."""
+
+    def guard(_t, y, g):
+        g[0] = (np.exp(bend * y[0]) - np.exp(bend * due)) / bend
+
+    at = memory({"n": 1, "n_guards": 1, "t_release": 1e308}, y=[0.0], y_end=[1.0], y_probe=[0.0], g=[0.0], g_end=[0.0],
+                g_probe=[0.0], guard_machine=[-1], guard_tolerance=[1e-12])  # fmt: skip
+    kept = fields(at, 1, guards=(guard, 1))
+    for name, place in (("g", 0.0), ("g_end", 1.0)):
+        guard(0.0, [place], at.array[name])
+    assert located()(at, 1.0, 0) == pytest.approx(due, abs=2e-3)
+    assert at.number["guards"] <= 6
+    assert kept
 
 
 @functools.cache

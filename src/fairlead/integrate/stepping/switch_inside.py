@@ -167,19 +167,23 @@ def locate_guard(problem, run, point, guards, h, i):
         return 0.0
     left, right = 0.0, 1.0
     before, after = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_end, guards.n_guards)[i]
-    s = 0.0
+    s, last = 0.0, 0
     for _ in range(LOCATING):
         s = left + (right - left) * before / (before - after)
         for k in range(point.n):
             probe[k] = y[k] + s * (y_end[k] - y[k])
         evaluate_guards(problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
         here = reals(guards.at_g_probe, guards.n_guards)[i]
-        if here <= 0.0:
-            left, before, after = s, here, after * (0.5 if here < 0.0 else 1.0)
-        else:
-            right, after, before = s, here, before * 0.5
         if here == 0.0:
             return s
+        if here < 0.0:
+            left, before = s, here
+            after *= 0.5 if last == -1 else 1.0  # an end that is kept twice
+            last = -1
+        else:
+            right, after = s, here
+            before *= 0.5 if last == 1 else 1.0
+            last = 1
     return s
 
 
