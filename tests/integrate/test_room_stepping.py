@@ -9,7 +9,7 @@ import pytest
 
 from fairlead.integrate.codes import KNOWN_ZONES
 from fairlead.integrate.linear.condensing import columns_of
-from tests.integrate.rooms import entry, memory
+from tests.integrate.rooms import entry, fields, memory
 from tests.integrate.test_linear import mechanical_network, memory_for, planned
 
 SCALE = 1e3
@@ -372,6 +372,39 @@ def test_a_fixed_step_that_was_halved_is_made_up_before_the_next_of_full_length(
             done += h
             at.number["failed"] -= 1
     assert done == 1.0
+
+
+@functools.cache
+def searched():
+    from fairlead.integrate.stepping.residual import search_line
+
+    return entry(search_line, ("problem", "point", "linear", "stepping"), "dd")
+
+
+def test_slip_that_a_search_leaves_in_a_row_that_was_caught_is_in_its_residual():
+    """A full move stops a slip of 1 m/s, and takes another unknown, with a cubic law, far beyond where it is zero."""
+    h = 0.1
+    at = memory(
+        {"n": 3, "n_hold_mass": 1, "n_jacobian": 3, "n_mass": 3, "theta_now": 0.5, "dense": 1},
+        y=[1.0, 0.0, 0.0], y_end=[0.0, 0.0, 10.0], move=[-0.5, 0.0, 5.0], holds=[0, 1, 0], caught=[0, 1, 0],
+        hold_mass_row=[1], of_massless=np.zeros(3), differential=[1, 0, 1], controlled=np.zeros(3),
+        quadrature=np.zeros(3), row_scale=[0.0, 1.0, 1.0], mass_starts=[0, 2, 2, 3], mass_rows=[0, 1, 2],
+        mass_columns=[0, 0, 2], mass=np.ones(3), jacobian_starts=np.zeros(4), jacobian_rows=np.zeros(3),
+        jacobian=np.zeros(3), **{name: np.zeros(3) for name in ("kick", "b", "v", "f", "u", "residual")},
+    )  # fmt: skip
+
+    def forces(_t, u, f):
+        f[:] = 0.0, 0.0, -100.0 * u[2] ** 3
+
+    def drift(_t, y, r):
+        r[:] = 0.0, -y[0], 0.0
+
+    kept = fields(at, 3, forces=(forces, 3), drift=(drift, 3))
+    searched()(at, h, 50.0)
+    left = at.array["y_end"][0]
+    assert 0.0 < left < 1.0
+    assert at.array["b"][1] == pytest.approx(-left / h)
+    assert kept
 
 
 def taken(errors, h=0.01):

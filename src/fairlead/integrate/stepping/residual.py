@@ -118,7 +118,7 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
         for e in range(exchange.n_hold_mass):
             if holds[row[e]] == 1 and (exchange.driven == 1 or caught[row[e]] == 1):
                 b[row[e]] = slip[row[e]] / h
-    else:
+    else:  # the row of a caught contact is linear, so a full move has left no slip
         for e in range(exchange.n_hold_mass):
             if holds[row[e]] == 1 and caught[row[e]] == 1:
                 b[row[e]] = 0.0
@@ -202,6 +202,7 @@ def search_line(problem, point, linear, stepping, h, before):
         return
     rule.searched = SEARCHED
     rule.linearised = 0
+    stepping.exchange.newly_held = 1  # what is taken back of a move leaves slip in rows that were caught
     y_end, move = reals(point.at_y_end, point.n), reals(rule.at_move, point.n)
     differential = indices(point.at_differential, point.n)
     ahead = 1.0 / rule.theta_now
