@@ -8,10 +8,12 @@ came to J, the jump, at s h. The step has the zone of its end for all of it. So 
 the mean of r over the step but for what grows from zero, and the end is moved besides. With w = z/(1 - z/2), z as h
 times an eigenvalue, a motion that is held until s h and decays then is multiplied by
 
-    e^(z (1 - s)) = R(w) - s w - s (1 - s)/2 w^2 + s^2/4 w^3 + O(z^3),      R = 1 + w - w^3/12 + w^4/48 = e^z + O(z^4)
+    e^(z (1 - s)) = R - s w - s (1 - s)/2 w^2 + s^2/4 w^3 + s/12 w^3 (1 - w/4) + O(z^3)
 
-that is zero at w = -2, where z is large: what is stiff for the step is at rest at its end. The first term is the one
-above; the others come with the two solves of third_order.py and a third one, by the weights of `put_jumps_right`.
+with R = 1 + w - w^3/12 + w^4/48 = e^z + O(z^4). At w = -2, where z is large, that is -s: what is stiff for the step has
+lost more than half of its speed at the end, and all of it a step later, since R is zero there. The term -s w is the one
+above. The next two come with the two solves of third_order.py and a third one, by the weights of `put_jumps_right`; the
+last since the first of these solves sees f at the end as the impulse has moved it.
 
 s is told by the line through two middles of steps, as long as the force is not at its limit in the middle of a step the
 contact holds. So s is above -1/2 for steps of one length, and below 1/2: negative where the limit was reached in the
