@@ -46,7 +46,7 @@ class Counters:
     """Steps given up because a guard turned out positive without having crossed."""
     rejected_switch: int
     """Steps taken again to end at a switch: of `stepping` where a law jumps there, or an impulse was missed; of `rodas`
-    where the piece up to the switch does not satisfy the equations (trial.py)."""
+    where the piece up to the switch does not satisfy the equations (one_step.py)."""
     rejected_cycling: int
     """Steps of `stepping` whose zones went in a circle."""
     rejected_diverged: int

@@ -129,7 +129,7 @@ def cut_too_rough(m, h):
 
 @compiled
 def rough(problem, run, point, linear, h):
-    """True if the dense output does not satisfy the equations at `theta`, where the step is to be cut.
+    """True if the dense output does not satisfy the equations at `cut_at`, where the step is to be cut.
 
     The error of a step is that of its end. A law may change much between the last stage before a crossing and the one
     after it, as friction does that rises while a contact comes to rest: beyond rest the law in force is mirrored, so

@@ -37,7 +37,7 @@ class Planned(NamedTuple):
     """What all runs of a problem with one engine share: nothing changes it."""
 
     lengths: dict[str, int]
-    """Of arrays, by the names in memory/arena.py."""
+    """Of arrays, by the names in memory/of_*.py."""
     given: dict[str, np.ndarray]
     numbers: dict[str, float]
 

@@ -210,8 +210,9 @@ class Run:
     between: bool = False
     """Hand over rows inside steps as well, and with a grid the ends of steps (`Block.side`)."""
     engine: Literal["rodas", "stepping", "ida"] | Engine = "rodas"
-    """rodas: Rosenbrock, every switch located; stepping: zones found with each step (theta_step.py); ida: BDF
-    by SUNDIALS, every switch located (ida/loop.py), which needs scikit-sundae; or one of one's own (engine.py)."""
+    """rodas: Rosenbrock, every switch located; stepping: the midpoint rule made one of order three, zones found with
+    each step (theta_step.py) or, up to `most_located` machines, every switch located; ida: BDF by SUNDIALS, every
+    switch located (ida/loop.py), which needs scikit-sundae; or one of one's own (engine.py)."""
     method: Literal["rodas5p", "rodas3p"] = "rodas5p"
     """Of `rodas`."""
     theta: float = 0.5
@@ -223,7 +224,7 @@ class Run:
     max_step: float = np.inf
     fixed_step: float | None = None
     """Take this step without error control. Time events are landed on; switches are located, but for `stepping`, which
-    has them inside its steps then."""
+    has them inside its steps then. Only at a jump of a law that is not known to hold a row it ends a step sooner."""
     step_floor: float | None = None
     """Smallest step, and what several switches in a row must advance; None: what time can resolve (1e-18
     of the span at least) for steps, 1e-12 of the span for switches."""

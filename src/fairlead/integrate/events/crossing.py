@@ -27,7 +27,7 @@ ALWAYS = 2.0
 
 @compiled
 def first_crossing(m, h):
-    """NONE, CROSSING (at `theta`, guards in `fired`) or COMPANION (guards in `fired`)."""
+    """NONE, CROSSING (at `run.cut_at`, guards in `fired`) or COMPANION (guards in `fired`)."""
     guards = m.events.guards
     ng = guards.n_guards
     guards.n_fired = 0
@@ -166,7 +166,7 @@ def collect_fired(guards, crossed):
 
 @compiled
 def locate(m, h, right_end):
-    """Close a bracket on the earliest crossing to rounding in t; `theta` is its right-hand end.
+    """Close a bracket on the earliest crossing to rounding in t; `run.cut_at` is its right-hand end.
 
     Illinois method (Dowell, Jarratt, BIT 11:168, 1971) on the whole vector: the next point is the
     earliest secant root of all guards that cross in the bracket, so the first of them is found

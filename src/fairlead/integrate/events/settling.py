@@ -37,14 +37,16 @@ CHATTER_STREAK = 8
 """Toggles in a row, each within a dwell of the one before, that make a machine chatter."""
 STALL_LIMIT = 5
 """Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
-WARN, HOLD, STOP = 0, 1, 2
+HOLD, STOP = 1, 2
+"""What `on_chatter` says, but for 0: warn."""
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
 NEARER, LOOKS = 0.1, 3
 """How much less far guards are looked ahead for when single switches go in a circle, and how often. Nearer still no
 guard would be seen to rise, and laws that contradict each other would pass for settled."""
-ALL, HALF_AS_WRONG, WORST, LEAST_INDEX = 0, 1, 2, 3
+ALL, HALF_AS_WRONG, LEAST_INDEX = 0, 1, 3
+"""What `stage` says; between the last two it is the worst alone."""
 PATIENCE = 10
 """Passes in which the number of violators need not fall below what it was."""
 SLIP_TIME = 1e-3

@@ -38,7 +38,11 @@ def prepare_rows(m):
 
 @compiled
 def hold_inside(m):
-    """Take slip out of the start and the bend of a step, or have every point inside it done (`rows_slip`)."""
+    """Take slip out of the start and the bend of a step, or have every point inside it done (`rows_slip`).
+
+    The start has slip in contacts that a settlement has just caught, by rounding: `stops_little` has settled what is
+    more. A step that is taken again from there begins without it.
+    """
     point, linear, matrices, recorder = m.point, m.linear, m.linear.matrices, m.recorder
     exchange = m.stepping.exchange
     recorder.rows_slip = 0

@@ -12,7 +12,7 @@ MOST = 8
 
 
 def held_entries(problem: Problem) -> dict[str, Integers]:
-    """Entries of M and of J in rows that may hold, by their names in memory/arena.py.
+    """Entries of M and of J in rows that may hold, by their names in memory/of_methods.py.
 
     Those of J are slopes to what moves, which `stepping` takes out, or to other forces: contacts that close a
     circle share a load.
@@ -101,7 +101,7 @@ def own_kinds(problem: Problem, slopes: Integers, masses: Integers) -> Integers:
 
 
 def only_kinks(problem: Problem) -> Integers:
-    """1 for machines that hold nothing and lead only from one piece of a continuous table to the next."""
+    """1 for machines whose guards lead only from one piece of a continuous table to the next."""
     nz, machine = len(problem.zones), np.asarray(problem.guard_machine)
     kink = np.asarray(problem.kink_guard, dtype=bool)
     guards = np.bincount(machine[machine >= 0], minlength=nz)

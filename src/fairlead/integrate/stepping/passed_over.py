@@ -1,14 +1,15 @@
 """A guard that rises inside a step and has fallen by its end: a stop touched and left, a rope snatched for a moment.
 
 A step has the zones of its end for all of it, and would not see it. Contacts that may hold are left out: their forces
-are means, and step_error.unseen_slip sees to them; and kinks of tables, where nothing jumps but a slope.
+are means, and step_error.unseen_slip sees to them; and in the first of these also kinks of tables, where nothing jumps
+but a slope.
 
     a step that its error limits     is short for what moves. Of a guard below zero at both its ends the parabola
                                      through these values and the one a step before says where it is highest, or through
                                      the value in the middle after a settlement. Where that may be above zero, by BEYOND
                                      of its bulge, the guard is asked there, on the dense output.
     a step that it does not limit    may be any length: nothing may move in it but what is given. It is searched in
-                                     equal parts, on the chord.
+                                     equal parts, on the chord, for kinks of tables too.
 
 The step then ends where the guard was found above its tolerance; of the first kind if the impulse of what is touched
 counts.

@@ -9,7 +9,7 @@ It is taken away before (third_order.py): what is controlled is the error of the
 what is left of it.
 With a theta above 1/2 nothing is taken away, and the step misses (theta - 1/2) h^2 y'' besides: that comes on top.
 Controlled are all differential unknowns but speeds that have a position (x' = v); these too where every switch is
-landed on, by located_step.py. A contact that starts
+landed on, by located_step.py, which counts ten times the error. A contact that starts
 or stops inside a step bends the motion there: the speed at the end of the step is then still right to
 order 2, while a difference of accelerations sees a jump; the position it leads to is wrong by order
 h^2 times the jump, which is what the difference of speeds says.

@@ -3,8 +3,9 @@
 What repeats one, in this order: a matrix without good pivots; a law that jumps at a limit the step reaches; zones that
 do not settle; a rim of a part that changed; an error above one; a switch inside that its formula says is missed. Where
 every switch is landed on (`finish_located`): an error above one; a guard that fires at the start, or at an end that was
-cut too roughly. All of them end in `take_again` (events/given_up.py), which alone sets the length of a step that is
-repeated; `repeat` gives the zones of the start back before, where the step has changed them.
+cut too roughly. What is repeated ends in `take_again` (events/given_up.py), which alone sets the length of a step that
+is; `repeat` gives the zones of the start back before. Other pivots, a rim, a jump at the start and a slip left there
+end otherwise: the loop asks for them, or the start is settled.
 
     attempt  zones and end of the step together        # the active set, theta_step.py
              if they do not settle: the same without guesses, then half of h; TRY again
@@ -60,9 +61,11 @@ HALVINGS = 3
 gone astray, and pivots good for such a matrix fail for those that are met otherwise. The first guess of the end is off
 by h^2 y''/2, so after three halvings it is 64 times nearer: what still meets such a matrix did not go astray."""
 TRIES = 4
-"""Tries after which a step is no longer cut at the instant that is told for a switch, but halved. The line through two
-middles misses it, and each try leaves of the miss a quarter of the share by which the rate of the load changes on the
-way there. Four tries come within AT_PLACE where that share is below 0.7."""
+"""Tries after which a step is no longer cut at the instant that is told for a switch: one that ends at a jump, in the
+zones of its start, is accepted as it is; others are halved. (What ends at an impulse that is missed counts all that was
+repeated in a row for being too long.) The line through two middles misses the instant, and each try leaves of the miss
+a quarter of the share by which the rate of the load changes on the way there. Four tries come within AT_PLACE where
+that share is below 0.7."""
 AT_PLACE = 1e-3
 """Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
 than of its equations (residual.SOLVED)."""
@@ -99,7 +102,7 @@ def attempt_stepping(m):
 
 @compiled
 def finish_inside(m, h, status):
-    """The rest of a step that has found the zones of its end: repeated with a shorter one, or accepted to its end."""
+    """The rest of a step that looked for the zones of its end, or was not solved: repeated, or accepted to its end."""
     problem, run, point, linear, guards = m.problem, m.run, m.point, m.linear, m.events.guards
     settling, stepping, rule, exchange = m.events.settling, m.stepping, m.stepping.rule, m.stepping.exchange
     if status == JUMPS or (status == DONE and jump_is_due(m, h)):
