@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fairlead.analysis.record.below_weight import BelowWeight
 from fairlead.analysis.record.counts import unreasonable
 from fairlead.analysis.record.creep import WorstCreep
-from fairlead.analysis.record.energy import Ledger, judged, resolved
+from fairlead.analysis.record.energy import Ledger, judged, known_to, resolved
 from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
@@ -241,6 +241,7 @@ def _energy(outcome: Outcome, watch: Watch) -> dict[str, Any]:
     summary = watch.ledger.summary()
     if "throughput" in summary:
         summary["resolved"] = resolved(outcome.problem)
+        summary["known_to"] = known_to(outcome.problem, watch.accuracy)
     return judged(summary, watch.system.undeclared)
 
 

@@ -31,6 +31,8 @@ class _Contact(NamedTuple):
     """Zones in which it holds."""
     left: float
     """Share of friction that is left when it lets go; 1 where it goes over without a jump."""
+    keeps: frozenset[int]
+    """Zones in which it lets go with all its stiction, until it has moved (karnopp)."""
 
 
 @dataclass
@@ -49,7 +51,8 @@ class GaveWay:
         pairs = {pair.path: pair for pair in self.system.numbering.circles}
         found = {
             int(machines[0]): _Contact(pairs[instance.path], _holding(s, pairs[instance.path].unknown),
-                                       least_left(s.shares_left, instance.values))
+                                       least_left(s.shares_left, instance.values),
+                                       frozenset(map(s.zones.index, instance.type.declaration.zones.latched)))
             for block in self.system.blocks if pairs and len((s := block.kernel.structure).zones) > 1
             for instance, machines in zip(block.instances, block.machines, strict=True) if instance.path in pairs
         }  # fmt: skip
@@ -75,7 +78,8 @@ class GaveWay:
 
     def finish(self) -> None:
         """Judge the changes of the last instant: no more of them follow."""
-        let_go = [m for m in sorted(self._let_go) if self._zones[m] not in self._contacts[m].holding]
+        let_go = [m for m in sorted(self._let_go)
+                  if self._zones[m] not in self._contacts[m].holding | self._contacts[m].keeps]  # fmt: skip
         self._let_go = set()
         if not let_go:
             return
