@@ -83,7 +83,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
                       WindUp.of(system, recording.recorded if told else []),
                       RoundedOff.of(system, recording.recorded if told else []),
-                      together, GaveWay(system), progress, interruption, event_rows, settings.accuracy,
+                      together, GaveWay(system, asked.start), progress, interruption, event_rows, settings.accuracy,
                       peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
         for controller in outcome.problem.controllers:

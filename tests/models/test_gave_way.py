@@ -99,3 +99,57 @@ def test_through_a_gear_and_a_third_body_as_well(simulate: Scene) -> None:
     run: {stop: 5 s, accuracy: 1e-5}
     """)
     assert [one["contact"] for one in result.run["gave_way"]["first"]] == ["two"]
+
+
+WEAK = (3.0, 1.0), (2.0, 1.0)
+
+
+def _said(result) -> list[str]:
+    return [said for said in result.run["remarks"] if "side by side" in said]
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+@pytest.mark.parametrize(
+    ("limits", "load"),
+    [(WEAK, 4.0), (WEAK[::-1], 4.0), (((5.0, 2.0), (2.0, 0.5), (1.9, 0.4)), 3 * 1.9)],
+    ids=["two", "the other way round", "three"],
+)
+def test_one_that_takes_the_others_with_it_is_told_as_well(
+    simulate: Scene, engine: str, limits: tuple[tuple[float, float], ...], load: float
+) -> None:
+    """Two carry half each; the weaker is at its 2 N at a load of 4 N, and the other cannot carry the 3 N left."""
+    if len(limits) == 3:
+        limits = ((2.3, 0.2), *limits[1:])  # what the third leaves is above 2.3 and 2 N
+    result = simulate(pads(*limits, engine=engine))
+    (first, *_) = result.run["gave_way"]["first"]
+    assert first["moved"]
+    assert first["t"] == pytest.approx(load / 2, rel=2e-3)
+    (said,) = _said(result)
+    assert "could not carry the rest, and let go with it" in said
+    assert "without moving" not in said
+    assert result["block.v"][-1] > 0.1
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+@pytest.mark.parametrize("limits", [((3.0, 1.0), (3.0, 1.0)), ((3.0, 1.0),), ((3.0, 3.0), (2.0, 2.0))])
+def test_contacts_that_are_alike_or_do_not_fall_are_not(simulate: Scene, engine: str, limits) -> None:
+    assert not _said(simulate(pads(*limits, engine=engine)))
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_karnopp_keeps_its_stiction_and_is_not_told_to_have_lost_it(simulate: Scene, engine: str) -> None:
+    """Both keep their limits until the slip is out of the band: at 4.9 N nothing moves, and at 5 N and more it does."""
+    text = pads(*WEAK, engine=engine) + "    friction: {method: karnopp}\n"
+    result = simulate(text.replace("stop: 6 s", "stop: 2.45 s"))
+    assert result["pad1.friction"][-1] == pytest.approx(2.0)
+    assert abs(result["block.v"][-1]) < 1e-9
+    assert not _said(result)
+    assert not _said(simulate(text))
+
+
+def test_nor_is_a_load_by_signal_that_jumps_above_all_limits(simulate: Scene) -> None:
+    """All of the force is asked for at once."""
+    text = pads(*UNEQUAL).replace("{type: ForceSource, force: {drift: {rate: 2.0 N/s}}}", "{type: ForceActuator}")
+    text = text.replace("      floor:", "      hand: {type: SignalSource, value: {step: {to: 20, at: 1 s}}}\n      floor:")
+    text = text.replace("connections: [", "connections: [[hand.signal, push.force], ")
+    assert not _said(simulate(text))

@@ -3,6 +3,8 @@
 Rigid contacts side by side leave open how they share a load; they share it by least squares, as equally stiff ones do.
 One whose share comes to its stiction first falls to sliding friction without moving, and the others carry the rest.
 Had it held until all had come to theirs, they would carry more. What real contacts do depends on how stiff they are.
+The same holds where the others cannot carry the rest and let go at the same instant, so that the body moves: told is
+then the first, unless the load may have jumped there to what none of them bears.
 """
 
 from __future__ import annotations
@@ -17,10 +19,13 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.record.chattering import MOST_NAMED
 from fairlead.kernels.break_away import least_left
+from fairlead.system.arrays.timing import tables
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.contact_cycles import AGREES, REST, HeldPair
 
 MOST_TOLD = 20
+ROUNDING = 1e-9
+"""Share of the time within which two instants are one."""
 
 
 class _Contact(NamedTuple):
@@ -40,10 +45,18 @@ class GaveWay:
     """Watches the zone changes of a run."""
 
     system: System
+    start: float = 0.0
+    """When the run begins, and samples are first taken [s]."""
     count: int = 0
     first: list[dict[str, Any]] = field(default_factory=list)
     _t: float = -np.inf
     _let_go: set[int] = field(default_factory=set)
+    _sudden: bool = False
+    """Whether a load may have jumped at this instant, or anything else came first."""
+    _first: list[int] = field(default_factory=list)
+    """Contacts that let go at their limits in the first pass of an instant."""
+    _held: frozenset[int] = frozenset()
+    """Those that held after that pass."""
 
     @functools.cached_property
     def _contacts(self) -> dict[int, _Contact]:
@@ -66,15 +79,44 @@ class GaveWay:
         """Take zone changes, dtype EVENT, in the order of time."""
         if not self._contacts or not len(events):
             return
-        for row in events[np.isin(events["machine"], list(self._contacts))]:
+        mine = np.isin(events["machine"], list(self._contacts))
+        near = np.isin(events["t"], events["t"][mine])
+        for row, is_one in zip(events[near], mine[near].tolist(), strict=True):
             t, machine = float(row["t"]), int(row["machine"])
             if t > self._t:
                 self.finish()
-                self._t = t
+                self._t, self._sudden, self._first, self._held = t, self._may_jump(t), [], frozenset()
+            self._note_first(row, mine=is_one)
+            if not is_one:
+                continue
             contact = self._contacts[machine]
             if int(row["before"]) in contact.holding and contact.left < 1.0:
                 self._let_go.add(machine)
             self._zones[machine] = int(row["after"])
+
+    @functools.cached_property
+    def _corners(self) -> NDArray[np.float64]:
+        """Instants at which a piece of what is given in time, with jumps, begins."""
+        found = [table.polynomial.rows[:, 0] for table in tables(self.system.blocks)
+                 if table.timed and not table.polynomial.is_continuous]  # fmt: skip
+        return np.unique(np.concatenate([*found, np.zeros(0)]))
+
+    def _may_jump(self, t: float) -> bool:
+        """Whether a load may jump at an instant: where a piece begins, or a sample is taken."""
+        little, period = ROUNDING * max(1.0, abs(t)), np.unique(self.system.memory["sample_period"])
+        samples = self.start + period * np.round((t - self.start) / np.maximum(period, little))
+        return bool((np.abs(np.concatenate([self._corners, samples]) - t) <= little).any())
+
+    def _note_first(self, row: Any, *, mine: bool) -> None:
+        """Keep who lets go in the first pass of an instant, and who holds then."""
+        machine, guard = int(row["machine"]), int(row["guard"])
+        at_limit = guard >= 0 and self.system.limit_guard[guard] == 1
+        if guard < 0 or (row["position"] == 0 and not (mine and at_limit)):
+            self._sudden = True
+        elif row["position"] == 0:
+            self._first.append(machine)
+        elif self._first and not self._held:
+            self._held = frozenset(m for m, one in self._contacts.items() if self._zones[m] in one.holding)
 
     def finish(self) -> None:
         """Judge the changes of the last instant: no more of them follow."""
@@ -84,16 +126,25 @@ class GaveWay:
         if not let_go:
             return
         held = _Unions(one.pair for m, one in self._contacts.items() if self._zones[m] in one.holding)
+        before = _Unions(self._contacts[m].pair for m in sorted(self._held)) if not self._sudden else None
         for machine in let_go:
-            contact = self._contacts[machine]
-            if held.keep_together(contact.pair):
-                self.count += 1
-                if len(self.first) < MOST_TOLD:
-                    name = self.system.machine_names[machine]
-                    self.first.append({"t": self._t, "contact": name, "left": contact.left})
+            pair = self._contacts[machine].pair
+            if held.keep_together(pair):
+                self._tell(machine, moved=False)
+            elif before is not None and machine in self._first and before.keep_together(pair):
+                self._tell(machine, moved=True)
+
+    def _tell(self, machine: int, *, moved: bool) -> None:
+        self.count += 1
+        if len(self.first) < MOST_TOLD:
+            name, left = self.system.machine_names[machine], self._contacts[machine].left
+            self.first.append({"t": self._t, "contact": name, "left": left, "moved": moved})
 
     def plain(self) -> dict[str, Any]:
-        """For run.json: how often, and the first of them: `t` [s], `contact`, the share of friction `left` to it."""
+        """For run.json: how often, and the first of them.
+
+        Each with `t` [s], `contact`, the share of friction `left` to it, and whether it `moved`.
+        """
         return {"count": self.count, "first": self.first}
 
     def remarks(self) -> list[str]:
@@ -103,12 +154,14 @@ class GaveWay:
         names = list(dict.fromkeys(one["contact"] for one in self.first))
         one = self.first[0]
         more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-        who = f"{', '.join(names[:MOST_NAMED])}{more} came to stiction (first {one['contact']} at t = {one['t']:.6g} s)"
+        when = f"(first {one['contact']} at t = {one['t']:.6g} s)"
+        who = f"{', '.join(names[:MOST_NAMED])}{more} came to stiction {when}"
+        fell = f"and fell to {100 * one['left']:.3g} % of it"
+        then = f"{fell}; they could not carry the rest, and let go with it" if one["moved"] else f"{fell} without moving"
         return [
-            f"{who} while other contacts held both its sides together, and fell to {100 * one['left']:.3g} % of it "
-            "without moving: rigid contacts side by side share a load as equally stiff ones do, and others may let go "
-            "later. If it matters, make them one contact with the sum of their friction, or give each its stiffness "
-            "(method: lugre, or a spring between)."
+            f"{who} while other contacts held both its sides together, {then}: rigid contacts side by side share a "
+            "load as equally stiff ones do, and others may let go later. If it matters, make them one contact with the "
+            "sum of their friction, or give each its stiffness (method: lugre, or a spring between)."
         ]
 
 
@@ -154,4 +207,5 @@ def rows_of_table(found: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     if not found or not found["count"]:
         return []
     one = found["first"][0]
-    return [("gave way in place", f"{one['contact']} at t = {one['t']:.6g} s, {found['count']} in all")]
+    what = "gave way" if one.get("moved") else "gave way in place"
+    return [(what, f"{one['contact']} at t = {one['t']:.6g} s, {found['count']} in all")]
