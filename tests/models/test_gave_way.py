@@ -150,6 +150,7 @@ def test_karnopp_keeps_its_stiction_and_is_not_told_to_have_lost_it(simulate: Sc
 def test_nor_is_a_load_by_signal_that_jumps_above_all_limits(simulate: Scene) -> None:
     """All of the force is asked for at once."""
     text = pads(*UNEQUAL).replace("{type: ForceSource, force: {drift: {rate: 2.0 N/s}}}", "{type: ForceActuator}")
-    text = text.replace("      floor:", "      hand: {type: SignalSource, value: {step: {to: 20, at: 1 s}}}\n      floor:")
+    hand = "      hand: {type: SignalSource, value: {step: {to: 20, at: 1 s}}}"
+    text = text.replace("      floor:", f"{hand}\n      floor:")
     text = text.replace("connections: [", "connections: [[hand.signal, push.force], ")
     assert not _said(simulate(text))

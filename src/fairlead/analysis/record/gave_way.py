@@ -157,7 +157,9 @@ class GaveWay:
         when = f"(first {one['contact']} at t = {one['t']:.6g} s)"
         who = f"{', '.join(names[:MOST_NAMED])}{more} came to stiction {when}"
         fell = f"and fell to {100 * one['left']:.3g} % of it"
-        then = f"{fell}; they could not carry the rest, and let go with it" if one["moved"] else f"{fell} without moving"
+        then = f"{fell} without moving"
+        if one["moved"]:
+            then = f"{fell}; they could not carry the rest, and let go with it"
         return [
             f"{who} while other contacts held both its sides together, {then}: rigid contacts side by side share a "
             "load as equally stiff ones do, and others may let go later. If it matters, make them one contact with the "
