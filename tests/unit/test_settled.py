@@ -112,3 +112,12 @@ def test_figures_of_a_verdict_have_three_digits(value, text):
 
 def test_an_instant_of_a_long_run_keeps_its_seconds():
     assert [moment(t) for t in (7.6584, 19.2416, 1234.5, 0.0)] == ["7.66", "19.2", "1234", "0"]
+
+
+def test_the_box_of_trust_stays_folded_where_the_verdict_says_what_is_wrong(scene, tmp_path):
+    spells = [(k, 4.0, 5.0) for k in range(28)]
+    said = told(written(scene(ARRAY), tmp_path / "run", drifts=40.0, rucks=spells))
+    assert [(said[about].mood, said[about].opens) for about in ("Not settled", "Hose against statics")] == [
+        ("fair", False), ("fair", False),
+    ]  # fmt: skip
+    assert told(written(scene(ARRAY), tmp_path / "sound", drifts=40.0))["Hose against statics"].opens

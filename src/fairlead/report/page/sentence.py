@@ -19,6 +19,13 @@ class Sentence(NamedTuple):
     """What stands for it where it is folded away, if that is not `about`."""
     worth: bool = False
     """True for what tells how far the numbers can be trusted; it is folded away where nothing is wrong."""
+    above: bool = False
+    """True where the verdict on a line says the same, so that nothing has to be folded open for it."""
+
+    @property
+    def opens(self) -> bool:
+        """True for what a reader must not overlook, and finds nowhere else."""
+        return self.mood in ("bad", "fair") and not self.above
 
 
 def ended(text: str) -> str:

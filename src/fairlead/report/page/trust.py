@@ -55,7 +55,7 @@ def _settled(run: dict[str, Any]) -> Iterator[Sentence]:
         told = any(one["line"] == found["line"] for one in run.get("ruck") or ())  # with the verdict on that line
         said = (f"The {found['layer']} still changes at constant speed, by {100 * found['change']:.2g} % from one half "
                 "of the time to the other. The verdict has the figures.")  # fmt: skip
-        yield Sentence("Not settled", "fair", said if told else of_drift(found), brief="not settled")
+        yield Sentence("Not settled", "fair", said if told else of_drift(found), brief="not settled", above=told)
         return
     yield Sentence("Settled", "good",
                    f"At constant speed, {moment(found['from'])} to {moment(found['to'])} s, the extremes of the "
@@ -78,10 +78,11 @@ def _hose(run: dict[str, Any]) -> Iterator[Sentence]:
     side = "too high, which is the unsafe side: take the margin from the run" if unsafe else "too high"
     if off <= 0:
         side = "too low, which is the safe side"
+    above = any(line["rucks"] for line in run.get("ruck") or ())
     yield Sentence("Hose against statics", "fair" if decides else "good" if close else "plain",
                    f"The lowest tension of the hose alone is {number(one['run'])} N. Statics estimates "
                    f"{number(one['statics'])} N, {number(abs(off))} N {side}.",
-                   brief=f"hose alone {'as in' if close else 'not as in'} statics")  # fmt: skip
+                   brief=f"hose alone {'as in' if close else 'not as in'} statics", above=above)  # fmt: skip
 
 
 def _energy(run: dict[str, Any]) -> Iterator[Sentence]:
