@@ -202,7 +202,8 @@ def search_line(problem, point, linear, stepping, h, before):
         return
     rule.searched = SEARCHED
     rule.linearised = 0
-    stepping.exchange.newly_held = 1  # what is taken back of a move leaves slip in rows that were caught
+    if problem.call_drift != 0:
+        stepping.exchange.newly_held = 1  # what is taken back of a move leaves slip in rows that were caught
     y_end, move = reals(point.at_y_end, point.n), reals(rule.at_move, point.n)
     differential = indices(point.at_differential, point.n)
     ahead = 1.0 / rule.theta_now
