@@ -40,7 +40,7 @@ class Contact(Family, Component, abstract=True):
                         default=None, least=0)  # fmt: skip
     lift = Parameter(
         "N", "Normal force below which the contact is open; when not given 1 uN, or a thousandth of a normal_force "
-        "that is below 1 mN.", default=None, above=0,
+        "that is below 1 mN.", default=LIFT, above=0,
     )  # fmt: skip
     load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
     temperature_dependence = Effect("The curve's softening and shift; off: friction does not depend on temperature.")
@@ -97,7 +97,7 @@ class Contact(Family, Component, abstract=True):
 def with_lift(given):
     """What a contact is given, with its `lift`: a constant force that presses is never meant as none."""
     own = small_lift(given["normal_force"] or LIFT / SHARE)
-    return {**given, "lift": given["lift"] or own.get("lift", LIFT)}
+    return {**given, **own} if given["lift"] == LIFT else given
 
 
 def small_lift(normal):

@@ -40,7 +40,7 @@ class PlanarContact(Component):
     creep = Parameter("m/s", "Speed over which the sign changes.", default=1e-4, above=0)
     lift = Parameter(
         "N", "Normal force below which the contact is open; when not given 1 uN, or a thousandth of a normal_force "
-        "that is below 1 mN.", default=None, above=0,
+        "that is below 1 mN.", default=1e-6, above=0,
     )  # fmt: skip
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
     normal = Input("N", "Normal force.", default="normal_force")
