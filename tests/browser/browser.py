@@ -72,6 +72,7 @@ def show(
     """Open a page from disk in a window of so many px, and wait until it is ready."""
     from selenium.webdriver.support.ui import WebDriverWait
 
+    driver.get("about:blank")  # a page that is still there loads again when its colours change, which may win the race
     size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
     wishes = {"prefers-color-scheme": "dark" if dark else "light", "prefers-reduced-motion": "reduce"}
