@@ -2,7 +2,6 @@
 
 from fairlead.component import Component, Law, Output, Parameter, Translational, Unknown, Zones, guard, hold, zone
 
-SECOND = 1.0  # s; makes a speed a way: its sign is what counts
 APART = 1e-6  # m; beyond what a run leaves between bodies that touch
 
 
@@ -44,8 +43,8 @@ class RigidStop(Component):
 
     @guard("free", to="touching", unit="m")
     def meets(p, a, b):
-        """The gap is closed, and they come nearer: what has just parted may overlap by the error of a run."""
-        return a.x + p.length - b.x, (a.v - b.v) * SECOND
+        """The gap is closed."""
+        return a.x + p.length - b.x
 
     @guard("touching", to="free", unit="m")
     def apart_again(p, a, b):

@@ -164,7 +164,8 @@ def test_a_value_that_cannot_be_set_is_an_error_that_says_why(scene, tmp_path, c
 def test_a_speed_at_the_start_is_set_before_it_only():
     """It is the size of its own error as well, which is that of the start."""
     needs_compiler()
-    asked = asked_of(fairlead.load("belt"), [], ["block.x"], ["block.velocity", "block.mass"], {"engine": "rodas"})
+    asked = asked_of(fairlead.load("belt"), [], ["block.x"], ["block.velocity", "block.mass"], {"engine": "rodas"},
+                     "export")
     assert [one.when for one in made_of(asked).tuned] == [BEFORE, ALWAYS]
 
 
