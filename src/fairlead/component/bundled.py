@@ -28,7 +28,7 @@ PACKAGE = "fairlead.components"
 CLASS = re.compile(r"^class (\w+)(?:\(([^)]*)\))?:", re.MULTILINE)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Written:
     """What the texts of all modules say: in which a class stands, and what each class is made of, by simple names."""
 
@@ -139,8 +139,14 @@ def _missing(known: Written) -> list[str]:
     for kind in kinds:
         heads |= {kind.__name__} if _is_head(kind) else set()
         kinds += kind.__subclasses__()
+    return [module for module in _modules_below(known, frozenset(heads)) if module not in _imported]
+
+
+@functools.lru_cache(maxsize=8)  # asked for every name of a netlist, and heads are few and stay
+def _modules_below(known: Written, heads: frozenset[str]) -> list[str]:
+    """Modules with classes that build on these, in the order in which all are imported."""
     of_families = {module for name in known.below(heads) for module in known.where.get(name, ())}
-    return [module for module in known.modules if module in of_families - _imported]
+    return [module for module in known.modules if module in of_families]
 
 
 @functools.cache
