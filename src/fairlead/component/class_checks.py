@@ -43,7 +43,7 @@ def source_place(thing: Any) -> str:
     """file:line of a class or function, or its name when there is no source."""
     try:
         thing = inspect.unwrap(thing)
-        return f"{inspect.getsourcefile(thing)}:{inspect.getsourcelines(thing)[1]}"
+        return f"{inspect.getsourcefile(thing)}:{inspect.findsource(thing)[1] + 1}"  # where its lines end takes long
     except (OSError, TypeError):
         return str(getattr(thing, "__qualname__", thing))
 

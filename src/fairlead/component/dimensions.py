@@ -10,6 +10,7 @@ The line is found by running the law once more: it is the first one after which 
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Callable, Iterator, Mapping, Set
 from dataclasses import dataclass
@@ -173,6 +174,7 @@ def _alike(terms: tuple[sympy.Expr, ...], dimensions: list[Dimension | None]) ->
     return known[0][1] if known else PLAIN if PLAIN in dimensions and None not in dimensions else None
 
 
+@functools.lru_cache(maxsize=1000)  # to find the ratio of a decimal takes long, and laws have the same few
 def _is_plain(value: sympy.Expr) -> bool:
     if value.is_NumberSymbol:
         return True

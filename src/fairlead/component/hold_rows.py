@@ -14,7 +14,7 @@ that of the row is what the others leave, or is far beyond what a contact bears,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import sympy
@@ -155,8 +155,8 @@ def put_on_ports(flows: dict[str, sympy.Expr], row: HoldRow, unknown: str, place
         flows[port] = flows.get(port, sympy.S.Zero) - force * ratio
 
 
-def check_everywhere(zones: Iterable[tuple[str, Mapping[str, HoldRow]]], place: str) -> None:
-    """Refuse a relation of positions that is not in force in every zone. Raises TraceError."""
+def check_everywhere(zones: Iterable[tuple[str, Mapping[str, HoldRow]]], place: Callable[[], str]) -> None:
+    """Refuse a relation of positions that is not in force in every zone; `place` says where. Raises TraceError."""
     by_zone = {zone: {u: row.gap for u, row in holds.items() if row.gap is not None} for zone, holds in zones}
     first = next(iter(by_zone.values()), {})
     for zone, gaps in by_zone.items():
@@ -165,4 +165,4 @@ def check_everywhere(zones: Iterable[tuple[str, Mapping[str, HoldRow]]], place: 
                 what = f"hold_position of {unknown} is not the same in zone {zone!r} as in {next(iter(by_zone))!r}"
                 why = "What holds a relation of positions holds it always"
                 way_out = "Write what meets and parts as a spring and a damper of its own (a Tether, an EndStop)"
-                raise TraceError(f"{place}: {what}. {why}. {way_out}, or with hold(slip) where the ratio is fixed.")
+                raise TraceError(f"{place()}: {what}. {why}. {way_out}, or with hold(slip) where the ratio is fixed.")

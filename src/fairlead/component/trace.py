@@ -88,7 +88,7 @@ def trace(variant: Variant) -> Traced:
     """Run every law and guard of a class variant with symbols. Raises TraceError."""
     has = variant.type.declaration
     zones = {name: _trace_zone(variant, has, name) for name in has.zones}
-    check_everywhere(((name, zone.holds) for name, zone in zones.items()), source_place(variant.type))
+    check_everywhere(((name, zone.holds) for name, zone in zones.items()), lambda: source_place(variant.type))
     tables = list(dict.fromkeys(path for zone in zones.values() for path in zone.tables))
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():
