@@ -8,6 +8,7 @@ one says so, with the reason, for all of it or for one zone or option:
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from types import SimpleNamespace
@@ -20,7 +21,7 @@ from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import OWN, PORT, key
 from fairlead.component.terms import terms_of
-from fairlead.component.values import parameter
+from fairlead.component.values import Variant, parameter
 from fairlead.kernels import layout
 from fairlead.testing.rig import Rig
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
@@ -162,11 +163,17 @@ def _cause(world: World, at: Instant, rates: Mapping[str, float], told: float, s
     return ""
 
 
-def _ledger_lines(world: World) -> Iterator[bool]:
-    """Whether the laws of a class give a line of the ledger, zone by zone."""
+@functools.lru_cache(maxsize=4)  # a property asks several instances of one variant
+def _traced(variant: Variant) -> Mapping[str, Any]:
+    """The traced zones of a variant."""
     from fairlead.component.trace import trace
 
-    return (any(zone.ledger.values()) for zone in trace(world.rig.variant).zones.values())
+    return trace(variant).zones
+
+
+def _ledger_lines(world: World) -> Iterator[bool]:
+    """Whether the laws of a class give a line of the ledger, zone by zone."""
+    return (any(zone.ledger.values()) for zone in _traced(world.rig.variant).values())
 
 
 def settles(make: Maker, rng: np.random.Generator) -> None:
@@ -196,10 +203,8 @@ def zones_reached(make: Maker, rng: np.random.Generator) -> None:
 
 def outputs_given(make: Maker, rng: np.random.Generator) -> None:
     """Every declared output is given in some zone."""
-    from fairlead.component.trace import trace
-
     world = make()
-    zones = trace(world.rig.variant).zones.values()
+    zones = _traced(world.rig.variant).values()
     for name in world.kind.declaration.outputs:
         if not any(name in zone.outputs for zone in zones):
             raise ContractError(f"{world.rig.variant.label}: output {name} is declared and given by no law")
@@ -208,10 +213,9 @@ def outputs_given(make: Maker, rng: np.random.Generator) -> None:
 def units(make: Maker, rng: np.random.Generator) -> None:
     """Terms of a sum are of one unit, and what a law gives is of the unit that is declared."""
     from fairlead.component.dimensions import misfits
-    from fairlead.component.trace import trace
 
     world = make()
-    for wrong in misfits(world.rig.variant, trace(world.rig.variant).zones):
+    for wrong in misfits(world.rig.variant, _traced(world.rig.variant)):
         raise ContractError(f"{world.rig.variant.label} in zone {wrong.zone}: {wrong.what}")
 
 

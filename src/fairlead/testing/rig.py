@@ -6,6 +6,7 @@ The same question can be put to the machine code and to the Python text it was m
 from __future__ import annotations
 
 import ctypes
+import functools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -78,16 +79,26 @@ class Rig:
         return np.array(out)[:size]
 
     def _machine(self, mode: int, inputs: Any, zones: Any, size: int) -> Any:
-        call = ctypes.CFUNCTYPE(None, WHOLE, POINTER, WHOLE, WHOLE, POINTER, POINTER, POINTER, POINTER)(
-            kernel(self.variant).address
-        )
-        block = np.zeros(layout.BLOCK, dtype=np.int64)
-        block[: len(self._arrays)] = [array.ctypes.data for array in self._arrays]
         z = np.concatenate([np.ravel(np.array(inputs, dtype=float)), [0.0]])
         piece = np.concatenate([np.ravel(np.array(zones, dtype=np.int64)), [0]]).astype(np.int64)
         out = np.zeros(size)
-        call(mode, block.ctypes.data, 0, self.count, *(a.ctypes.data for a in (z, piece, self.tables, out)))
+        block = self._addresses.ctypes.data
+        self._code(mode, block, 0, self.count, *(a.ctypes.data for a in (z, piece, self.tables, out)))
         return out
+
+    @functools.cached_property
+    def _code(self) -> Any:
+        """The machine code, to be called."""
+        return ctypes.CFUNCTYPE(None, WHOLE, POINTER, WHOLE, WHOLE, POINTER, POINTER, POINTER, POINTER)(
+            kernel(self.variant).address
+        )
+
+    @functools.cached_property
+    def _addresses(self) -> Any:
+        """Where the arrays of the block lie."""
+        block = np.zeros(layout.BLOCK, dtype=np.int64)
+        block[: len(self._arrays)] = [array.ctypes.data for array in self._arrays]
+        return block
 
     def _shape(self, mode: int) -> tuple[int, int]:
         columns = widths(self.structure)[mode]
