@@ -15,7 +15,7 @@ from fairlead.component.base import Composite
 from fairlead.component.bundled import bundled
 from fairlead.component.scene import Scene, is_head
 from fairlead.component.values import variant_of
-from fairlead.kernels.kernel import kernel
+from fairlead.kernels.kernel import plain
 from fairlead.testing.samples import sample
 
 ON_A_ROUTE = {
@@ -58,7 +58,7 @@ def content(kind, effect, word, optional):
     """What an instance with the effect on or off has: (path, class) -> its unknowns, zones, guards and terms."""
     found = {}
     for path, leaf in leaves(sample(kind, np.random.default_rng(0), {effect: word}, optional)):
-        one = kernel(variant_of(leaf)).structure
+        _, one = plain(variant_of(leaf))
         flows = {f"{to}({key})" for zone in one.flow_inputs.values() for to, keys in zone.items() for key in keys}
         guards = {f"{zone}/{guard['name']}" for zone, named in one.guards.items() for guard in named}
         found[path, leaf.type] = {*one.parameters, *one.inputs, *one.targets, *one.zones, *guards, *flows}
