@@ -35,6 +35,11 @@ hypothesis.settings.load_profile("same")
 """The same examples everywhere, however slow the machine; others by hand: pytest --hypothesis-profile=default."""
 
 
+YOUNG = 1_000_000
+"""Objects that are made before Python looks for circles among them. What tests trace and compile is large and goes by
+itself; by default Python would look through all of it every 700 objects, a sixth of the time of the contract suite."""
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_collection(session: pytest.Session) -> Generator[None, object, object]:
     """Do not look for garbage among what collecting makes, twelve thousand tests and their modules: it stays."""
@@ -43,6 +48,7 @@ def pytest_collection(session: pytest.Session) -> Generator[None, object, object
         return (yield)
     finally:
         gc.freeze()  # nor later: each look would take half a second
+        gc.set_threshold(YOUNG, 50, 1000)
         gc.enable()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import os
 import signal
@@ -75,12 +76,14 @@ def typed(make: Typed) -> Answer:
 
 def in_this_process(command: tuple[str, ...]) -> tuple[Any, str]:
     """Return exit code and print of a command."""
-    out = io.StringIO()
+    out, young = io.StringIO(), gc.get_threshold()
     with captured(out), arguments(command):
         try:
             code = main()
         except SystemExit as end:
             code = end.code
+        finally:
+            gc.set_threshold(*young)  # a command has the process for itself
     return code, out.getvalue()
 
 

@@ -342,6 +342,7 @@ def test_ctrl_c_while_the_program_loads_ends_like_one_later(monkeypatch, capsys)
 
     from fairlead.__main__ import main
 
+    monkeypatch.setattr("gc.set_threshold", lambda *_: None)  # a command has the process for itself
     monkeypatch.delitem(sys.modules, "fairlead.cli")
     monkeypatch.setattr(sys, "meta_path", [Impatient("fairlead.cli"), *sys.meta_path])
     with pytest.raises(SystemExit) as caught:
