@@ -55,7 +55,7 @@ def _build(variant: Variant, rated: int = 0) -> Build:
     return Build(asdict(structure), {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
 
 
-@functools.lru_cache(maxsize=8)  # the machine code and the Python function of a class are asked for together
+@functools.lru_cache(maxsize=256)  # both the machine code and the Python function of a class are made of it
 def write_source(variant: Variant, rated: int) -> tuple[str, Structure]:
     """Python text of the kernel, in the subset that `lowering.py` understands, and its structure."""
     from fairlead.component.trace import trace
