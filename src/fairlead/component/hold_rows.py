@@ -20,10 +20,9 @@ from dataclasses import dataclass, field
 import sympy
 
 from fairlead.component.declare import Port
-from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TABLE, TIME, Key, key
+from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, TABLE, TAU, TIME, Key, key
 from fairlead.component.symbols import TraceError, inverse_mass, symbol
 
-TAU = "@tau"  # time constant of a hold row, a setting of the run
 GIVE = 1e-10
 """Share of the acceleration by which a position row gives way: far above rounding, far below any accuracy."""
 

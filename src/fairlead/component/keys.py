@@ -19,6 +19,8 @@ import functools
 from typing import NamedTuple
 
 PORT, OWN, INPUT, PARAMETER, TABLE, TIME, RATE = "port", "own", "in", "p", "T", "t", "rate"
+TAU = "@tau"
+"""A kernel reads it as a parameter that no component gives: the time constant of hold rows, a setting of the run."""
 
 
 def rate_of(output: str) -> str:

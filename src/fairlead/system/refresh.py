@@ -24,7 +24,16 @@ from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.flatten.same_wiring import on_groups, unlike
 from fairlead.kernels import layout
-from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory, Tables, parameter_of, place_of_input
+from fairlead.system.arrays.blocks import (
+    Block,
+    Floats,
+    Integers,
+    Memory,
+    Tables,
+    of_motion,
+    parameter_of,
+    place_of_input,
+)
 from fairlead.system.arrays.shares import rows, shares
 from fairlead.system.arrays.switching import kinks, machine_owners, machine_zones
 from fairlead.system.arrays.timing import first_pieces, samplers, time_places
@@ -155,8 +164,8 @@ def _parameters(
     """Rows of components with other values, made once for all that share theirs; inverse masses beside."""
     s, made = old.kernel.structure, old.parameters.copy()
     names = s.parameters
-    of_motion = [j for j, name in enumerate(names) if name == "@tau" or name in s.inverse_masses]
-    own = [j for j in range(len(names)) if j not in of_motion]
+    moving = [j for j, name in enumerate(names) if of_motion(s, name)]
+    own = [j for j in range(len(names)) if j not in moving]
     known: dict[int, list[float]] = {}
     for i in fresh:
         values = instances[i].values
@@ -164,7 +173,7 @@ def _parameters(
             known[id(values)] = [parameter_of(flat, instances[i], s, names[j], HOLD_TIME) for j in own]
         made[i, own] = known[id(values)]
     for i in heavier:
-        made[i, of_motion] = [parameter_of(flat, instances[i], s, names[j], HOLD_TIME) for j in of_motion]
+        made[i, moving] = [parameter_of(flat, instances[i], s, names[j], HOLD_TIME) for j in moving]
     return made
 
 

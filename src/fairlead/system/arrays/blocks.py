@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.instantiate import Instance, PortRef
-from fairlead.component.keys import INPUT, OWN, RATE, TIME, key, rate_of
+from fairlead.component.keys import INPUT, OWN, PORT, RATE, TAU, TIME, key, rate_of
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
 from fairlead.component.values import input_given, parameter, polynomial
 from fairlead.flatten.flat_model import FlatModel
@@ -21,6 +21,7 @@ from fairlead.system.numbering.unknowns import LEDGER, Numbering
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Memory = dict[str, NDArray[Any]]  # arrays that compiled code reads and writes, by the names of `layout.py`
+T = TypeVar("T")
 MASSLESS = 1e12  # inverse mass of a node without mass: light beside everything else
 
 
@@ -91,36 +92,102 @@ def build_blocks(
 def _block(flat: FlatModel, kernel: Kernel, instances: list[Instance], numbering: Numbering, ranks: dict[str, int],
            tables: Tables, machines: list[tuple[str, int]], tau: float) -> Block:  # fmt: skip
     s = kernel.structure
-    inputs = [[place_of_input(flat, numbering, instance, one) for one in s.inputs] for instance in instances]
-    flows = [[_target(flat, numbering, instance, target, tau) for target in s.targets] for instance in instances]
+    ports = _Ports(flat, instances)
+    in_index, in_coef, in_offset = _inputs(flat, numbering, ports, s.inputs)
+    flow_index, flow_coef = _flows(flat, numbering, ports, s.targets, tau)
     slots = []
     for instance in instances:
         slots.append([len(machines) + k for k in range(s.machines)])
         machines += [(instance.path, k) for k in range(s.machines)]
-    signals = [[_signal(numbering, PortRef(i.path, name)) for name in s.outputs] for i in instances]
     return Block(
         kernel, instances, [ranks.get(i.path, 0) for i in instances],
-        _floats([[parameter_of(flat, i, s, name, tau) for name in s.parameters] for i in instances]),
-        _integers([[z for z, _, _ in row] for row in inputs]), _floats([[c for _, c, _ in row] for row in inputs]),
-        _floats([[o for _, _, o in row] for row in inputs]), _integers(slots),
-        _integers([[tables.place(polynomial(i.values.path(name))) for name in s.tables] for i in instances]),
-        _integers(signals),
-        _integers([[w for w, _ in row] for row in flows]), _floats([[c for _, c in row] for row in flows]),
+        _parameters(ports, s, tau), in_index, in_coef, in_offset, _integers(slots),
+        _table_base(tables, instances, s.tables), _signals(numbering, instances, s.outputs), flow_index, flow_coef,
         np.array([numbering.ledger.get(line, numbering.w_dump) for line in LEDGER], dtype=np.int64),
     )  # fmt: skip
 
 
-def _floats(rows: Iterable[Iterable[float]]) -> Floats:
-    return np.array(list(rows), dtype=np.float64)
+class _Ports:
+    """Group, ratio and offset of the ports of some instances, looked up once: a law reads several motions of a port."""
+
+    def __init__(self, flat: FlatModel, instances: list[Instance]) -> None:
+        self.flat, self.instances = flat, instances
+        self._known: dict[str, list[tuple[int, float, float]]] = {}
+
+    def places(self, port: str) -> list[tuple[int, float, float]]:
+        """Of a port, in the order of the instances."""
+        if port not in self._known:
+            self._known[port] = [self.flat.place(PortRef(instance.path, port)) for instance in self.instances]
+        return self._known[port]
+
+
+def _inputs(
+    flat: FlatModel, numbering: Numbering, ports: _Ports, inputs: Sequence[str]
+) -> tuple[Integers, Floats, Floats]:
+    """[instances, inputs]: where each lies in z, its coefficient and its offset."""
+    shape = len(ports.instances), len(inputs)
+    index, coef, offset = np.empty(shape, dtype=np.int64), np.empty(shape), np.empty(shape)
+    for j, text in enumerate(inputs):
+        one = key(text)
+        if one.kind == PORT:
+            found = [place_of_motion(flat, numbering, *at, one.part) for at in ports.places(one.name)]
+        else:
+            found = [place_of_input(flat, numbering, instance, text) for instance in ports.instances]
+        index[:, j], coef[:, j], offset[:, j] = zip(*found, strict=True)
+    return index, coef, offset
+
+
+def _flows(
+    flat: FlatModel, numbering: Numbering, ports: _Ports, targets: Sequence[str], tau: float
+) -> tuple[Integers, Floats]:
+    """[instances, targets]: row of w and coefficient of each flow, rate or balance."""
+    shape = len(ports.instances), len(targets)
+    index, coef = np.empty(shape, dtype=np.int64), np.empty(shape)
+    for j, target in enumerate(targets):
+        kind, name, _ = key(target)
+        if kind == OWN:
+            found = [(numbering.own[instance.path, name], 1.0) for instance in ports.instances]
+        else:
+            found = [_row_of_flow(flat, numbering, kind, group, ratio, tau) for group, ratio, _ in ports.places(name)]
+        index[:, j], coef[:, j] = zip(*found, strict=True)
+    return index, coef
+
+
+def _signals(numbering: Numbering, instances: list[Instance], outputs: Sequence[str]) -> Integers:
+    """[instances, outputs]: where each goes in z."""
+    n, dump, signals = numbering.n, numbering.dump, numbering.signals
+    rows = [[signals.get(PortRef(instance.path, name)) for name in outputs] for instance in instances]
+    return _integers([[dump if place is None else n + place for place in row] for row in rows])
+
+
+def _table_base(tables: Tables, instances: list[Instance], names: Sequence[str]) -> Integers:
+    """[instances, tables]: where each starts."""
+    return _integers(_of_values(instances, lambda i: [tables.place(polynomial(i.values.path(name))) for name in names]))
+
+
+def _parameters(ports: _Ports, s: Structure, tau: float) -> Floats:
+    """[instances, parameters] of a kernel."""
+    own = [name for name in s.parameters if not of_motion(s, name)]
+    found = np.empty((len(ports.instances), len(s.parameters)))
+    of_own = [not of_motion(s, name) for name in s.parameters]
+    found[:, of_own] = _of_values(ports.instances, lambda i: [parameter(i.values, name) for name in own])
+    for j, name in enumerate(s.parameters):
+        if name in s.inverse_masses:
+            places = ports.places(s.inverse_masses[name])
+            found[:, j] = [_inverse_mass(ports.flat, group, ratio) for group, ratio, _ in places]
+        elif name == TAU:
+            found[:, j] = tau
+    return found
+
+
+def _of_values(instances: Iterable[Instance], row: Callable[[Instance], list[T]]) -> list[list[T]]:
+    """A row of each instance, which depends on its values only; made once for all that share them, as in a line."""
+    known: dict[int, list[T]] = {}
+    return [known.get(id(i.values)) or known.setdefault(id(i.values), row(i)) for i in instances]
 
 
 def _integers(rows: Iterable[Iterable[int]]) -> Integers:
     return np.array(list(rows), dtype=np.int64)
-
-
-def _signal(numbering: Numbering, output: PortRef) -> int:
-    place = numbering.signals.get(output)
-    return numbering.dump if place is None else numbering.n + place
 
 
 def place_of_input(flat: FlatModel, numbering: Numbering, instance: Instance, text: str) -> tuple[int, float, float]:
@@ -136,7 +203,7 @@ def place_of_input(flat: FlatModel, numbering: Numbering, instance: Instance, te
         return (numbering.zero, 0.0, 0.0) if at is None else (numbering.n + at, 1.0, 0.0)
     if one.kind == INPUT:
         return _signal_input(flat, numbering, instance, one.name)
-    return _port_input(flat, numbering, PortRef(instance.path, one.name), one.part)
+    return place_of_motion(flat, numbering, *flat.place(PortRef(instance.path, one.name)), one.part)
 
 
 def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, name: str) -> tuple[int, float, float]:
@@ -148,15 +215,13 @@ def _signal_input(flat: FlatModel, numbering: Numbering, instance: Instance, nam
     return numbering.zero, 0.0, outer if outer is not None else own if own is not None else 0.0
 
 
-def _port_input(flat: FlatModel, numbering: Numbering, port: PortRef, variable: str) -> tuple[int, float, float]:
-    """Position or potential (x), rate (v), acceleration (a), prescribed (A), as an unknown (U), reaction (R)."""
-    return place_of_motion(flat, numbering, *flat.place(port), variable)
-
-
 def place_of_motion(
     flat: FlatModel, numbering: Numbering, index: int, ratio: float, offset: float, variable: str
 ) -> tuple[int, float, float]:
-    """Where in z the motion stands of what moves with ratio * group + offset: place, coefficient, offset."""
+    """Where in z the motion stands of what moves with ratio * group + offset: place, coefficient, offset.
+
+    Position or potential (x), rate (v), acceleration (a), prescribed (A), as an unknown (U), reaction (R).
+    """
     group = flat.groups[index]
     rate = numbering.rate.get(index)
     if group.free and variable == "U":
@@ -180,14 +245,10 @@ def place_of_motion(
     return signal, scale, offset - scale * own_offset if variable == "x" else 0.0
 
 
-def _target(
-    flat: FlatModel, numbering: Numbering, instance: Instance, target: str, tau: float
+def _row_of_flow(
+    flat: FlatModel, numbering: Numbering, kind: str, index: int, ratio: float, tau: float
 ) -> tuple[int, float]:
-    """Row of w and coefficient of a flow, rate or balance. A balance is written  M v' = -sum of flows."""
-    kind, name, _ = key(target)
-    if kind == OWN:
-        return numbering.own[instance.path, name], 1.0
-    index, ratio, _ = flat.place(PortRef(instance.path, name))
+    """Row of w and coefficient of what goes into a group, or of its rate. A balance is  M v' = -sum of flows."""
     if kind == RATE:
         at = numbering.rated.get(index)
         return (numbering.w_dump, 0.0) if at is None else (numbering.n + len(numbering.reactions) + at, -ratio * tau)
@@ -196,14 +257,24 @@ def _target(
     return numbering.n + numbering.reactions[index], ratio
 
 
+def of_motion(s: Structure, name: str) -> bool:
+    """True for what a kernel reads under the name of a parameter and no component gives."""
+    return name == TAU or name in s.inverse_masses
+
+
 def parameter_of(flat: FlatModel, instance: Instance, s: Structure, name: str, tau: float) -> float:
     """What a kernel reads under a name: of the component, of the body at one of its ports, or `tau` [s] for @tau."""
-    if name == "@tau":
+    if name == TAU:
         return tau
     if name in s.inverse_masses:
         index, ratio, _ = flat.place(PortRef(instance.path, s.inverse_masses[name]))
-        group = flat.groups[index]
-        if not group.free:
-            return 0.0
-        return ratio**2 / group.mass if group.mass > 0 else MASSLESS
+        return _inverse_mass(flat, index, ratio)
     return parameter(instance.values, name)
+
+
+def _inverse_mass(flat: FlatModel, index: int, ratio: float) -> float:
+    """What a force at a port moves there: of a group, at a port that moves `ratio` times as far."""
+    group = flat.groups[index]
+    if not group.free:
+        return 0.0
+    return ratio**2 / group.mass if group.mass > 0 else MASSLESS

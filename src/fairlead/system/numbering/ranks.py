@@ -29,7 +29,7 @@ def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
 def followed(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, dict[str, dict[PortRef, None]]]:
     """For every instance that gives a signal those whose signals its own decide at once, and by which outputs."""
     followers: dict[str, dict[str, dict[PortRef, None]]] = {}
-    deciding: dict[tuple[int, str], list[str]] = {}
+    deciding: dict[tuple[int, str], list[tuple[str, str]]] = {}
     for output in _needed(flat):
         followers.setdefault(output.instance, {})
         s = kernels[output.instance].structure
@@ -59,33 +59,33 @@ def _needed(flat: FlatModel) -> dict[PortRef, None]:
 def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: Iterable[PortRef]) -> None:
     """Some outputs can be recorded but not fed to a law: they come too late, or their derivative jumps."""
     faults = []
-    for output in sorted(needed, key=str):
-        why = kernels[output.instance].structure.unfit.get(output.port)
-        if why:
-            readers = [str(target) for target, source in flat.sources.items() if source == output]
-            way_out = "Record it, or feed a component whose own state follows what you want to know."
-            what = f"{output} cannot feed {', '.join(readers) or 'a prescribed motion'}: {why}."
-            faults.append(Fault(flat.assembly.instances[output.instance].where, what, way_out))
+    unfit = {one: why for one in needed if (why := kernels[one.instance].structure.unfit.get(one.port))}
+    for output, why in sorted(unfit.items(), key=lambda item: str(item[0])):
+        readers = [str(target) for target, source in flat.sources.items() if source == output]
+        way_out = "Record it, or feed a component whose own state follows what you want to know."
+        what = f"{output} cannot feed {', '.join(readers) or 'a prescribed motion'}: {why}."
+        faults.append(Fault(flat.assembly.instances[output.instance].where, what, way_out))
     if faults:
         raise ModelError(faults)
 
 
-def _deciding(structure: Structure, output: str) -> list[str]:
-    """Keys of the inputs whose values decide an output."""
+def _deciding(structure: Structure, output: str) -> list[tuple[str, str]]:
+    """Kind and name of the inputs and ports whose values decide an output; a port once, whatever is read there."""
     wanted = structure.outputs.index(output)
-    return [structure.inputs[j] for k, j in structure.d_signals if k == wanted]
+    keys = [key(structure.inputs[j]) for k, j in structure.d_signals if k == wanted]
+    return list(dict.fromkeys((one.kind, one.name) for one in keys if one.kind in (INPUT, PORT)))
 
 
-def _read_by(flat: FlatModel, output: PortRef, keys: list[str]) -> list[PortRef]:
-    """Outputs whose values decide this one, through the signal inputs and prescribed motions among `keys`."""
+def _read_by(flat: FlatModel, output: PortRef, deciding: list[tuple[str, str]]) -> list[PortRef]:
+    """Outputs whose values decide this one, through the signal inputs and prescribed motions that do."""
     found = []
-    for one in map(key, keys):
-        if one.kind == INPUT:
-            source = flat.sources.get(PortRef(output.instance, one.name))
+    for kind, name in deciding:
+        ref = PortRef(output.instance, name)
+        if kind == INPUT:
+            source = flat.sources.get(ref)
             found += [source] if source else []
-        elif one.kind == PORT:  # a motion that an instance gives itself is no loop
-            given = _prescribing(flat, PortRef(output.instance, one.name))
-            found += [source for source in given if source.instance != output.instance]
+        else:  # a motion that an instance gives itself is no loop
+            found += [source for source in _prescribing(flat, ref) if source.instance != output.instance]
     return found
 
 
