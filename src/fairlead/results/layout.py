@@ -17,6 +17,7 @@ refuse a file that still has the mark because its writer was killed.
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -176,21 +177,37 @@ def _add_texts(file: h5py.File, name: str, texts: list[str]) -> h5py.Dataset:
 
 
 def _set_text(variable: Any, name: str, text: str) -> None:
-    from h5py import h5a, h5s, h5t
+    from h5py import h5a
 
     content = text.encode() or b"\0"
-    kind = h5t.C_S1.copy()
-    kind.set_size(len(content))
-    kind.set_cset(h5t.CSET_UTF8)
-    attribute = h5a.create(variable, name.encode(), kind, h5s.create(h5s.SCALAR))
-    attribute.write(np.array(content), mtype=kind)
+    kind = _text_type(len(content))
+    h5a.create(variable, name.encode(), kind, _one_value()).write(np.array(content), mtype=kind)
 
 
 def _set_number(variable: Any, name: str, number: int) -> None:
-    from h5py import h5a, h5s, h5t
+    from h5py import h5a, h5t
 
-    attribute = h5a.create(variable, name.encode(), h5t.NATIVE_INT32, h5s.create(h5s.SCALAR))
-    attribute.write(np.array(number, "i4"))
+    kind = h5t.NATIVE_INT32
+    h5a.create(variable, name.encode(), kind, _one_value()).write(np.array(number, "i4"), mtype=kind)
+
+
+@functools.cache
+def _one_value() -> Any:
+    """The shape of an attribute; to make it anew, or the type of a text, takes as long as to write one."""
+    from h5py import h5s
+
+    return h5s.create(h5s.SCALAR)
+
+
+@functools.cache
+def _text_type(size: int) -> Any:
+    """The type of a text of so many bytes."""
+    from h5py import h5t
+
+    kind = h5t.C_S1.copy()
+    kind.set_size(size)
+    kind.set_cset(h5t.CSET_UTF8)
+    return kind
 
 
 def _text(variable: Any, name: str) -> str:

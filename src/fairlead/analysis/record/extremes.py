@@ -82,7 +82,7 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
         """The places `of`: what they look at in these rows [of, rows]."""
         return np.asarray(sign[of, None] * values[at, column[of, None]])
 
-    row, value = _first_best(taken, stretch, len(values))
+    row, value = _first_best(values, column, sign, stretch)
     t = rows.t[row]
     for which in steps:
         for begins in (True, False):
@@ -112,14 +112,21 @@ def _of_stretches(best_of: np.ufunc, values: Floats) -> Floats:
     return np.asarray(found.T)
 
 
-def _first_best(taken: Taken, stretch: Integers, rows: int) -> tuple[Integers, Floats]:
-    """Of places that look at these stretches: the first row with the highest value, and that value."""
-    at = np.minimum(STRETCH * stretch[:, None] + np.arange(STRETCH), rows - 1)
-    every = np.arange(len(stretch))
-    seen = taken(every, at)
+def _first_best(values: Floats, column: Integers, sign: Floats, stretch: Integers) -> tuple[Integers, Floats]:
+    """Of places that look at a column in a stretch, with a sign: the first row with the highest value, and that value.
+
+    The rows of a stretch are a slice of the values; to gather them one by one took twice as long.
+    """
+    whole = len(values) // STRETCH
+    inside, rest = stretch < whole, values[whole * STRETCH :]
+    seen = np.full((len(stretch), STRETCH), np.nan)
+    stretches = values[: whole * STRETCH].reshape(whole, STRETCH, values.shape[1])
+    seen[inside] = stretches[stretch[inside], :, column[inside]]
+    seen[~inside, : len(rest)] = rest[:, column[~inside]].T
+    seen *= sign[:, None]
     seen[np.isnan(seen)] = -np.inf
     first = seen.argmax(axis=1)
-    return at[every, first], seen[every, first]
+    return STRETCH * stretch + first, seen[np.arange(len(stretch)), first]
 
 
 def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:

@@ -55,7 +55,7 @@ class RecordedLine:
         """Where the nodes are on the route [m]."""
         return self.every(self.record["outer"], "x", self.record["nodes"])
 
-    @property
+    @functools.cached_property
     def places(self) -> Floats | None:
         """Where the middles of the elements are [m]."""
         return None if self.nodes is None else (self.nodes[:, 1:] + self.nodes[:, :-1]) / 2
