@@ -58,9 +58,9 @@ def test_only_the_stretches_near_to_the_best_so_far_are_looked_up(monkeypatch):
     """A hundred signals rest; one was at 0 and rises, so that each stretch of it is above all before."""
     looked = []
 
-    def counted(taken, stretch, rows):
+    def counted(values, column, sign, stretch):
         looked.append(len(stretch))
-        return first_best(taken, stretch, rows)
+        return first_best(values, column, sign, stretch)
 
     first_best = extremes_module._first_best
     monkeypatch.setattr(extremes_module, "_first_best", counted)

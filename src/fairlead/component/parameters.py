@@ -80,8 +80,7 @@ def validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Pa
 
 def make(kind: type[Declared], **given: Any) -> Values:
     """Values from numbers in SI and ready parts, tables and waves: for composites, tests and tools."""
-    model = model_of(kind).model_validate(nested(kind, given), context={"folder": pathlib.Path()})
-    return in_force(_values(kind, model))
+    return in_force(_values(kind, _validated(kind, nested(kind, given), pathlib.Path())))
 
 
 def _validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Path) -> BaseModel:
