@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from fairlead.component.base import Component, Declared, Family
 from fairlead.component.bundled import Bundled
 from fairlead.component.mistakes import elsewhere
-from fairlead.component.parameters import read
+from fairlead.component.parameters import fits_alone, read
 from fairlead.component.scene import Scene, is_head
 from fairlead.errors import Fault, did_you_mean, listing, shown
 from fairlead.netlist.limits import MOST_FAULTS
@@ -80,7 +80,7 @@ def _wrong_value(netlist: Netlist, head: type[Family], name: str, value: Value) 
     """What the treatment in use, or else one that has the setting, says of the value by itself."""
     chosen = Scene({n: v for n, v in netlist.friction.items() if n == head.key}).member(head, {})
     members = [m for m in (chosen, *head.members.values()) if name in m.declaration.parameters]
-    if not members:
+    if not members or fits_alone(members[0], name, value, netlist.path.parent):
         return []
     _, found = read(members[0], {name: value}, "friction", value.where, netlist.path.parent)
     return [fault for fault in found if fault.what.startswith(f"friction.{name}")]

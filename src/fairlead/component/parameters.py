@@ -113,6 +113,24 @@ def _named_members(kind: type[Declared], plain: Mapping[str, Any]) -> tuple[tupl
     return tuple(found) or None
 
 
+def fits_alone(kind: type[Declared], name: str, value: Value, folder: pathlib.Path) -> bool:
+    """Whether a parameter takes a value, where no more can be said of it: the class wants others that are not given.
+
+    A model of one parameter takes a tenth of the time that the whole takes to make.
+    """
+    declared = kind.declaration.parameters
+    others = (one for key, one in declared.items() if key != name and not isinstance(one, Block))
+    if not any(getattr(one, "default", None) is REQUIRED for one in others):
+        return False
+    alone: dict[str, Any] = {name: _field(declared[name])}
+    with contextlib.suppress(ValidationError):
+        create_model(kind.__name__, __config__=STRICT, **alone).model_validate(
+            {name: value.plain()}, context={"folder": folder}
+        )
+        return True
+    return False
+
+
 def model_of(kind: type[Declared]) -> type[BaseModel]:
     """The pydantic model of a class: one field per parameter, its default and its bounds."""
     return _model(cast(Any, kind), view())  # mypy takes the __hash__ of instances for that of the class
