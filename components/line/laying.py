@@ -57,7 +57,7 @@ class Laying:
 
     def join(self, one: str, two: str) -> None:
         """Connect two children."""
-        self._join(*(self._inner(text) for text in (one, two)))
+        self._join(self._inner(one), self._inner(two))
 
     def join_to(self, one: str, path: str) -> None:
         """Connect a child with something outside the line, by its full path."""

@@ -71,8 +71,7 @@ class PortRef(NamedTuple):
         return f"{self.instance}.{self.port}"
 
 
-@dataclass(frozen=True)
-class Join:
+class Join(NamedTuple):
     """Ports that were written as connected, and where."""
 
     ports: tuple[PortRef, ...]

@@ -60,10 +60,13 @@ def _of_a_stand_in(assembly: Assembly, fault: Fault) -> bool:
 def _without_effect(flat: FlatModel) -> list[Fault]:
     """Components whose two mechanical ends are one node: they can neither stretch nor slip."""
     faults = []
+    moving = {kind: [name for name, port in kind.declaration.ports.items() if port.domain.mechanical]
+              for kind in {instance.type for instance in flat.instances}}  # fmt: skip
     for instance in flat.instances:
-        ports = [PortRef(instance.path, n) for n, p in instance.type.declaration.ports.items() if p.domain.mechanical]
-        ends = {flat.node_of[port] for port in ports if port in flat.node_of}
-        if len(ports) > 1 and len(ends) == 1:
+        ports = [PortRef(instance.path, name) for name in moving[instance.type]]
+        if len(ports) < 2:
+            continue
+        if len({flat.node_of[port] for port in ports if port in flat.node_of}) == 1:
             both = " and ".join(map(flat.assembly.named, ports))
             what = f"{both} are joined with each other, so {instance.path} has no effect."
             faults.append(Fault(_where_joined(flat, ports), what, "Join them to different bodies."))

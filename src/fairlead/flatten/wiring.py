@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from fairlead.component.declare import PATH, Input, Output, Port
+from fairlead.component.declare import PATH, Domain, Input, Output, Port
 from fairlead.component.instantiate import Assembly, Join, PortRef
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import Node
@@ -60,7 +61,7 @@ def wire(assembly: Assembly, graph: PortGraph) -> tuple[list[Node], dict[PortRef
     links: dict[PortRef, PortRef] = {}
     alone: dict[str, list[PortRef]] = {}
     for members in connected_parts(graph.joined):
-        ports = sorted(members, key=str) if len(members) < 50 else members
+        ports = sorted(members, key=str) if 1 < len(members) < 50 else members
         declared: dict[PortRef, Any] = {ref: graph.declared[ref] for ref in ports}
         if len({_kind(d) for d in declared.values()}) > 1:
             faults.append(_mixed(assembly, graph, declared))
@@ -70,12 +71,22 @@ def wire(assembly: Assembly, graph: PortGraph) -> tuple[list[Node], dict[PortRef
             links |= found
             faults += wrong
             assembly.excused.update(ports if wrong else ())
-        for domain in dict.fromkeys(d.domain for d in declared.values() if isinstance(d, Port)):
+        for domain, there in _by_domain(declared):
             if domain != PATH:  # there are several only beside a fault, so that the other mistakes are found too
-                nodes.append(Node(tuple(r for r in ports if getattr(declared[r], "domain", None) == domain), domain))
+                nodes.append(Node(there, domain))
                 if len(ports) == 1 and not declared[ports[0]].optional:
                     alone.setdefault(ports[0].instance, []).append(ports[0])
     return nodes, links, faults + _dangling(assembly, alone)
+
+
+def _by_domain(declared: dict[PortRef, Any]) -> Iterator[tuple[Domain, tuple[PortRef, ...]]]:
+    """The ports among what is joined, by domain; the name tells one, as in `_kind`: to compare all of it takes long."""
+    found: dict[str, list[PortRef]] = {}
+    for ref, one in declared.items():
+        if isinstance(one, Port):
+            found.setdefault(one.domain.name, []).append(ref)
+    for there in found.values():
+        yield declared[there[0]].domain, tuple(there)
 
 
 def _kind(declared: Port | Input | Output) -> str:

@@ -30,12 +30,13 @@ def followed(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, dict[str,
     """For every instance that gives a signal those whose signals its own decide at once, and by which outputs."""
     followers: dict[str, dict[str, dict[PortRef, None]]] = {}
     deciding: dict[tuple[int, str], list[tuple[str, str]]] = {}
+    given = _prescribing(flat)
     for output in _needed(flat):
         followers.setdefault(output.instance, {})
         s = kernels[output.instance].structure
         if (id(s), output.port) not in deciding:  # once a class: a long line has thousands of instances
             deciding[id(s), output.port] = _deciding(s, output.port)
-        for source in _read_by(flat, output, deciding[id(s), output.port]):
+        for source in _read_by(flat, given, output, deciding[id(s), output.port]):
             followers.setdefault(source.instance, {}).setdefault(output.instance, {})[source] = None
     return followers
 
@@ -76,7 +77,9 @@ def _deciding(structure: Structure, output: str) -> list[tuple[str, str]]:
     return list(dict.fromkeys((one.kind, one.name) for one in keys if one.kind in (INPUT, PORT)))
 
 
-def _read_by(flat: FlatModel, output: PortRef, deciding: list[tuple[str, str]]) -> list[PortRef]:
+def _read_by(
+    flat: FlatModel, given: Mapping[PortRef, list[PortRef]], output: PortRef, deciding: list[tuple[str, str]]
+) -> list[PortRef]:
     """Outputs whose values decide this one, through the signal inputs and prescribed motions that do."""
     found = []
     for kind, name in deciding:
@@ -85,12 +88,15 @@ def _read_by(flat: FlatModel, output: PortRef, deciding: list[tuple[str, str]]) 
             source = flat.sources.get(ref)
             found += [source] if source else []
         else:  # a motion that an instance gives itself is no loop
-            found += [source for source in _prescribing(flat, ref) if source.instance != output.instance]
+            found += [source for source in given.get(ref, ()) if source.instance != output.instance]
     return found
 
 
-def _prescribing(flat: FlatModel, port: PortRef) -> list[PortRef]:
-    group = flat.groups[flat.place(port)[0]]
-    if group.prescribed is None or group.prescribed.outputs is None:
-        return []
-    return [PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs]
+def _prescribing(flat: FlatModel) -> dict[PortRef, list[PortRef]]:
+    """By port whose motion is prescribed, the outputs that say how it moves."""
+    found: dict[PortRef, list[PortRef]] = {}
+    for group in flat.groups:
+        if group.prescribed is not None and group.prescribed.outputs is not None:
+            given = [PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs]
+            found |= {port: given for node in group.nodes for port in flat.nodes[node].ports}
+    return found
