@@ -1,11 +1,14 @@
 """Starting is light: what is heavy loads when it is needed, not before."""
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
 
 import pytest
+
+from fairlead.cli import main
 
 BELT = pathlib.Path(__file__).resolve().parents[2] / "models" / "belt.yaml"
 HEAVY = {"numpy", "sympy", "xarray", "matplotlib", "numba", "pandas", "scipy", "pint"}
@@ -62,3 +65,13 @@ def test_a_run_from_the_shell_loads_nothing_that_it_does_without(tmp_path) -> No
         loaded = loaded_by(f"import fairlead.cli; sys.argv = {arguments}; fairlead.cli.main()")
     assert (tmp_path / "warm" / "run.json").exists()
     assert loaded & UNUSED == set()
+
+
+@pytest.mark.parametrize(("given", "then"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")], ids=["none", "some"])
+def test_a_run_from_the_shell_starts_no_threads_of_linear_algebra_unless_asked_for(monkeypatch, given, then) -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"} | given
+    monkeypatch.setattr(os, "environ", environment)
+    monkeypatch.setattr(sys, "argv", ["fairlead", "run", "--help"])
+    with pytest.raises(SystemExit):
+        main()
+    assert environment["OPENBLAS_NUM_THREADS"] == then

@@ -72,4 +72,6 @@ def main() -> None:
         sys.stdout.reconfigure(errors="replace")
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # to find some, pydantic reads a file of every package
     verb = sys.argv[1:2]  # what else may stand first needs all verbs: an option, a mistake, nothing
+    if verb == ["run"]:  # which has no work for the threads that numpy starts when it is read in, one a processor
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     with_verbs(verb if verb and verb[0] in VERBS else VERBS)(prog_name="fairlead")
