@@ -13,9 +13,10 @@ class RigidStop(Component):
 
     The force pushes b forward and a back. Where the ends meet, an impulse takes away the speed at which they meet,
     and gives back `restitution` of it (`docs/integrator.md`, Impacts). The other way round, with a negative length, it
-    is a rope that cannot stretch: RigidStop from b to a of length -L keeps b.x - a.x <= L. Limits: a stop that gives
-    under load, and rings, is an EndStop. A body that leaves a stop whose other side moves as given, as a shaker does,
-    may end a run with zones that do not settle: take an ElasticGap there, or a finer accuracy.
+    is a rope that cannot stretch: RigidStop from b to a of length -L keeps b.x - a.x <= L. Where one side moves as
+    given, as a shaker does, the body that touches it is put back to it after every step, and leaves where that falls
+    away; on `ida`, which does not, zones do not settle. Limits: a stop that gives under load, and rings, is an EndStop;
+    at a node without inertia nothing is given back.
     """
 
     exempt = {"settles": "bodies pulled apart within each other, which no run comes to: docs/integrator.md, Impacts"}

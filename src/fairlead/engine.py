@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from fairlead.analysis.record.remedy import budget
+from fairlead.analysis.remarks.light_rebounds import light_rebounds
 from fairlead.analysis.remarks.overlaps import overlaps
 from fairlead.analysis.treatments.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
 from fairlead.choice import choose
@@ -38,7 +39,7 @@ def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
     """What the engine asked for cannot do well, and stops that begin passed. Raises ModelError if it refuses."""
     if (fault := refused(settings, system)) is not None:
         raise ModelError([fault])
-    return [*loop_remarks(system.flat), *remark(system, settings), *overlaps(system)]
+    return [*loop_remarks(system.flat), *remark(system, settings), *overlaps(system), *light_rebounds(system)]
 
 
 def refused(settings: RunSettings, system: System) -> Fault | None:

@@ -322,7 +322,9 @@ class Stepping:
         if said := open_at(scope.problem, status, culprits, self.t):
             return said, self.t
         said = sentence_of(status, scope.memory, scope.problem, self._going.run, culprits)
-        return (with_way_out(said, self._of, culprits) if status == Status.NOT_SETTLED else said), self.t
+        if status == Status.NOT_SETTLED:
+            said = with_way_out(said, self._of, self._going.engine.name, culprits)
+        return said, self.t
 
     def _take(self, block: Block) -> None:
         self.changes += [Change(*named_change(self._of, row)) for row in block.events]

@@ -90,7 +90,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             controller.end()
         watch.finish()
         interruption.between_blocks = False
-        outcome = _explained(outcome, system)
+        outcome = _explained(outcome, system, settings.engine)
         if outcome.status == Status.INTERRUPTED and interruption.ended_by is not None:
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
             outcome = dataclasses.replace(outcome, sentence=said)
@@ -113,13 +113,13 @@ def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, An
     return RunDirectory.create(path, signals, header, force=force)
 
 
-def _explained(outcome: Outcome, system: System) -> Outcome:
+def _explained(outcome: Outcome, system: System, engine: str) -> Outcome:
     """A run that ended since a controller in plain Python failed, or a table has no value there, says so.
 
-    One whose zones did not settle names the contacts that want another method.
+    One whose zones did not settle names the contacts that want another method, or engine.
     """
     if outcome.status == Status.NOT_SETTLED:
-        said = with_way_out(outcome.sentence, system, outcome.culprits)
+        said = with_way_out(outcome.sentence, system, engine, outcome.culprits)
         return dataclasses.replace(outcome, sentence=said)
     if said := open_at(outcome.problem, outcome.status, outcome.culprits, outcome.t):
         return dataclasses.replace(outcome, sentence=said)

@@ -123,3 +123,20 @@ def test_side_by_side_contacts_share_beside_what_they_hold(simulate, method, eng
     exact = 4.0 * (1.0 - np.exp(-0.1 * result.t))
     assert result["m2.v"] == pytest.approx(exact, abs=2e-6)
     assert result["c0.friction"] == pytest.approx(result["beside.friction"], abs=1e-6)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("damping", [0.0, 5.0])
+def test_one_on_a_belt_that_starts_off_goes_along(simulate, method, engine, damping):
+    """The belt draws a spring, or one with a damper, until that pulls as much as friction bears."""
+    parts = ["belt: {type: MotionSource, velocity: {ramp: {to: 1 m/s, start: 0.1 s, over: 0.2 s}}}",
+             "pad: {type: Contact, normal_force: 10 N, curve: 0.3}",
+             f"spring: {{type: SpringDamper, stiffness: 100 N/m, damping: {damping} N*s/m}}",
+             "ground: {type: Ground}"]  # fmt: skip
+    joins = ["[belt.flange, pad.a]", "[pad.b, spring.a]", "[spring.b, ground.flange]"]
+    result = simulate(scene(parts, joins, method, engine, 1))
+    late = (-damping + np.sqrt(damping**2 + 2 * 100 * 3 / 5)) / 100  # 100 a t^2/2 + damping a t = 3 N, a = 5 m/s^2
+    slips = next(event.t for event in result.events if event.component == "pad" and event.t > 0)
+    assert slips == pytest.approx(0.1 + late, abs=1e-6)
+    assert abs(result["pad.friction"][-1]) == pytest.approx(3.0, abs=1e-5)

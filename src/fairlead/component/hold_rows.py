@@ -15,7 +15,7 @@ that of the row is what the others leave, or is far beyond what a contact bears,
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import sympy
 
@@ -36,6 +36,12 @@ class HoldRow:
     impulse: sympy.Expr  # the slip that an impulse takes away when the zone is entered
     restitution: sympy.Expr = sympy.S.Zero  # a number, or the symbol of a parameter
     gap: sympy.Expr | None = None  # of a position row, whose ratios move and are in no row of M
+    way: sympy.Expr | None = None  # of a stop: how far it is open, which has the slip as its rate
+
+    @property
+    def place(self) -> sympy.Expr | None:
+        """What positions should be where this holds, as what should be zero; None where only speeds are known."""
+        return self.way if self.gap is None else self.gap
     ratios: dict[str, sympy.Expr] = field(default_factory=dict)  # port -> d(gap)/d(position)
 
 
@@ -102,6 +108,27 @@ def _said(one: Key) -> str:
         PARAMETER: f"the discrete {one.name[1:]!r}", PORT: f"the motion of {one.name!r}",
     }  # fmt: skip
     return words[one.kind]
+
+
+def stop_row(row: HoldRow, ways_in: Iterable[sympy.Expr]) -> HoldRow:
+    """The row with how far its stop is open, if it takes any impulse and one guard that leads to it says so.
+
+    `ways_in` are the values of such guards. One says so that is a sum of positions with a multiple of the slip as rate.
+    """
+    if row.gap is not None or row.impulse != row.slip:
+        return row
+    found = {way for value in ways_in if (way := _way(row, value)) is not None}
+    return replace(row, way=found.pop()) if len(found) == 1 else row
+
+
+def _way(row: HoldRow, value: sympy.Expr) -> sympy.Expr | None:
+    """The value in units of which the slip is the rate; None where it is not a sum of those positions."""
+    places = {symbol(f"port:{key(speed).name}:x"): rate for speed, rate in row.rates.items()}
+    if {s for s in value.free_symbols if not key(s.name).is_fixed} != places.keys():
+        return None
+    shares = {sympy.simplify(sympy.diff(value, place) / rate) for place, rate in places.items()}
+    share = shares.pop()
+    return sympy.expand(value / share) if not shares and share.is_number else None
 
 
 def position_row(gap: sympy.Expr, ports: Mapping[str, Port], place: str) -> HoldRow:

@@ -29,6 +29,7 @@ from fairlead.component.hold_rows import (
     put_on_ports,
     slip_row,
     slip_side,
+    stop_row,
 )
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
@@ -89,6 +90,9 @@ def trace(variant: Variant) -> Traced:
     has = variant.type.declaration
     zones = {name: _trace_zone(variant, has, name) for name in has.zones}
     check_everywhere(((name, zone.holds) for name, zone in zones.items()), lambda: source_place(variant.type))
+    for name, zone in zones.items():
+        ways_in = [value for other in zones.values() for g in other.guards if g.to == name for value in g.values]
+        zone.holds = {unknown: stop_row(row, ways_in) for unknown, row in zone.holds.items()}
     tables = list(dict.fromkeys(path for zone in zones.values() for path in zone.tables))
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():

@@ -60,6 +60,7 @@ class Facts(Protocol):
         """[k, 3]: every position, its speed and its acceleration (-1: no unknown), if relations of positions are kept.
 
         Else none. Where the acceleration is an unknown, M has the mass in the row of the speed, and f mass times it.
+        If none is, rows that hold speeds alone, as that of a stop on a shaker, know in `gap` what positions should be.
         """
 
     @property

@@ -95,7 +95,7 @@ def judge_inside(m, h):
     if method.n_watched > 0 and run.adaptive == 1:
         midpoint_defect(problem, point, linear, method, h)
         run.error = max(run.error, weighted_norm(point, point.at_error_vector))
-    if problem.n_moves > 0 and run.adaptive == 1:
+    if problem.n_accelerated > 0 and run.adaptive == 1:
         run.error = max(run.error, way_back(problem, point, linear, h))
 
 

@@ -67,6 +67,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
         **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
         "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
+        "n_accelerated": int(np.count_nonzero(problem.moves[:, 2] >= 0)),
         "n_balanced": len(problem.balanced), "n_light": len(light),
     }  # fmt: skip
     lengths = plan.lengths | {

@@ -86,7 +86,7 @@ def check(problem: Problem, run: Run) -> None:
     engine = engine_of(run)
     if engine.chooses_steps and run.fixed_step is not None:
         raise ValueError(f"fixed_step is for rodas and stepping; {engine.name} chooses its own steps.")
-    if len(problem.moves) and not engine.keeps_relations:
+    if (problem.moves[:, 2] >= 0).any() and not engine.keeps_relations:
         raise ValueError(f"{engine.name} does not keep relations of positions; rodas does.")
     if not 0.5 <= run.theta <= 1.0:
         raise ValueError(f"theta = {run.theta:g} must be from 0.5 to 1.")

@@ -83,6 +83,7 @@ class KernelFacts:
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},
             rigid=sorted({u for z in self.zones for u, h in z.holds.items() if h.impulse == h.slip}),
             positions={u: sorted(h.ratios) for z in self.zones for u, h in z.holds.items() if h.gap is not None},
+            stops={u: _ports_of(h.way) for z in self.zones for u, h in z.holds.items() if h.way is not None},
             silent=self._silent(), rebounds={
                 u: self._restitution(h) for z in self.zones for u, h in z.holds.items() if h.restitution != 0
             },
@@ -184,7 +185,7 @@ class KernelFacts:
             found += [*self.rates[id(z)].values(), *self.output_values[id(z)].values()]
             found += [value for g in z.guards for value in g.values]
             for h in z.holds.values():
-                found += [h.slip, h.impulse, h.restitution, *h.rates.values(), *([] if h.gap is None else [h.gap])]
+                found += [h.slip, h.impulse, h.restitution, *h.rates.values(), *([] if h.place is None else [h.place])]
         return found
 
     def _pairs(self, values: Any) -> list[tuple[int, int]]:
@@ -241,6 +242,11 @@ class KernelFacts:
     def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
         pairs = zip(self.targets, self.target_values(zone), strict=True)
         return {t: sorted(s.name for s in v.free_symbols if s.name in self.inputs) for t, v in pairs if v is not None}
+
+
+def _ports_of(way: sympy.Expr) -> list[str]:
+    """The ports whose positions stand in it."""
+    return sorted({key(s.name).name for s in way.free_symbols if key(s.name).kind == PORT})
 
 
 def _is_late(value: Any) -> bool:

@@ -44,7 +44,7 @@ STRIDE, RIGHT = 8, 1  # numbers in a row of a table, and where its right border 
 SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS, SLIP, GUARD, OUTPUT, SAMPLE = range(11)
 FIXED_SIGNALS, FIXED_FLOWS, FIXED_LEDGER, DRIFT = range(11, 15)
 MEMBERS = 15  # of guards that are groups, one after another: (count, members) numbers from the beginning of `out`
-GAP = 16  # as SLIP, of relations of positions that are kept
+GAP = 16  # as SLIP, of relations of positions that are kept, and of stops how far open they are
 MODES = 17
 
 DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
@@ -103,6 +103,8 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     LIGHT_WORK,  # float64 (.,)          scratch: the rows of a part
     LIGHT_GIVEN,  # int64 (.,)           scratch: the speed that a row gives, or -1
     HOLDS,  # int64 (holds, HOLD)
+    N_LOOSE,
+    LOOSE,  # int64 (loose,)         rows of stops between bodies none of which moves as given
     GUARD_PLACE,  # int64 (guards, GUARD_ROW)  zone position (or -1), first entry of its class in GUARD_TO, slots, slot
     GUARD_TO,  # int64 (., TO)         zone it leads to (-1: none), machine, step of a table's piece
     GUARD_MACHINES,  # int64 (guards,)   first position in `zones` of the instance
@@ -184,7 +186,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     FOLLOWING,  # int64 (following, CALL)
     FOLLOWING_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(130)
+) = range(132)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last

@@ -57,6 +57,7 @@ class Structure:
     shares_left: list[tuple[str, str]]  # of friction when a contact lets go, see `break_away`
     rebounds: dict[str, tuple[int, float]]  # unknown that rebounds -> place of its share in parameters or -1, number
     positions: dict[str, list[str]]  # unknown that keeps a relation of positions -> the ports it reads
+    stops: dict[str, list[str]]  # unknown that holds where a place is met, and knows how far off that is -> its ports
     dampings: dict[str, str]  # port -> text of what it takes in more for a speed of its own, where that is fixed
     joins: dict[str, list[dict[str, Any]]]  # zone -> what joins speeds in it, of a kernel with rates (flow_rates.py)
     yields: list[str]  # ports at which a state yields to the motion, so that a jump there is not one of positions alone

@@ -74,7 +74,7 @@ class KernelText:
             layout.MASS: self._mass,
             layout.SLIP: lambda z: self._slip(z, "impulse"),
             layout.DRIFT: lambda z: self._slip(z, "slip"),
-            layout.GAP: lambda z: self._slip(z, "gap"),
+            layout.GAP: lambda z: self._slip(z, "place"),
             layout.GUARD: self._guards,
             layout.OUTPUT: self._all_outputs,
             layout.SAMPLE: self._sample,

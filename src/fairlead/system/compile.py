@@ -64,7 +64,7 @@ def compile(flat: FlatModel) -> System:
     if faults := overridden(system):
         raise ModelError(faults)
     system = started(placed(system, initially), initially)
-    return dataclasses.replace(system, narrows=None if system.kept_positions or rated else _subsystem)
+    return dataclasses.replace(system, narrows=None if len(system.moves) or rated else _subsystem)
 
 
 def _subsystem(system: Any) -> Any:

@@ -17,9 +17,12 @@ CAUSE = "Two laws contradict each other"
 """Where the cause and the way out begin in the sentence of a run that ends so (`integrate/sentences.py`)."""
 
 
-def with_way_out(sentence: str, system: System, cycling: Iterable[str]) -> str:
+def with_way_out(sentence: str, system: System, engine: str, cycling: Iterable[str]) -> str:
     """The sentence of the run, of which `cycling` are the contacts; as it is where none of them is of this method."""
     wanted = set(cycling)
+    if engine == "ida" and (shaken := sorted(wanted.intersection(system.on_given_motion))):
+        why = "lie on what moves as given, to which ida does not bring bodies back"
+        return f"{sentence.partition(CAUSE)[0]}bodies at {listing(shaken[:MOST_NAMED])} {why}. Take run.engine: rodas."
     banded = [instance.path for instance in system.flat.instances
               if instance.path in wanted and getattr(instance.type, "word", "") == BANDED]  # fmt: skip
     if not banded:

@@ -27,6 +27,7 @@ from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RUBBED
 from fairlead.integrate.events.limits import ROUNDING, goes_no_further
 from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
+from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import (
     NO_ROOM,
@@ -90,7 +91,7 @@ def arrive(m, located):
     run.judged = 0
     copy(reals(point.at_y_piece, problem.n), reals(point.at_y, problem.n))
     m.linear.matrices.jacobian_fresh = 0
-    kept = problem.n_moves > 0 or (problem.n_balanced > 0 and run.crossed == 1)
+    kept = problem.n_accelerated > 0 or off_place(problem, point) or (problem.n_balanced > 0 and run.crossed == 1)
     better = kept or (located and run.crossed == 1 and asks_for_forces(problem, guards))
     if better:
         if (keep_positions(problem, point, linear) if kept else correct_forces(problem, point, linear)) == INACCURATE:
@@ -197,7 +198,7 @@ def judge_again(problem, run, point, events):
     g, tolerance = reals(guards.at_g, problem.n_guards), reals(guards.at_guard_tolerance, problem.n_guards)
     fired, kept, ahead = indices(guards.at_fired, problem.n_guards), 0, reals(guards.at_g_probe, problem.n_guards)
     d, tied = 0.0, False  # whether a load turns at its limit
-    if problem.n_moves == 0:
+    if problem.n_accelerated == 0:
         d = distance_to_look(run, point)
         move_ahead(point, d, d)
     evaluate_guards(problem, run, guards, point.t + d, point.at_y_probe if d > 0.0 else point.at_y, guards.at_g_probe)

@@ -18,7 +18,7 @@ from math import isfinite
 from fairlead.integrate.events.balance import ROUNDS, close_balance
 from fairlead.integrate.events.impulse import ROUNDED as ROUNDED_IMPULSE
 from fairlead.integrate.events.impulse import change_of_speed, impact
-from fairlead.integrate.events.position import project_positions
+from fairlead.integrate.events.position import in_units_of_light, project_positions
 from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
 from fairlead.integrate.linear.systems import (
     DONE,
@@ -73,11 +73,12 @@ def project(problem, point, linear):
         at_rest = at_rest and r[k] == 0.0
     if at_rest:
         return
-    if problem.n_moves > 0:
+    if problem.n_accelerated > 0:
         copy(r, reals(point.at_v, n))
     solve(linear, point.at_b)
     y, differential = reals(point.at_y, n), indices(problem.at_differential, n)
-    if problem.n_moves > 0 and (change_of_speed(problem, point) > ROUNDED_IMPULSE or hands_slip_on(problem, point)):
+    relations = problem.n_accelerated > 0
+    if relations and (change_of_speed(problem, point) > ROUNDED_IMPULSE or hands_slip_on(problem, point)):
         return
     is_speed, quadrature = indices(problem.at_is_speed, n), indices(problem.at_quadrature, n)
     for k in range(n):
@@ -127,7 +128,7 @@ def keep_positions(problem, point, linear):
     if problem.n_moves > 0:
         point.projections += 1
         point.most_moved = max(point.most_moved, point.moved)
-    else:
+    if problem.n_accelerated == 0:
         slope_change(point, linear)
     return DONE
 
@@ -166,24 +167,30 @@ def residual_here(problem, point, matrices, at_r):
 
 
 @compiled
+def follow_what_holds(problem, point, linear):
+    """Give nodes without inertia the speed of what holds them, before impulses are asked for: they take none.
+
+    With it go the forces that this calls for, as of a damper. What more rows hold than that one has its row in M.
+    """
+    r = reals(point.at_x, problem.n)
+    r[:] = 0.0
+    field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_v))
+    in_units_of_light(problem, linear.matrices, point.at_v, point.at_x)
+    status = solve_watched(linear, point.at_x)
+    if status == DONE:
+        update(point, 1.0)
+    return status
+
+
+@compiled
 def slip_of_light(problem, point, matrices, at_r):
     """Set r in rows that hold nodes without inertia: their slip is zero at once, whatever the surface does.
 
     Such a row, -slip/tau less the acceleration of what is given, knows the acceleration of no node whose speed is
     algebraic: zero, it would leave a slip of tau times that of the surface. In units of the row one update is exact.
     """
-    light, column = indices(problem.at_light, problem.n_light), indices(matrices.at_mass_columns, matrices.n_mass)
-    row, values = indices(matrices.at_mass_rows, matrices.n_mass), reals(matrices.at_mass, matrices.n_mass)
-    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
-    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
-    slopes = reals(matrices.at_jacobian, matrices.n_jacobian)
-    r, slip = reals(at_r, problem.n), reals(point.at_v, problem.n)
     field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_v))
-    for e in light:
-        if values[e] != 0.0:
-            for p in range(starts[column[e]], starts[column[e] + 1]):
-                if rows[p] == row[e]:
-                    r[row[e]] = slip[row[e]] * (1.0 - slopes[p] / values[e])
+    in_units_of_light(problem, matrices, point.at_v, at_r)
 
 
 @compiled
@@ -209,6 +216,8 @@ def solve_point(m, iterations):
     status = prepare_consistent(problem, point, linear)
     if status == DONE and problem.n_moves > 0:
         status = project_positions(problem, point, linear)
+    if status == DONE and problem.n_light > 0:
+        status = follow_what_holds(problem, point, linear)
     if status == DONE:
         status = impact(m)
     if status != DONE:
@@ -221,7 +230,7 @@ def solve_point(m, iterations):
             status = prepare_consistent(problem, point, linear)
             if status != DONE:
                 return status
-        if problem.n_moves > 0 or iteration >= REFRESHED:
+        if problem.n_accelerated > 0 or iteration >= REFRESHED:
             # The force that would keep the slider of a crank from passing its dead centre is huge, as that is which
             # would hold a wheel at full speed: it is known to rounding of itself, not of what was there before.
             weigh(point, point.at_y)

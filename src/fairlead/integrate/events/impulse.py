@@ -235,12 +235,12 @@ def change_zones_for(m):
     n, ng = problem.n, problem.n_guards
     y, b, loaded = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_y_probe, n)
     takes, differential = indices(problem.at_takes_impulse, n), indices(problem.at_differential, n)
-    least_taken = least_impulse(problem, point)
+    is_speed, least_taken = indices(problem.at_is_speed, n), least_impulse(problem, point)
     for k in range(n):
         loaded[k] = y[k]
-        if differential[k] == 1:
+        if is_speed[k] == 1:
             loaded[k] += b[k]
-        elif takes[k] > 0 and abs(b[k]) > least_taken:
+        elif differential[k] == 0 and takes[k] > 0 and abs(b[k]) > least_taken:
             loaded[k] = b[k] / (SHORT * (run.stop - run.start))
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)

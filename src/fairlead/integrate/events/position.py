@@ -16,7 +16,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.linear.systems import DONE, solve, solve_watched
-from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
 MOVES = 4
@@ -42,6 +42,37 @@ def way_back(problem, point, linear, h):
 
 
 @compiled
+def off_place(problem, point):
+    """True if a row that holds knows that positions are off, by however little."""
+    if problem.n_moves == 0:
+        return False
+    field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_b))
+    off = False
+    for gap in reals(point.at_b, problem.n):
+        off = off or gap != 0.0
+    return off
+
+
+@compiled
+def in_units_of_light(problem, matrices, at_values, at_r):
+    """Set r in rows that hold nodes without inertia to values that a change of their speeds by as much would give.
+
+    Of several entries of a row the last counts; they give the same.
+    """
+    light, column = indices(problem.at_light, problem.n_light), indices(matrices.at_mass_columns, matrices.n_mass)
+    row, masses = indices(matrices.at_mass_rows, matrices.n_mass), reals(matrices.at_mass, matrices.n_mass)
+    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
+    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    slopes = reals(matrices.at_jacobian, matrices.n_jacobian)
+    r, values = reals(at_r, problem.n), reals(at_values, problem.n)
+    for e in light:
+        if masses[e] != 0.0:
+            for p in range(starts[column[e]], starts[column[e] + 1]):
+                if rows[p] == row[e]:
+                    r[row[e]] = values[row[e]] * (1.0 - slopes[p] / masses[e])
+
+
+@compiled
 def project_positions(problem, point, linear):
     """Move positions to where all relations are kept, with the factors of C; DONE or why not.
 
@@ -54,7 +85,10 @@ def project_positions(problem, point, linear):
     weigh(point, point.at_y)
     u[:] = 0.0
     for move in range(MOVES):
-        field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_b))
+        field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_v))
+        copy(way, r)
+        if problem.n_light > 0:
+            in_units_of_light(problem, linear.matrices, point.at_v, point.at_b)
         if move == 0:
             status = solve_watched(linear, point.at_b)
             if status != DONE:

@@ -19,6 +19,9 @@ speed. Differences from `rodas`, numbered:
    energy of the belt closed to 0.9 instead of 4e-4.
 4. IDA does not tell its rejected steps; they are not counted.
 5. fixed_step, method and theta belong to the other engines.
+6. Positions are not brought back to what a row that holds knows of them: a step goes on from the history of those
+   before. So it has no relations of positions, and a body that leaves a stop which moves as given, which it is off
+   by the error of the run, ends the run with zones that do not settle.
 
 Source of the method: Hindmarsh et al., ACM TOMS 31:363, 2005, DOI 10.1145/1089014.1089020; the Python
 package is scikit-sundae.
@@ -65,6 +68,7 @@ class SundialsLoop:
     def __init__(self, problem: Instance, run: Run, memory: Memory) -> None:
         """Nothing is started yet; raises UsageError when scikit-sundae is missing."""
         self.memory, self.run = memory, run
+        memory.number["n_moves"] = 0
         self.go_on = machine_code.compiled_loop(RODAS)
         self.kernels = machine_code.compiled_sundials()
         self.max_step = min(float(memory.number["max_step"]), run.stop - run.start)

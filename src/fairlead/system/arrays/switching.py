@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.component.instantiate import PortRef
+from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Integers, Memory
 from fairlead.system.arrays.timing import tables
@@ -85,6 +87,25 @@ def holders(blocks: Sequence[Block], n: int) -> Integers:
             for unknown in s.holds:
                 holder[block.flow_index[:, s.targets.index(f"own:{unknown}")]] = block.machines[:, 0]
     return holder
+
+
+def stops(flat: FlatModel, blocks: Sequence[Block]) -> tuple[list[str], Memory]:
+    """Stops of which a side moves as given, by name, and the rows of all others.
+
+    What they keep is then kept by no linear invariant of a method: a given place is exact, that of the body is not.
+    """
+    given, loose = list[str](), list[int]()
+    for block in blocks:
+        s = block.kernel.structure
+        for unknown, ports in s.stops.items():
+            rows = block.flow_index[:, s.targets.index(f"own:{unknown}")].tolist()
+            for row, instance in zip(rows, block.instances, strict=True):
+                groups = [flat.groups[flat.place(PortRef(instance.path, port))[0]] for port in ports]
+                if any(one.prescribed is not None and one.prescribed.outputs is not None for one in groups):
+                    given.append(instance.path)
+                else:
+                    loose.append(row)
+    return given, {"loose": np.array(loose, dtype=np.int64)}
 
 
 def takes_impulse(blocks: Sequence[Block], n: int) -> Integers:

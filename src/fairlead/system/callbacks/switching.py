@@ -61,8 +61,14 @@ def drift(ctx, t, y, r):
 
 
 def gap(ctx, t, y, r):
-    """-gap on the rows of relations of positions, zero elsewhere; of nodes without inertia what is off balance."""
+    """-gap on the rows of relations of positions, zero elsewhere; of nodes without inertia what is off balance.
+
+    As a relation counts a stop that touches, where one side moves as given. Two bodies that touch stay as they are.
+    """
     slips(ctx, t, y, GAP, r)
+    loose = i8(ctx[LOOSE])
+    for k in range(0, ctx[N_LOOSE]):
+        r[loose[k]] = 0.0
     if ctx[N_RATED] > 0:
         evaluate(ctx, t, y)
         off_balance(ctx, r)

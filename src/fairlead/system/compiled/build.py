@@ -21,6 +21,7 @@ from fairlead.system.arrays.switching import (
     machine_kinds,
     machine_owners,
     machine_zones,
+    stops,
     takes_impulse,
 )
 from fairlead.system.arrays.timing import first_pieces, samplers
@@ -59,7 +60,8 @@ def build(
     program = jacobian(flat, blocks, shared, numbering, rated, end.mass)
     mass_pattern, memory = mass(blocks, shared, numbering)
     slots, switches = guards(blocks)
-    memory |= switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
+    on_given_motion, loose = stops(flat, blocks)
+    memory |= loose | switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
     memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
     memory |= nothing_set()
@@ -94,6 +96,7 @@ def build(
         kink_guard=kinks(blocks),
         linear=all(_is_linear(block, numbering) for block in blocks),
         machine_names=list(machines),
+        on_given_motion=on_given_motion,
         machine_kind=machine_kinds(blocks, len(machines)),
         guard_names=[name for name, _ in slots],
         machine_zones=machine_zones(blocks, len(machines)),

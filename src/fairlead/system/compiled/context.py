@@ -24,7 +24,7 @@ from fairlead.system.numbering.unknowns import Numbering, reaction_masses
 ADDRESSES = (
     "TABLES", "KERNELS", "BLOCKS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS", "REACTION_A", "PROGRAM",
     "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "LIGHT_PARTS", "LIGHT_ROWS", "LIGHT_ENTRIES",
-    "LIGHT_COEF", "LIGHT_PLACES", "HOLDS", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
+    "LIGHT_COEF", "LIGHT_PLACES", "HOLDS", "LOOSE", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
     "ACCELERATED", "ACCELERATED_MASS", "RATED", "RATED_JOINS", "RATED_MEMBERS", "RATED_WEIGHTS", "RATED_TERMS",
@@ -35,7 +35,7 @@ COUNTED = {
     "N_REACTIONS": "reaction_mass", "N_BLOCKS": "kernels", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
     "N_LIGHT_PARTS": "light_parts",
-    "N_HOLDS": "holds", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
+    "N_HOLDS": "holds", "N_LOOSE": "loose", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
     "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
     "N_RATED": "rated", "N_RATED_JOINS": "rated_joins", "N_RATED_TERMS": "rated_terms",

@@ -81,6 +81,7 @@ class System:
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
     machine_names: Sequence[str]
     machine_kind: Integers  # per machine: equal for the same place in instances of one class variant
+    on_given_motion: list[str]  # stops of which a side moves as given
     guard_names: Sequence[str]
     machine_zones: list[Sequence[str]]
     machine_guards: list[Any]  # per machine: the block and the instance it belongs to
@@ -169,10 +170,14 @@ class System:
 
     @functools.cached_property
     def moves(self) -> Integers:
-        """[k, 3]: position, speed, acceleration (-1: no unknown), where relations of positions are kept; else none."""
+        """[k, 3]: position, speed, acceleration (-1: no unknown), where relations of positions are kept; else none.
+
+        Nor are there any without a stop of which a side moves as given: what touches it is brought back to it.
+        """
         accelerations = {self.numbering.rate[k]: a for k, a in self.numbering.accelerated.items()}
-        pairs = self.numbering.pairs if accelerations else []
-        rows = [(x, v, accelerations.get(v, -1)) for x, v in pairs if self.differential[v]]
+        pairs = self.numbering.pairs if accelerations or self.on_given_motion else []
+        light = bool(self.on_given_motion)  # nodes without inertia may touch what moves as given
+        rows = [(x, v, accelerations.get(v, -1)) for x, v in pairs if light or self.differential[v]]
         return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
     @functools.cached_property

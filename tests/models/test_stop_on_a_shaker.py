@@ -1,0 +1,209 @@
+"""A body on a stop whose other side moves as given: it leaves where that falls faster than the body does.
+
+On rodas the body is put back to what moves as given after every step, since a given place is exact and its own is not.
+Nodes without inertia on a stop are here too, on the ground and on a shaker: they meet it without an impact.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+import fairlead
+
+G = 9.81
+
+
+def shaken(amplitude, frequency, engine, accuracy, stop, unit=1.0):
+    return f"""
+    components:
+      weight: {{type: ForceSource, force: {-G * unit} N}}
+      body: {{type: Mass, mass: {unit} kg}}
+      rest: {{type: RigidStop}}
+      plate: {{type: MotionSource, velocity: {{sine: {{amplitude: {amplitude} m/s, frequency: {frequency} Hz}}}}}}
+    connections: [[plate.flange, rest.a], [rest.b, body.flange, weight.flange]]
+    initial: {{body.x: 0 m}}
+    run: {{stop: {stop} s, engine: {engine}, accuracy: {accuracy}}}
+    record: {{every: 1 ms, signals: ["*"]}}
+    """
+
+
+def flights(amplitude, frequency, stop, g=G):
+    """(leaves, lands) of every flight without rebound: it leaves where a w cos w t = -g, and falls freely."""
+    pace = 2 * np.pi * frequency
+
+    def plate(t):
+        return amplitude / pace * (1 - np.cos(pace * t))
+
+    def pressed(t):
+        return amplitude * pace * np.cos(pace * t) + g
+
+    grid = np.arange(0.0, stop, 1e-5)
+    found, t = [], 0.0
+    while True:
+        later = grid[grid > t + 1e-9]
+        falls = later[:-1][(pressed(later[:-1]) > 0) & (pressed(later[1:]) <= 0)]
+        if pressed(t + 1e-9) <= 0:
+            leaves = t
+        elif len(falls):
+            leaves = brentq(pressed, falls[0], falls[0] + 1e-5)
+        else:
+            return found
+        place, speed = plate(leaves), amplitude * np.sin(pace * leaves)
+
+        def gap(s, place=place, speed=speed, leaves=leaves):
+            return place + speed * (s - leaves) - g / 2 * (s - leaves) ** 2 - plate(s)
+
+        later = grid[grid > leaves + 1e-3]
+        meets = later[:-1][(gap(later[:-1]) > 0) & (gap(later[1:]) <= 0)]
+        if not len(meets):
+            return found
+        t = brentq(gap, meets[0], meets[0] + 1e-5)
+        found.append((leaves, t))
+
+
+def shaker(amplitude, frequency):
+    return f"{{type: MotionSource, velocity: {{sine: {{amplitude: {amplitude} m/s, frequency: {frequency} Hz}}}}}}"
+
+
+def flown(told, least):
+    """(leaves, lands) of flights longer than `least`, of (t, zone) of one stop."""
+    return np.array([(t, later[0]) for (t, zone), later in pairwise(told) if zone == "free" and later[0] - t > least])
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "frequency", "unit"),
+    [(1.0, 2, 1.0), (0.6, 3, 1e3), pytest.param(0.35, 8, 1e-3, marks=pytest.mark.slow),
+     pytest.param(0.3, 15, 1.0, marks=pytest.mark.slow)],
+)  # fmt: skip
+@pytest.mark.parametrize("accuracy", ["1e-3", pytest.param("1e-4", marks=pytest.mark.slow), "1e-6"])
+def test_it_leaves_and_lands_when_it_should(simulate, amplitude, frequency, unit, accuracy):
+    """Three flights, found by the roots of closed forms; with other masses too. It does not touch in between."""
+    stop = 3.3 / frequency
+    result = simulate(shaken(amplitude, frequency, "rodas", accuracy, stop, unit))
+    told = [(event.t, event.zone_to) for event in result.events]
+    exact = [flight for flight in flights(amplitude, frequency, stop) if flight[1] < stop]
+    assert len(exact) == 3
+    assert flown(told, 0.01 / frequency) == pytest.approx(np.array(exact), abs=20 * float(accuracy) / frequency)
+    assert len(told) == 2 * len(exact) + 1
+
+
+def test_ida_says_which_engine_to_take(simulate):
+    """It goes on from its own past, so that it cannot put a body back."""
+    with pytest.raises(fairlead.RunError, match=r"bodies at rest lie on what moves as given.*run\.engine: rodas"):
+        simulate(shaken(1.0, 2, "ida", 1e-4, 0.5))
+
+
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-6"])
+def test_a_rope_to_a_heaving_winch_is_slack_when_a_body_flies(simulate, accuracy):
+    """Seen from the winch it is the plate, 3 m higher. A rack turns a rotor, which is a mass of 1 kg more."""
+    result = simulate(f"""
+    components:
+      weight: {{type: ForceSource, force: -9.81 N}}
+      heavy: {{type: ForceSource, force: -9.81 N}}
+      load: {{type: Mass, mass: 1 kg}}
+      geared: {{type: Mass, mass: 1 kg}}
+      rack: {{type: Rack, radius: 0.1 m}}
+      rotor: {{type: Inertia, moment: 0.01 kg*m^2}}
+      rope: {{type: RigidStop, length: -3 m}}
+      other: {{type: RigidStop, length: -3 m}}
+      winch: {shaker(1.0, 2)}
+    connections: [[winch.flange, rope.a, other.a], [rope.b, load.flange, weight.flange],
+                  [other.b, geared.flange, heavy.flange, rack.rack], [rack.pinion, rotor.shaft]]
+    initial: {{load.x: -3 m, geared.x: -3 m}}
+    run: {{stop: 1.65 s, engine: rodas, accuracy: {accuracy}}}
+    """)
+    told = [(event.t, event.zone_to) for event in result.events if event.component == "rope"]
+    exact = np.array([flight for flight in flights(1.0, 2, 1.65) if flight[1] < 1.65])
+    assert flown(told, 5e-3) == pytest.approx(exact, abs=20 * float(accuracy))
+    told = [(event.t, event.zone_to) for event in result.events if event.component == "other"]
+    exact = np.array([flight for flight in flights(1.0, 2, 1.65, G / 2) if flight[1] < 1.65])
+    assert flown(told, 5e-3) == pytest.approx(exact, abs=20 * float(accuracy))
+
+
+def springs(unit, accuracy, engine, lower):
+    return f"""
+    components:
+      weight: {{type: ForceSource, force: {-G * unit} N}}
+      body: {{type: Mass, mass: {unit} kg}}
+      foot: {{type: SpringDamper, stiffness: {5000 * unit} N/m, damping: {20 * unit} N*s/m}}
+      rest: {{type: RigidStop}}
+      lower: {lower}
+    connections: [[lower.flange, rest.a], [rest.b, foot.a], [foot.b, body.flange, weight.flange]]
+    initial: {{body.x: 0.1 m, foot.a.x: 0.1 m}}
+    run: {{stop: 0.8 s, engine: {engine}, accuracy: {accuracy}}}
+    """
+
+
+def hops(pace):
+    """Times at which the foot meets the plate and leaves it, by an integrator that is told when: nothing else is known.
+
+    In flight the foot, without inertia, goes back to its length; on the plate the spring and the damper push.
+    """
+    stiff, slow = 5000.0, 20.0
+
+    def plate(t):
+        return (1.0 / pace * (1 - np.cos(pace * t)), np.sin(pace * t)) if pace > 0 else (0.0, 0.0)
+
+    def flight(t, s):
+        return s[1], -G, s[1] - stiff / slow * (s[2] - s[0])
+
+    def push(t, s):
+        return stiff * (plate(t)[0] - s[0]) + slow * (plate(t)[1] - s[1])
+
+    def stance(t, s):
+        return s[1], -G + push(t, s), plate(t)[1]
+
+    def meets(t, s):
+        return s[2] - plate(t)[0]
+
+    meets.terminal = push.terminal = True
+    meets.direction = push.direction = -1
+    t, state, found, flies = 0.0, np.array([0.1, 0.0, 0.1]), [], True
+    while t < 0.8:
+        way = solve_ivp(flight if flies else stance, (t, 0.8), state, events=meets if flies else push,
+                        method="DOP853", rtol=1e-11, atol=1e-13, max_step=1e-3)  # fmt: skip
+        t, state, flies = way.t[-1], way.y[:, -1], not flies
+        if way.status == 1:
+            found.append(t)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("engine", ["rodas", "ida"])
+@pytest.mark.parametrize("unit", [1.0, 1e-3, pytest.param(1e3, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("accuracy", ["1e-4", "1e-6"])
+def test_a_foot_without_inertia_lands_and_leaves(simulate, engine, unit, accuracy):
+    """What it takes is a force, not an impulse; so it does not open the stop again."""
+    result = simulate(springs(unit, accuracy, engine, "{type: Ground}"))
+    assert np.array([event.t for event in result.events]) == pytest.approx(hops(0.0), abs=50 * float(accuracy))
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e3])
+@pytest.mark.parametrize("accuracy", ["1e-4", "1e-6"])
+def test_a_foot_without_inertia_lands_on_a_shaker(simulate, unit, accuracy):
+    """It is put back to the plate as a body is."""
+    result = simulate(springs(unit, accuracy, "rodas", shaker(1.0, 2)))
+    assert np.array([event.t for event in result.events]) == pytest.approx(hops(4 * np.pi), abs=50 * float(accuracy))
+
+
+@pytest.mark.parametrize("engine", ["rodas", "ida"])
+def test_a_body_behind_a_sensor_is_stopped_and_its_lost_rebound_told(simulate, engine):
+    """The sensor passes the impulse on to the stop. Its node has no inertia, so nothing is thrown back."""
+    with pytest.warns(fairlead.RunWarning, match="rest: its restitution gives nothing back, since nothing at .*rest.b"):
+        result = simulate(f"""
+        components:
+          weight: {{type: ForceSource, force: -9.81 N}}
+          body: {{type: Mass, mass: 1 kg}}
+          sensor: {{type: ForceSensor}}
+          rest: {{type: RigidStop, restitution: 0.5}}
+          air: {{type: Damper, damping: 1e-6 N*s/m}}
+          floor: {{type: Ground}}
+        connections: [[floor.flange, rest.a, air.a], [rest.b, sensor.a, air.b], [sensor.b, body.flange, weight.flange]]
+        initial: {{body.x: 0.1 m, sensor.a.x: 0.1 m}}
+        run: {{stop: 0.4 s, engine: {engine}, accuracy: 1e-6}}
+        """)
+    assert [event.t for event in result.events] == pytest.approx([np.sqrt(0.2 / G)], abs=1e-5)
+    assert result["body.v"][-1] == pytest.approx(0.0, abs=1e-9)
+    assert result["sensor.tension"][-1] == pytest.approx(-G, abs=1e-6)
