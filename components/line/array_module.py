@@ -12,6 +12,7 @@ from fairlead.components.line.mesh import bulkheads, cut, too_fine
 from fairlead.components.line.meter import Meter
 from fairlead.components.line.registration import Registration
 from fairlead.components.line.relaxing_hose import RelaxingHose
+from fairlead.components.line.rigid_core import RigidCore
 from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
 from fairlead.components.line.torsion import TORSION, twisting
 from fairlead.components.mechanics.mass import Mass
@@ -86,6 +87,7 @@ class ArrayModule(Composite):
     hose_relaxation = Block(RELAXING, "The hose is stiffer when strained fast; not when not given.", default=None)
     torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
     hose_core_slip = Effect("Hose and core may part; off: one body with the mass and the stiffness of both.")
+    core_stretch = Effect("The core stretches; off: the core of all modules is one body, with one position and speed.")
     tension_only_core = Effect("A core that cannot push; off: a spring.")
     device_friction = Effect("Friction of the line on all devices; off: none.")
     centrifugal = Effect("A line that runs round a bend presses less by its mass times speed squared.", default="off")
@@ -125,12 +127,12 @@ class ArrayModule(Composite):
                 children[f"registration[{i}]"] = registration
                 joins.append((f"hose_node[{i}].flange", f"registration[{i}].hose"))
                 joins.append((f"core_node[{i}].flange", f"registration[{i}].core"))
-        core = Core if p.tension_only_core == "on" else Hose
-        for (kind, more), layer, name in ((hose_kind(p), p.hose, "hose"), ((core, {}), p.core, "core")):
+        for (kind, more), layer, name in ((hose_kind(p), p.hose, "hose"), ((core_kind(p), {}), p.core, "core")):
             made = {}
             for i, each in enumerate(map(_tidy, mesh.lengths)):
                 if each not in made:
-                    made[each] = scene.make(kind, **_element(p, layer, each), **more)
+                    given = {"length": each} if kind is RigidCore else _element(p, layer, each)
+                    made[each] = scene.make(kind, **given, **more)
                 children[f"{name}[{i}]"] = made[each]
                 joins.append((f"{name}[{i}].a", f"{name}_node[{i}].flange"))
                 joins.append((f"{name}[{i}].b", f"{name}_node[{i + 1}].flange"))
@@ -156,9 +158,20 @@ def hose_kind(p):
     return RuckingHose, {"limit": p.ruck_force, "softening": p.ruck_stiffness}
 
 
+def core_kind(p):
+    """The class of core elements."""
+    if p.core_stretch == "off":
+        return RigidCore
+    return Core if p.tension_only_core == "on" else Hose
+
+
 def _element(p, layer, each):
-    """Parameters of an element of a layer whose length under the starting tension is `each`."""
-    free = each / (1 + p.tension / (p.hose.stiffness + p.core.stiffness))
+    """Parameters of an element of a layer whose length under the starting tension is `each`.
+
+    Beside a core that does not stretch the hose is not stretched at the start either: the core has all of the tension.
+    """
+    stretched = p.tension if p.core_stretch == "on" else 0.0
+    free = each / (1 + stretched / (p.hose.stiffness + p.core.stiffness))
     damping = 2 * layer.damping_ratio * math.sqrt(layer.stiffness / each * layer.mass * each)
     return {"axial_stiffness": layer.stiffness, "length": free, "damping": damping, "line_damping": p.line_damping}
 

@@ -69,6 +69,11 @@ class LaidLine(OfLine):
         return float(self.values.weight) if self.values.gravity == "on" else 0.0
 
     @property
+    def rigid(self) -> bool:
+        """True when its core does not stretch: all that moves with the core is one body then."""
+        return getattr(self.values, "core_stretch", "on") == "off"
+
+    @property
     def rubs(self) -> bool:
         """True when devices rub on it."""
         return bool(self.values.device_friction == "on")
@@ -107,6 +112,10 @@ class LaidLine(OfLine):
     def slips(self) -> bool:
         """True when hose and core are bodies of their own."""
         return bool(self.inner)
+
+    def is_one_body(self, node: int) -> bool:
+        """True where its layers are one body: everywhere if they do not slip, else at the connectors."""
+        return not self.inner or node in self.mesh.connectors
 
     def _made_of(self, layers: tuple[str, ...]) -> list[Any]:
         """The parameters of layers."""

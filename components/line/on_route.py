@@ -59,10 +59,15 @@ class OnRoute:
         self.twist(i, body)
         bodies = [body] + ([f"{self.line.inner}[{i}]"] if two else [])
         for one in bodies:
-            self.storage(i, one)
-            self.far_out(i, one)
+            if not self.of_rigid_core(i, one):
+                self.storage(i, one)
+                self.far_out(i, one)
             self.weight(i, one, reach, bodies)
         self.drag(i, body, reach)
+
+    def of_rigid_core(self, i: int, body: str) -> bool:
+        """Whether a body moves with the inboard end anyhow, as a node of a core that does not stretch."""
+        return self.line.rigid and i > 0 and (body != f"{self.line.outer}[{i}]" or self.line.is_one_body(i))
 
     def rubs(self) -> bool:
         """Whether the line rubs on devices."""

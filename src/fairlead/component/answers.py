@@ -104,6 +104,10 @@ def _parameter(value: Any, has: Declaration) -> str:
     return "" if value in known or value == "" else f"is {_shown(value)}; the parameters are {sorted(known)}"
 
 
+def _unknown(value: Any, has: Declaration) -> str:
+    return "" if value in has.unknowns else f"is {_shown(value)}; the unknowns are {sorted(has.unknowns)}"
+
+
 def _wave(value: Any, has: Declaration) -> str:
     waves = {name for name, one in has.parameters.items() if isinstance(one, Waveform)}
     waves |= {name for name, one in has.derived.items() if one.wave}
@@ -173,6 +177,7 @@ SAMPLE = Kind("with self, t and what it reads", _sample, method=True)
 YES_OR_NO, SENTENCE, MAP = Kind("True or False", _yes_or_no), Kind("a sentence", _sentence), Kind("a map", _map)
 GIVEN = Kind("a map", _given)
 INPUT, TWO_INPUTS = Kind("an input", _input), Kind("two inputs", _two_inputs)
+UNKNOWN = Kind("an unknown", _unknown)
 WAVE = Kind("a parameter", _wave)
 TWO_PORTS = Kind("two ports", _two_ports)
 PARAMETERS, ZONES = Kind("parameters", _parameters), Kind("zones", _zones)
@@ -212,6 +217,10 @@ class Answers:
     ties: Callable[[Any], Iterable[tuple[str, str, Any, Any]]] | None = _asked(
         method("p"), "rigid ties of its ports: (a, b, ratio, offset) for b = ratio * a + offset"
     )
+    bears: str = _asked(
+        UNKNOWN, "with `ties` of two ports: the unknown that is what the tie carries; the framework writes its "
+        "equation, the balance of the part beyond, and the law the flows", default="",
+    )  # fmt: skip
     expand: Callable[[Any, Any], Any] | None = _asked(
         method("p", "scene"), "what it is made of, as an Expansion", COMPOSITE
     )

@@ -64,4 +64,5 @@ def _passive(cls: type[Declared]) -> set[str]:
     """
     answers, has = cls.answers, cls.declaration
     settled = set(answers.prescribes()) if answers.prescribes is not None else set()
+    settled |= {answers.bears} - {""}
     return settled | (set(has.ports) if answers.ties is not None or has.python else set())

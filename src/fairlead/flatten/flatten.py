@@ -99,6 +99,8 @@ def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
     for instance in flat.instances:
         has = instance.type.declaration
         ends = [PortRef(instance.path, port) for port in ("a", "b")]
+        if instance.type.answers.bears:  # what it carries is told by the parts of the body, not by a motion
+            continue
         if not has.unknowns or not {"a", "b"} <= set(has.ports) or flat.node_of[ends[0]] == flat.node_of[ends[1]]:
             continue
         sides = [flat.groups[flat.place(end)[0]] for end in ends]

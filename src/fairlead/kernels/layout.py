@@ -160,6 +160,9 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     N_ACCELERATED,  # bodies whose acceleration is an unknown
     ACCELERATED,  # int64 (accelerated, ACCELERATED_ROW)  their speed and their acceleration
     ACCELERATED_MASS,  # float64 (accelerated,)
+    N_PARTS,  # balances of parts of bodies, see parts_of_bodies.py
+    PARTS,  # int64 (parts, OF_PART)  row of the balance; that of the body in w; where in z its acceleration lies
+    PARTS_COEF,  # float64 (parts, PART_COEFS)  how often it counts in that of the body; mass
     N_RATED,  # nodes without inertia whose balance has its rate beside it, see algebraic_nodes.py
     RATED,  # int64 (rated, RATED_NODE)  row of the balance; where in z tau times its rate lies; 1 if it may jump
     N_RATED_JOINS,
@@ -186,7 +189,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     FOLLOWING,  # int64 (following, CALL)
     FOLLOWING_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(132)
+) = range(135)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last
@@ -203,6 +206,8 @@ TO_ZONE, TO_MACHINE, TO_PIECE, TO = range(4)  # of GUARD_TO
 TIME_ZONE, TIME_TABLE, TIME_PIECES, TIME = range(4)  # of TIME_PLACE
 SAMPLED_BLOCK, SAMPLED_INSTANCE, SAMPLED_ROW = range(3)  # of SAMPLED
 ACCELERATED_V, ACCELERATED_A, ACCELERATED_ROW = range(3)  # of ACCELERATED
+PART_ROW, PART_WHOLE, PART_A, OF_PART = range(4)  # of PARTS
+PART_SIGN, PART_MASS, PART_COEFS = range(3)  # of PARTS_COEF
 # Of CIRCLE_PAIRS: force, nodes a and b, where in z their shares lie, machine or -1, its first row in CIRCLE_ZONES.
 CIRCLE_FORCE, CIRCLE_A, CIRCLE_B, CIRCLE_SHARE_A, CIRCLE_SHARE_B, CIRCLE_MACHINE, CIRCLE_FIRST, CIRCLE = range(8)
 COEF_A, COEF_B, COEF_SENSE, COEF_FACTOR, CIRCLE_COEFS = range(5)  # of CIRCLE_COEF

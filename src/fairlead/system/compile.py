@@ -32,6 +32,7 @@ from fairlead.system.compiled.build import HOLD_TIME, build
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.initial import starts
 from fairlead.system.numbering.loops import without_loops
+from fairlead.system.numbering.parts_of_bodies import rings
 from fairlead.system.numbering.ranks import signal_ranks
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.unknowns import groups_with_rate_forces, number
@@ -46,6 +47,8 @@ def compile(flat: FlatModel) -> System:
     flat, kernels = without_loops(flat, _kernels(flat))
     structures = {path: made.structure for path, made in kernels.items()}
     if faults := unfit(flat, structures):
+        raise ModelError(faults)
+    if faults := rings(flat):
         raise ModelError(faults)
     rated, rates, faults = _rate(flat, kernels)
     if faults:
@@ -64,7 +67,8 @@ def compile(flat: FlatModel) -> System:
     if faults := overridden(system):
         raise ModelError(faults)
     system = started(placed(system, initially), initially)
-    return dataclasses.replace(system, narrows=None if len(system.moves) or rated else _subsystem)
+    whole_only = len(system.moves) or rated or numbering.parts
+    return dataclasses.replace(system, narrows=None if whole_only else _subsystem)
 
 
 def _subsystem(system: Any) -> Any:

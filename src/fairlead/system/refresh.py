@@ -43,6 +43,7 @@ from fairlead.system.compiled.context import ADDRESSES
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.initial import starts
 from fairlead.system.numbering.loops import cut
+from fairlead.system.numbering.parts_of_bodies import weighed
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.tolerances import scales
 from fairlead.system.numbering.unknowns import Numbering, nominal_given
@@ -61,6 +62,7 @@ def refreshed(old: System, flat: FlatModel) -> System:
     moved = unlike(old.flat, flat)
     heavier = any(old.flat.groups[k].mass != flat.groups[k].mass for k in moved)
     numbering = _numbering(old.numbering, flat, changed.values(), moved)
+    heavier = heavier or numbering.parts != old.numbering.parts
     begin, initially, faults = starts(flat, numbering)
     faults += nominal_faults(flat, numbering)
     if faults:
@@ -136,7 +138,7 @@ def _numbering(old: Numbering, flat: FlatModel, changed: Iterable[Instance], mov
             at = old.own[instance.path, name]
             start, nominal = number_given(instance.values, state.start), nominal_given(instance, state)
             unknowns[at] = replace(unknowns[at], start=start, nominal=nominal)
-    return replace(old, unknowns=unknowns)
+    return replace(old, unknowns=unknowns, parts=weighed(flat, old.parts) if old.parts else [])
 
 
 def _block(

@@ -138,7 +138,7 @@ class World:
 
     def solve(self, at: Instant) -> Instant:
         """The instant with the own unknowns and the accelerations that belong to its zone. Newton, analytic slopes."""
-        unknowns = [f"own:{name}" for name in self.kind.declaration.unknowns]
+        unknowns = [f"own:{name}" for name in self._told_here()]
         values = dict(at.values)
         for _ in range(30 if unknowns else 0):
             here = replace(at, values=values)
@@ -157,6 +157,10 @@ class World:
                 break
         here = replace(at, values=values)
         return replace(here, values={**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
+
+    def _told_here(self) -> list[str]:
+        """Unknowns that the law determines; what a tie bears depends on what it is tied between, as drawn."""
+        return [name for name in self.kind.declaration.unknowns if name != self.kind.answers.bears]
 
     def settle(self, at: Instant, zone: str) -> Instant:
         """Follow the guards from `zone` until none has risen. Raises CircleError naming the circle."""
@@ -209,7 +213,7 @@ class World:
         accelerations = self._accelerations(at, flows)
         moving = self.flows(replace(at, values={**at.values, **accelerations})) if self.structure.positions else {}
         found = []
-        for name in self.kind.declaration.unknowns:
+        for name in self._told_here():
             rates = held.get(name)
             if name in self.structure.positions:
                 found.append(moving[f"own:{name}"])

@@ -252,6 +252,9 @@ def _row_of_flow(
     if kind == RATE:
         at = numbering.rated.get(index)
         return (numbering.w_dump, 0.0) if at is None else (numbering.n + len(numbering.reactions) + at, -ratio * tau)
+    part = numbering.part_row.get(flat.node_of[PortRef(instance.path, name)])
+    if part is not None:  # and from there to the balance of the body, see parts_of_bodies.py
+        return part, -ratio
     if flat.groups[index].free:
         return numbering.balance[index], -ratio
     return numbering.n + numbering.reactions[index], ratio

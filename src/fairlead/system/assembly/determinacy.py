@@ -30,7 +30,7 @@ from fairlead.system.arrays.shares import shares
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.assembly.left_open import OPEN, as_written
 from fairlead.system.assembly.light_holds import held_entries, light_parts, relations
-from fairlead.system.numbering.unknowns import Numbering
+from fairlead.system.numbering.unknowns import Numbering, part_rows
 
 MOST_NAMED = 4  # nodes or components in one message
 THROUGH = {"translational": "force", "rotational": "torque", "hydraulic": "pressure", "electrical": "voltage",
@@ -42,10 +42,10 @@ def undetermined(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> 
     faults = [*_unknown_speeds(flat, numbering, blocks), *_floating(flat, blocks)]
     if faults or all(unknown.differential for unknown in numbering.unknowns):
         return faults
-    parts = _unmatched(_incidence(numbering, blocks, start=True))
+    parts = _unmatched(_incidence(flat, numbering, blocks, start=True))
     if not parts:
         return []
-    always = set().union(*_unmatched(_incidence(numbering, blocks, start=False)))
+    always = set().union(*_unmatched(_incidence(flat, numbering, blocks, start=False)))
     return [_open(flat, numbering, blocks, part, always=bool(part & always)) for part in parts]
 
 
@@ -223,7 +223,7 @@ def _and(names: Iterable[str]) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> list[set[int]]:
+def _incidence(flat: FlatModel, numbering: Numbering, blocks: list[Block], *, start: bool) -> list[set[int]]:
     """Per unknown the rows that may contain it: its rate if it is differential, else itself."""
     rows_of: list[set[int]] = [{j} if u.differential else set() for j, u in enumerate(numbering.unknowns)]
     algebraic = np.array([not u.differential for u in numbering.unknowns])
@@ -233,13 +233,18 @@ def _incidence(numbering: Numbering, blocks: list[Block], *, start: bool) -> lis
             rows_of[v] |= {x, v} if v in rated else {x}
     for index, a in numbering.accelerated.items():
         rows_of[a] |= {a, numbering.rate[index]}
+    balances = part_rows(flat, numbering)
+    for part in balances:
+        if part.acceleration < numbering.n and part.mass > 0:
+            rows_of[part.acceleration].add(part.row)
+    to_whole = {part.row: part.whole for part in balances if part.whole < numbering.n}
     signals = _Signals(numbering, blocks, algebraic)
     for block in blocks:
         s = block.kernel.structure
         for zone in s.zones[:1] if start else s.zones:
             for k, target in enumerate(s.targets):
                 for one in s.flow_inputs[zone].get(target, ()):
-                    _enter(rows_of, block, k, s.inputs.index(one), signals)
+                    _enter(rows_of, block, k, s.inputs.index(one), signals, to_whole)
     _enter_rates(rows_of, numbering, blocks, algebraic, start=start)
     for pair in numbering.circles:
         force = numbering.own[pair.path, pair.unknown]
@@ -269,14 +274,14 @@ def _enter_rates(
             rows_of[c].add(r)
 
 
-def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, signals: _Signals) -> None:
-    """Target k of every instance contains input j."""
+def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, signals: _Signals, to_whole: dict[int, int]) -> None:
+    """Target k of every instance contains input j; with the balance of a part, that of its body too."""
     n, algebraic = signals.n, signals.algebraic
     for row, z in zip(block.flow_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
         if row < n:
             for column in (z,) if z < n else signals.columns(z - n):
                 if algebraic[column]:
-                    rows_of[column].add(row)
+                    rows_of[column] |= {row, to_whole.get(row, row)}
 
 
 class _Signals:

@@ -5,7 +5,7 @@ Rows of the plan are signals by rank, reactions, then the n equations; see `prog
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from fairlead.system.arrays.shares import Share
 from fairlead.system.assembly.algebraic_nodes import add_rated_entries
 from fairlead.system.assembly.program import Entries, Program, plan
 from fairlead.system.assembly.redundancy import circle_entries
-from fairlead.system.numbering.unknowns import LEDGER, Numbering, reaction_masses
+from fairlead.system.numbering.unknowns import LEDGER, Numbering, part_rows, reaction_masses
 
 
 def jacobian(
@@ -30,9 +30,10 @@ def jacobian(
     entries = circle_entries(numbering, m, more)
     partials = more + len(numbering.circles) + len(numbering.share)
     add_rated_entries(entries, rated, m, partials)
+    to_whole = {one.row: (one.whole, one.sign) for one in part_rows(flat, numbering)}
     for block, share in zip(blocks, shares, strict=True):
         if block.acts:
-            _entries(block, share, numbering, entries, m)
+            _entries(block, share, numbering, entries, m, to_whole)
     _fixed_entries(flat, numbering, entries, m)
     level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials + len(rated["rated_terms"]))
     return plan(entries, numbering.n, m, level, fixed, list(numbering.ledger.values()))
@@ -67,8 +68,9 @@ def _levels(blocks: Sequence[Block], numbering: Numbering, m: int) -> Integers:
     return level
 
 
-def _entries(block: Block, share: Share, numbering: Numbering, entries: Entries, m: int) -> None:
-    """What one block adds."""
+def _entries(block: Block, share: Share, numbering: Numbering, entries: Entries, m: int,
+             to_whole: Mapping[int, tuple[int, float]]) -> None:  # fmt: skip
+    """What one block adds; in balances of parts also to those of their bodies."""
     s, count = block.kernel.structure, np.arange(block.count)
     kinds = (
         (s.d_signals, share.signals, "signal"),
@@ -81,6 +83,18 @@ def _entries(block: Block, share: Share, numbering: Numbering, entries: Entries,
             used = row >= 0
             partial = first + count * len(pairs) + e
             entries.add(row[used], block.in_index[used, j], partial[used], (coef * block.in_coef[:, j])[used])
+            if kind == "flow" and to_whole:
+                whole, sign = _wholes(block.flow_index[:, k], to_whole)
+                used = whole >= 0
+                row = np.where(whole < numbering.n, whole + m, whole - numbering.n + len(numbering.signals))
+                entries.add(row[used], block.in_index[used, j], partial[used],
+                            (sign * coef * block.in_coef[:, j])[used])  # fmt: skip
+
+
+def _wholes(rows: Integers, to_whole: Mapping[int, tuple[int, float]]) -> tuple[Integers, Floats]:
+    """Rows of w of the bodies of these parts, and how often these count there; -1 where a row is of no part."""
+    found = [to_whole.get(row, (-1, 0.0)) for row in rows.tolist()]
+    return np.array([whole for whole, _ in found], dtype=np.int64), np.array([sign for _, sign in found])
 
 
 def _row(block: Block, numbering: Numbering, kind: str, k: int, m: int) -> tuple[Integers, Floats]:
@@ -105,6 +119,8 @@ def _fixed_entries(flat: FlatModel, numbering: Numbering, entries: Entries, m: i
     for index, a in numbering.accelerated.items():  # m v' = m a, 0 = forces - m a; (v, v): its speed is no position
         v, inertia = numbering.rate[index], flat.groups[index].mass
         entries.add(np.array([v, a, v]) + m, np.array([a, a, v]), _zeros(3), np.array([inertia, -inertia, 0.0]))
+    for one in part_rows(flat, numbering):
+        entries.add(np.array([one.row + m]), np.array([one.acceleration]), _zeros(1), np.array([-one.mass]))
     for row, mass, a in reaction_masses(flat, numbering):
         entries.add(np.array([len(numbering.signals) + row]), np.array([a]), _zeros(1), np.array([mass]))
 

@@ -87,12 +87,23 @@ def evaluate(ctx, t, y):
 
 def react(ctx, w):
     """Reactions at prescribed nodes, and what rates of balances are in the balances of nodes without inertia."""
+    if ctx[N_PARTS] > 0:
+        gather(ctx, w)
     n, z = ctx[N], f8(ctx[Z])
     mass, at = f8(ctx[REACTION_MASS]), i8(ctx[REACTION_A])
     for r in range(0, ctx[N_REACTIONS]):
         z[ctx[REACTION_AT] + r] = w[n + r] + mass[r] * z[at[r]]
     if ctx[N_RATED] > 0:
         add_rates(ctx, w)
+
+
+def gather(ctx, w):
+    """Forces on parts of bodies are forces on the bodies; what is left of them on a part is its inertia."""
+    rows, coef, z = i8(ctx[PARTS]), f8(ctx[PARTS_COEF]), f8(ctx[Z])
+    for k in range(0, ctx[N_PARTS]):
+        row, whole, a = rows[OF_PART * k + PART_ROW], rows[OF_PART * k + PART_WHOLE], rows[OF_PART * k + PART_A]
+        w[whole] += coef[PART_COEFS * k + PART_SIGN] * w[row]
+        w[row] -= coef[PART_COEFS * k + PART_MASS] * z[a]
 
 
 def of_accelerations(ctx, y, w):

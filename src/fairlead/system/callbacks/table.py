@@ -18,6 +18,7 @@ from fairlead.system.callbacks.evaluation import (
     evaluate,
     follow,
     forces,
+    gather,
     give_motions,
     look,
     make_calls,
@@ -53,8 +54,8 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
 """Each with the types of its arguments and of what it returns."""
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
-    make_calls, give_motions, average, put_average, look, ask, react, follow, of_accelerations, evaluate, accelerate,
-    slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
+    make_calls, give_motions, average, put_average, look, ask, gather, react, follow, of_accelerations, evaluate,
+    accelerate, slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
 )  # fmt: skip
 """What callbacks call."""
 

@@ -17,7 +17,7 @@ from fairlead.system.arrays.following import followers
 from fairlead.system.arrays.switching import holds
 from fairlead.system.arrays.timing import time_places
 from fairlead.system.assembly.program import Program
-from fairlead.system.numbering.unknowns import Numbering, reaction_masses
+from fairlead.system.numbering.unknowns import Numbering, part_rows, reaction_masses
 
 # Positions of the context that hold the address of the array of that name, in lower case, in memory; there is one for
 # each name in `working.CHANGED` too.
@@ -27,8 +27,8 @@ ADDRESSES = (
     "LIGHT_COEF", "LIGHT_PLACES", "HOLDS", "LOOSE", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
-    "ACCELERATED", "ACCELERATED_MASS", "RATED", "RATED_JOINS", "RATED_MEMBERS", "RATED_WEIGHTS", "RATED_TERMS",
-    "GIVEN_PLACES", "FOLLOWING", "FOLLOWING_FLOWS",
+    "ACCELERATED", "ACCELERATED_MASS", "PARTS", "PARTS_COEF", "RATED", "RATED_JOINS", "RATED_MEMBERS",
+    "RATED_WEIGHTS", "RATED_TERMS", "GIVEN_PLACES", "FOLLOWING", "FOLLOWING_FLOWS",
 )  # fmt: skip
 # Positions that hold how many rows an array has.
 COUNTED = {
@@ -37,7 +37,7 @@ COUNTED = {
     "N_LIGHT_PARTS": "light_parts",
     "N_HOLDS": "holds", "N_LOOSE": "loose", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
-    "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated",
+    "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated", "N_PARTS": "parts",
     "N_RATED": "rated", "N_RATED_JOINS": "rated_joins", "N_RATED_TERMS": "rated_terms",
     "N_GIVEN_PLACES": "given_places", "N_FOLLOWING": "following", "N_FOLLOWING_FLOWS": "following_flows",
 }  # fmt: skip
@@ -48,7 +48,7 @@ def working_arrays(
 ) -> Memory:
     """What the callbacks read and write, beside what belongs to the mass matrix, guards, samples and outputs."""
     reactions, given = reaction_masses(flat, numbering), _given_places(blocks, numbering)
-    schedule = _schedule(blocks, numbering)
+    schedule, parts = _schedule(blocks, numbering), part_rows(flat, numbering)
     return {
         "z": np.zeros(numbering.dump + 1 + numbering.resting), "w": np.zeros(numbering.w_dump + 1),
         "f_rest": np.zeros(numbering.w_dump + 1),
@@ -60,6 +60,9 @@ def working_arrays(
         "accelerated": np.array([(numbering.rate[k], a) for k, a in numbering.accelerated.items()],
                                 dtype=np.int64).reshape(-1, layout.ACCELERATED_ROW),
         "accelerated_mass": np.array([flat.groups[k].mass for k in numbering.accelerated], dtype=float),
+        "parts": np.array([(one.row, one.whole, one.acceleration) for one in parts],
+                          dtype=np.int64).reshape(-1, layout.OF_PART),
+        "parts_coef": np.array([(one.sign, one.mass) for one in parts], dtype=float).reshape(-1, layout.PART_COEFS),
         "reaction_mass": np.array([mass for _, mass, _ in reactions], dtype=float),
         "reaction_a": np.array([a for _, _, a in reactions], dtype=np.int64),
         "work": np.concatenate([[1.0], np.zeros(program.length - 1)]),

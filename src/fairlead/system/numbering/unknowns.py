@@ -12,6 +12,7 @@ from fairlead.component.values import number_given
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.kernels.structure import Structure
 from fairlead.system.numbering.contact_cycles import REST, HeldPair, circles
+from fairlead.system.numbering.parts_of_bodies import Part, parts_of_bodies
 
 LEDGER = ("dissipated", "supplied")
 
@@ -38,6 +39,9 @@ class Numbering:
     rate: dict[int, int] = field(default_factory=dict)
     balance: dict[int, int] = field(default_factory=dict)  # group -> row of its balance
     accelerated: dict[int, int] = field(default_factory=dict)  # group -> its acceleration, where that is an unknown
+    parts: list[Part] = field(default_factory=list)  # of bodies whose ties say what they carry
+    part_row: dict[int, int] = field(default_factory=dict)  # node -> row of the balance of its part
+    common: dict[int, int] = field(default_factory=dict)  # group in parts -> its acceleration, an unknown
     own: dict[tuple[str, str], int] = field(default_factory=dict)
     circles: list[HeldPair] = field(default_factory=list)
     share: dict[int, int] = field(default_factory=dict)  # group in a circle -> unknown, see redundancy.py
@@ -113,6 +117,7 @@ def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool
             made.reactions[index] = len(made.reactions)
     for instance in flat.instances:
         _number_own(made, instance)
+    _number_parts(made, flat)
     made.circles = circles(flat, structures)
     for index in sorted({index for pair in made.circles for index, _ in pair.ends if index != REST}):
         group = flat.groups[index]
@@ -151,6 +156,52 @@ def _number_acceleration(made: Numbering, index: int, group: Group) -> None:
     unit = f"{group.domain.across[1][1]}^2"  # m/s^2
     name = f"{group.name}.{group.domain.acceleration}"
     made.accelerated[index] = made.balance[index] = made.add(Unknown(name, unit, False, 0.0, 0.0, "acceleration"))
+
+
+def _number_parts(made: Numbering, flat: FlatModel) -> None:
+    """Rows of parts are those of the ties that lead to them; that of the first is the acceleration of the body."""
+    made.parts = parts_of_bodies(flat)
+    for part in made.parts:
+        group = flat.groups[part.group]
+        if part.told_by is not None:
+            row = made.own[part.told_by]
+        elif group.free and part.group not in made.accelerated:
+            unit = f"{group.domain.across[1][1]}^2"
+            name = f"{group.name}.{group.domain.acceleration}"
+            row = made.common[part.group] = made.add(Unknown(name, unit, False, 0.0, 0.0, "acceleration"))
+        else:
+            continue
+        made.part_row |= dict.fromkeys(part.nodes, row)
+
+
+@dataclass(frozen=True)
+class PartRow:
+    """The balance of a part: its row in w, where it counts too and how often, its mass, where its acceleration is."""
+
+    row: int
+    whole: int
+    sign: float
+    mass: float
+    acceleration: int
+
+
+def part_rows(flat: FlatModel, numbering: Numbering) -> list[PartRow]:
+    """The balances of all parts that have one."""
+    found = []
+    given = {row: (a, mass / (flat.groups[k].mass or 1.0)) for (row, mass, a), k in
+             zip(reaction_masses(flat, numbering), numbering.reactions, strict=False)}  # fmt: skip
+    for part in numbering.parts:
+        row = numbering.part_row.get(part.nodes[0])
+        if row is None:
+            continue
+        if flat.groups[part.group].free:
+            a = numbering.common.get(part.group, numbering.accelerated.get(part.group, -1))
+            found.append(PartRow(row, numbering.balance[part.group], 1.0, part.mass, a))
+        else:
+            reaction = numbering.reactions[part.group]
+            a, share = given[reaction]
+            found.append(PartRow(row, numbering.n + reaction, -1.0, part.mass * share, a))
+    return found
 
 
 def groups_kept(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
