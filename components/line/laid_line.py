@@ -146,12 +146,27 @@ class LaidLine(OfLine):
         parts: Parts = {}
         return parts if agree(self.values, now.values, parts) else None
 
+    def untold(self, to: Laying, line: Any) -> list[Fault]:
+        """A core that does not stretch has its motion given, and connectors between its ends, on which friction acts.
+
+        What holds a body whose motion is given has no force that is determined.
+        """
+        inner = sorted(self.mesh.connectors - {0, self.mesh.elements})
+        given = [i for i in inner if PortRef(f"{line.path}.{self.outer}[{i}]", "flange") in to.prescribed]
+        if not (self.rigid and given):
+            return []
+        what = f"{line.path}.core_stretch is off, its motion is given, and its modules have connectors in between"
+        what += ", which no friction could hold back."
+        return [Fault(line.where, what, "Drive it over a Spring, take one module, or leave core_stretch on.")]
+
     def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
         """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""
         faults = fits(assembly, self, line, route)
         if faults:
             return faults
         add = OnRoute(self, Laying(assembly, line), route.path, route.line)
+        if faults := self.untold(add.to, line):
+            return faults
         for i in range(self.mesh.elements + 1):
             if PortRef(f"{line.path}.{self.outer}[{i}]", "flange") not in add.to.prescribed:  # friction changes nothing
                 add.node(i)

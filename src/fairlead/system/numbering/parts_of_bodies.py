@@ -7,7 +7,8 @@ to know it. Then the body falls into parts, one for each side of such a tie, and
 
 with what its ties carry among the forces. That of the body, m v' = sum of all forces, is the sum of them and stays as
 it is. So a body of n + 1 parts and n ties has n + 1 rows more and as many unknowns: what n ties carry, and `a` itself;
-it has one position and one speed. Where the motion of the body is given, `a` is too, and one part has no row.
+it has one position and one speed. Where the motion of the body is given, `a` is too, and the part at which it is given
+has no row: what that takes acts there, and is a reaction of the whole body.
 
 Ties that close a ring leave open what each of them carries, and are refused.
 """
@@ -61,11 +62,12 @@ def _found(flat: FlatModel) -> tuple[list[Part], list[Fault]]:
         beside.setdefault(one, []).append((other, instance))
         beside.setdefault(other, []).append((one, instance))
         groups[flat.place(PortRef(instance.path, a))[0]] = None
-    inertia, members = _inertias(flat), _members(pieces)
+    inertia, members, given = _inertias(flat), _members(pieces), _given(flat)
     parts: list[Part] = []
     faults: list[Fault] = []
     for group in groups:
-        first = pieces[flat.groups[group].nodes[0]]
+        held = list(dict.fromkeys(pieces[node] for node in given.get(group, ())))
+        first = held[0] if held else pieces[flat.groups[group].nodes[0]]
         told: dict[int, Instance | None] = {first: None}
         used, queue = set[str](), [first]
         for piece in queue:
@@ -79,6 +81,10 @@ def _found(flat: FlatModel) -> tuple[list[Part], list[Fault]]:
                     continue
                 told[other] = instance
                 queue.append(other)
+        if len(held) > 1:
+            where = next(i for i in told.values() if i is not None)
+            what = f"{where.path} lies between two places whose motion is given, and what it carries is not determined."
+            faults.append(Fault(where.where, what, "Give the motion of one of them only."))
         if flat.groups[group].free and flat.groups[group].mass == 0:
             name, where = next((i.path, i.where) for i in told.values() if i is not None)
             what = f"{name} joins nodes without any mass, and nothing says how they move."
@@ -87,6 +93,17 @@ def _found(flat: FlatModel) -> tuple[list[Part], list[Fault]]:
             row = None if by is None else (by.path, by.type.answers.bears)
             parts.append(Part(group, tuple(members[piece]), row, _mass(members[piece], inertia)))
     return parts, faults
+
+
+def _given(flat: FlatModel) -> dict[int, list[int]]:
+    """By group the nodes at which its motion is given: what that takes acts there, so their part has no row."""
+    found: dict[int, list[int]] = {}
+    for instance in flat.instances:
+        says = instance.type.answers.prescribes
+        for port in says() if says is not None else ():
+            node = flat.node_of[PortRef(instance.path, port)]
+            found.setdefault(flat.group_of[node][0], []).append(node)
+    return found
 
 
 def _pieces(flat: FlatModel) -> list[int]:
