@@ -18,8 +18,8 @@ class RigidCore(Component):
     tension = Output("N", "Tension; negative when it pushes.")
 
     def law(p, a, b, carried):
-        """One tension; the motion of one end is that of the other."""
-        return Law(a=-carried, b=+carried, tension=carried)
+        """One tension, whose work on one end is what it takes from the other."""
+        return Law(a=-carried, b=+carried, tension=carried, stored=0, dissipated=0)
 
     def ties(p):
         """(a, b, ratio, offset):  b = ratio * a + offset."""
