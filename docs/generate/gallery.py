@@ -15,11 +15,12 @@ from generate.text import flowing
 TAKEN = {"single_bend": "page_light.png", "guidance_route": "page_dark.png"}
 """Models with a picture of their page in docs/figures, which a browser takes."""
 DEAR = frozenset({
-    "guidance_route_electric", "guidance_route_ideal", "long_deployment", "long_route", "plant", "electronics",
+    "guidance_route_electric", "guidance_route_ideal", "guidance_route_sized", "long_deployment", "long_route", "plant",
+    "electronics",
 })  # fmt: skip
 """Models that show their wiring only: their runs take too long for a build, or say nothing without their other half."""
 FOLDERS = {"machines": "Whole machines", "hard": "Hard cases, each with a closed form",
-           "coupled": "Two halves that are coupled"}  # fmt: skip
+           "sized": "With sizes that have a source", "coupled": "Two halves that are coupled"}  # fmt: skip
 """Folders of models below the bundled ones, with their headings."""
 ABOUT = """\
 Every bundled model, with the question that it answers, its command and a picture. The small netlist of a part stands on

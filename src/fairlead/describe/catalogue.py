@@ -25,7 +25,7 @@ INNARDS = frozenset((
     "Core", "CurrentLimit", "Dancer", "Drum", "ElementaryFunction", "FarNode", "Flank", "FlankLoad", "Growing",
     "Hose", "Jaws", "LaidOn", "LateralLoad", "LeverArm", "LineWeight", "LoadLoss", "LoopedCore", "LoopedHose",
     "Meter", "MotorFriction", "OilColumn", "PilotedRelief", "PlanarContact", "PressedLoad", "Pressing",
-    "Registration", "RelaxingHose", "ReturnSpring", "RoundLoad", "RuckingHose", "SeaDrag", "SealForce",
+    "Registration", "RelaxingHose", "ReturnSpring", "RigidCore", "RoundLoad", "RuckingHose", "SeaDrag", "SealForce",
     "SpaceState", "Spiral", "SteadyRoll", "StoredNode", "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told",
     "ToothLoad", "ToothLoss", "Tow", "TransferStage", "TransferThrough", "Turning", "TwistElement", "Untouched",
     "WatchedHose", "WoundNode", "WoundWeb", "WrapGrip",
