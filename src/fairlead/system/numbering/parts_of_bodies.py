@@ -82,9 +82,9 @@ def _found(flat: FlatModel) -> tuple[list[Part], list[Fault]]:
                 told[other] = instance
                 queue.append(other)
         if len(held) > 1:
-            one = next(i for i in told.values() if i is not None)
-            what = f"{one.path} lies between two places whose motion is given, and what it carries is not determined."
-            faults.append(Fault(one.where, what, "Give the motion of one of them only."))
+            link = next(i for i in told.values() if i is not None)
+            what = f"{link.path} lies between two places whose motion is given, and what it carries is not determined."
+            faults.append(Fault(link.where, what, "Give the motion of one of them only."))
         if flat.groups[group].free and flat.groups[group].mass == 0:
             name, where = next((i.path, i.where) for i in told.values() if i is not None)
             what = f"{name} joins nodes without any mass, and nothing says how they move."
