@@ -148,7 +148,12 @@ def _flows(
         if kind == OWN:
             found = [(numbering.own[instance.path, name], 1.0) for instance in ports.instances]
         else:
-            found = [_row_of_flow(flat, numbering, kind, group, ratio, tau) for group, ratio, _ in ports.places(name)]
+            places = ports.places(name)
+            found = [_row_of_flow(flat, numbering, kind, group, ratio, tau) for group, ratio, _ in places]
+            if kind != RATE and numbering.part_row:  # and from there to the balance of the body, see parts_of_bodies.py
+                for i, instance in enumerate(ports.instances):
+                    part = numbering.part_row.get(flat.node_of[PortRef(instance.path, name)])
+                    found[i] = found[i] if part is None else (part, -places[i][1])
         index[:, j], coef[:, j] = zip(*found, strict=True)
     return index, coef
 
@@ -252,9 +257,6 @@ def _row_of_flow(
     if kind == RATE:
         at = numbering.rated.get(index)
         return (numbering.w_dump, 0.0) if at is None else (numbering.n + len(numbering.reactions) + at, -ratio * tau)
-    part = numbering.part_row.get(flat.node_of[PortRef(instance.path, name)])
-    if part is not None:  # and from there to the balance of the body, see parts_of_bodies.py
-        return part, -ratio
     if flat.groups[index].free:
         return numbering.balance[index], -ratio
     return numbering.n + numbering.reactions[index], ratio
