@@ -15,7 +15,7 @@ class RigidCore(Component):
     b = Translational("outboard end")
     length = Parameter("m", "Distance of its ends.", above=0)
     carried = Unknown("N", "Tension.")
-    tension = Output("N", "Tension; negative when it pushes.")
+    tension = Output("N", "Tension; negative when it pushes, which a run remarks.", role="pull")
 
     def law(p, a, b, carried):
         """One tension, whose work on one end is what it takes from the other."""

@@ -18,6 +18,7 @@ from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.no_rebound import remark as no_rebound
+from fairlead.analysis.record.pushes import pushes
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.remedy import remedies
 from fairlead.analysis.record.rounded_in_impacts import remark as rounded_in_impacts
@@ -231,7 +232,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
         "gave_way": watch.gave_way.plain(),
-        "strains": watch.strains.summary(),
+        "strains": watch.strains.summary(), "pushes": pushes(watch.extremes, watch.recording.recorded),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip
 

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+import fairlead
 from fairlead.errors import ModelError
 
 TRAIN = """
@@ -158,3 +159,26 @@ def test_other_masses_are_those_of_a_model_read_anew(scene):
 def test_what_no_core_without_stretch_can_do_is_refused_by_name(scene, text, said):
     with pytest.raises(ModelError, match=said):
         scene(text).system  # noqa: B018 - compiled here
+
+
+def test_a_core_that_pushes_is_told(simulate):
+    """Hauled from both ends, the one behind faster: between them it is pressed together by what rubs on it."""
+    text = """
+    components:
+      behind: {{type: MotionSource, velocity: 0.1 m/s}}
+      first: {{type: RigidCore, length: 1 m}}
+      second: {{type: RigidCore, length: 1 m}}
+      body: {{type: Mass, mass: 1 kg}}
+      rubs: {{type: Damper, damping: {damping} N*s/m}}
+      end: {{type: Mass, mass: 1 kg}}
+      pull: {{type: ForceSource, force: 2 N}}
+      floor: {{type: Ground}}
+    connections: [[behind.flange, first.a], [first.b, body.flange, rubs.b, second.a], [rubs.a, floor.flange],
+                  [second.b, end.flange, pull.flange]]
+    run: {{stop: 1 s, accuracy: 1e-6}}
+    """
+    with pytest.warns(fairlead.RunWarning, match=r"first pushes with 1 N at t = .*: a core pushes only"):
+        found = simulate(text.format(damping=30)).run["pushes"]
+    assert (found["component"], found["count"]) == ("first", 1)
+    assert found["most"] == pytest.approx(1.0, rel=1e-6)  # 2 N pull, and 30 * 0.1 N are lost behind
+    assert simulate(text.format(damping=10)).run["pushes"] is None

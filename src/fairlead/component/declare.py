@@ -99,8 +99,8 @@ class Input:
     signed: bool = False  # what it means may be negative, such as a command; the contract suite asks with both signs
 
 
-CREEP, SHARE, STRAIN, INTEGRAL = "creep", "share", "strain", "integral"
-ROLES = (CREEP, SHARE, STRAIN, INTEGRAL)
+CREEP, SHARE, STRAIN, PULL, INTEGRAL = "creep", "share", "strain", "pull", "integral"
+ROLES = (CREEP, SHARE, STRAIN, PULL, INTEGRAL)
 
 
 @dataclass(frozen=True)
@@ -111,6 +111,7 @@ class Output:
     run tells the worst. SHARE is what an element or a node of a line takes in, which belongs to its length: with finer
     elements there are more and smaller ones, so two meshes are not compared by it. Creep is not compared either.
     STRAIN is that of an element, over its length without load; a run watches it, see `compressible` of a component.
+    PULL is the force of what can only pull in a machine, though not by its law; a run tells where it pushes.
     INTEGRAL is what a controller has gathered; a run tells where it winds up, see `saturates_in`.
     `rounded_by` is the parameter over which a corner at zero of this output is rounded off; a run tells where the
     output stays so small that the rounding counts. In a Composite the parameter has the same name.

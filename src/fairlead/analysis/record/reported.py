@@ -11,6 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 from fairlead.analysis.record.chattering import remark as of_chatter
 from fairlead.analysis.record.energy import open_by, unjudged
+from fairlead.analysis.record.pushes import remark as of_pushes
 from fairlead.analysis.record.strains import remark as of_strains
 
 OPEN = 0.1
@@ -41,6 +42,8 @@ def told(run: Mapping[str, Any]) -> Iterator[Told]:
         yield Told("note", silent)
     if strained := of_strains(run.get("strains")):
         yield Told("warning", strained)
+    if pushed := of_pushes(run.get("pushes")):
+        yield Told("warning", pushed)
     for broken in run.get("limits_broken") or ():
         yield Told("limit broken", str(broken))
 

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fairlead.component.declare import CREEP, INTEGRAL, STRAIN
+from fairlead.component.declare import CREEP, INTEGRAL, PULL, STRAIN
 from fairlead.kernels import layout
 from fairlead.patterns import picked
 from fairlead.system.arrays.blocks import Block, Integers
 from fairlead.system.arrays.shares import shares
 from fairlead.system.arrays.shown import what_to_ask
 
-WATCHED = (CREEP, STRAIN, INTEGRAL)
+WATCHED = (CREEP, STRAIN, PULL, INTEGRAL)
 """Roles of outputs that every run looks at, whatever is recorded."""
 
 
