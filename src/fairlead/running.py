@@ -232,7 +232,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
         "gave_way": watch.gave_way.plain(),
-        "strains": watch.strains.summary(), "pushes": pushes(watch.extremes, watch.recording.recorded),
+        "strains": watch.strains.summary(), "pushes": pushes(watch.extremes, watch.recording.recorded, watch.accuracy),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip
 

@@ -6,6 +6,9 @@ import sys
 
 import pytest
 
+from fairlead.integrate.memory.layout import check_names
+from fairlead.integrate.memory.struct import Struct
+
 TRAPS = """
 import numba, numpy
 from fairlead.integrate.memory.foreign import indices, reals
@@ -47,3 +50,9 @@ def test_no_index_lies_outside_in_runs_of_both_engines(tmp_path):
     ended = checked(RUNS, tmp_path)
     assert ended.returncode == 0, ended.stderr
     assert ended.stdout == "FINISHED True\n" * 4
+
+
+def test_two_structs_with_one_name_are_refused():
+    """The arrays of both would be one, as long as the second says, and the loop of the first would write beyond it."""
+    with pytest.raises(ValueError, match="second declares slips, which first has"):
+        check_names({"first": Struct(reals={"slips": "n"}), "second": Struct(indices={"slips": "n_zones"})})

@@ -90,9 +90,21 @@ def test_it_leaves_and_lands_when_it_should(simulate, amplitude, frequency, unit
     assert len(told) == 2 * len(exact) + 1
 
 
+@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(k, marks=pytest.mark.slow) for k in range(4, 24))])
+def test_what_has_left_is_not_met_again_at_once(simulate, seed):
+    """By the rounding of its place and of the shaker. It may leave at once where it lands on what falls."""
+    chance = np.random.default_rng(seed)
+    frequency, accuracy = chance.uniform(1, 6), 10 ** chance.uniform(-7, -3)
+    amplitude, unit = chance.uniform(1.1, 2) * G / (2 * np.pi * frequency), 10 ** chance.uniform(-3, 3)
+    told = simulate(shaken(amplitude, frequency, "rodas", accuracy, 4 / frequency, unit)).events
+    flown = [later.t - event.t for event, later in pairwise(told) if event.zone_to == "free"]
+    assert len(flown) >= 2
+    assert min(flown) > 1e-3 / frequency
+
+
 def test_ida_says_which_engine_to_take(simulate):
     """It goes on from its own past, so that it cannot put a body back."""
-    with pytest.raises(fairlead.RunError, match=r"bodies at rest lie on what moves as given.*run\.engine: rodas"):
+    with pytest.raises(fairlead.RunError, match=r"Bodies at rest lie on what moves as given.*run\.engine: rodas"):
         simulate(shaken(1.0, 2, "ida", 1e-4, 0.5))
 
 

@@ -37,12 +37,12 @@ class HoldRow:
     restitution: sympy.Expr = sympy.S.Zero  # a number, or the symbol of a parameter
     gap: sympy.Expr | None = None  # of a position row, whose ratios move and are in no row of M
     way: sympy.Expr | None = None  # of a stop: how far it is open, which has the slip as its rate
+    ratios: dict[str, sympy.Expr] = field(default_factory=dict)  # port -> d(gap)/d(position)
 
     @property
     def place(self) -> sympy.Expr | None:
         """What positions should be where this holds, as what should be zero; None where only speeds are known."""
         return self.way if self.gap is None else self.gap
-    ratios: dict[str, sympy.Expr] = field(default_factory=dict)  # port -> d(gap)/d(position)
 
 
 def slip_row(slip: sympy.Expr, within: sympy.Expr | None, restitution: sympy.Expr, place: str) -> HoldRow:

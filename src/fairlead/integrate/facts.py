@@ -45,6 +45,10 @@ class Facts(Protocol):
         """
 
     @property
+    def met_guard(self) -> Integers:
+        """Guards of places at which a stop is met that takes any impulse: known to rounding (settling.py)."""
+
+    @property
     def takes_impulse(self) -> Integers:
         """[n]: 0 for a row that never holds, 1 for one that takes no impulse but rounding, 2 for one that takes any.
 
@@ -175,6 +179,11 @@ class Plain:
     def kink_guard(self) -> Integers:
         """None is."""
         return np.zeros(len(self.guard_machine), dtype=np.int64)
+
+    @property
+    def met_guard(self) -> Integers:
+        """None is known."""
+        return np.zeros(0, dtype=np.int64)
 
     @property
     def takes_impulse(self) -> Integers:

@@ -67,14 +67,14 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
         **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
         "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
-        "n_accelerated": int(np.count_nonzero(problem.moves[:, 2] >= 0)),
+        "n_accelerated": int(np.count_nonzero(problem.moves[:, 2] >= 0)), "n_met_guards": len(problem.met_guard),
         "n_balanced": len(problem.balanced), "n_light": len(light),
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_moves": len(problem.moves), "n_balanced": len(problem.balanced), "n_light": len(light),
-        "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
+        "n_met_guards": len(problem.met_guard), "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
@@ -83,7 +83,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
     given: dict[str, np.ndarray] = {
         "guard_machine": problem.guard_machine,
         "kink_guard": np.asarray(problem.kink_guard, np.int64),
-        "may_hold": _of_contacts(problem),
+        "may_hold": _of_contacts(problem), "met_guard": np.asarray(problem.met_guard, np.int64),
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
         "holder": np.asarray(problem.holder, np.int64), "in_circle": _in_circles(problem),

@@ -10,16 +10,18 @@ import numpy as np
 from fairlead.analysis.record.extremes import Extremes
 from fairlead.component.declare import PULL
 from fairlead.system.arrays.recording import OutputSignal
-
-SLACK = 1e-3
-"""Share of the largest pull below which a push is none, but what accuracy leaves of zero."""
+from fairlead.system.numbering.tolerances import roundings
 
 
-def pushes(extremes: Extremes, recorded: Sequence[OutputSignal]) -> dict[str, Any] | None:
-    """For run.json: the largest push, whose and when, and how many push; None where nothing does."""
+def pushes(extremes: Extremes, recorded: Sequence[OutputSignal], accuracy: float) -> dict[str, Any] | None:
+    """For run.json: the largest push, whose and when, and how many push; None where nothing does.
+
+    A push below the accuracy of the largest pull, or below what a force is known to, is what is left of zero.
+    """
     columns = [k for k, signal in enumerate(recorded) if signal.role == PULL and k < len(extremes.lowest)]
     least, most = extremes.lowest[columns], extremes.highest[columns]
-    pushed = np.flatnonzero(np.isfinite(least) & (least < -SLACK * np.max(most, initial=0.0)))
+    left = accuracy * np.max(most, initial=0.0) + roundings([recorded[k].unit for k in columns])
+    pushed = np.flatnonzero(np.isfinite(least) & (least < -left))
     if not len(pushed):
         return None
     worst = int(pushed[least[pushed].argmin()])

@@ -22,7 +22,7 @@ def with_way_out(sentence: str, system: System, engine: str, cycling: Iterable[s
     wanted = set(cycling)
     if engine == "ida" and (shaken := sorted(wanted.intersection(system.on_given_motion))):
         why = "lie on what moves as given, to which ida does not bring bodies back"
-        return f"{sentence.partition(CAUSE)[0]}bodies at {listing(shaken[:MOST_NAMED])} {why}. Take run.engine: rodas."
+        return f"{sentence.partition(CAUSE)[0]}Bodies at {listing(shaken[:MOST_NAMED])} {why}. Take run.engine: rodas."
     banded = [instance.path for instance in system.flat.instances
               if instance.path in wanted and getattr(instance.type, "word", "") == BANDED]  # fmt: skip
     if not banded:

@@ -42,6 +42,8 @@ HOLD, STOP = 1, 2
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
+PLACE_ROUNDING = 4 * 2.0**-52
+"""What a place is known to, as a share of itself and of speed times time, the phase of x(t): four ulps each."""
 NEARER, LOOKS = 0.1, 3
 """How much less far guards are looked ahead for when single switches go in a circle, and how often. Nearer still no
 guard would be seen to rise, and laws that contradict each other would pass for settled."""
@@ -293,6 +295,8 @@ def judge(problem, run, point, events):
         at_limit = at_limit or abs(g[i]) <= tolerance[i]
     if at_limit:
         look_ahead(problem, run, point, events)
+    if at_limit and problem.n_met_guards > 0:
+        forget_rounding(problem, point, guards)
     fired, wrong = indices(guards.at_fired, ng), reals(settling.at_wrong, ng)
     inertia = reals(guards.at_guard_inertia, ng)
     for i in range(ng):
@@ -304,6 +308,23 @@ def judge(problem, run, point, events):
                 wrong[i] *= inertia[i] / (SLIP_TIME if g[i] > tolerance[i] else settling.look)
             fired[guards.n_fired] = i
             guards.n_fired += 1
+
+
+@compiled
+def forget_rounding(problem, point, guards):
+    """A place at which a stop is met does not rise by rounding: of places, and of a given one by that of the time.
+
+    Without this a body that leaves a stop on a shaker met it again at once, and left it, some times over.
+    """
+    g, probe = reals(guards.at_g, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
+    position, y, known_to = indices(problem.at_position_of, problem.n), reals(point.at_y, problem.n), 0.0
+    for v in range(problem.n):
+        if position[v] >= 0:
+            known_to = max(known_to, PLACE_ROUNDING * (abs(y[position[v]]) + abs(y[v] * point.t)))
+    met = indices(problem.at_met_guard, problem.n_met_guards)
+    for i in met:
+        if abs(probe[i] - g[i]) <= known_to:
+            probe[i] = g[i]
 
 
 @compiled

@@ -33,6 +33,19 @@ STRUCTS: Mapping[str, Struct] = {
     for room, inside in ROOMS.items()
     for name, struct in ({room: inside} if isinstance(inside, Struct) else inside).items()
 }
+
+
+def check_names(structs: Mapping[str, Struct]) -> None:
+    """Refuse what two structs declare: the second would stand in the memory of the first, with its own length."""
+    owners: dict[str, str] = {}
+    for owner, struct in structs.items():
+        for name in (*struct.integers, *struct.numbers, *struct.reals, *struct.indices):
+            if name in owners:
+                raise ValueError(f"{owner} declares {name}, which {owners[name]} has. Choose another name, or a copy.")
+            owners[name] = owner
+
+
+check_names(STRUCTS)
 VECTORS = {name: length for struct in STRUCTS.values() for name, length in struct.reals.items()}
 """Arrays of doubles, by the name of their length."""
 INDICES = {name: length for struct in STRUCTS.values() for name, length in struct.indices.items()}

@@ -20,6 +20,8 @@ PROBLEM = Struct(
         # positions that move back to relations, and those of which the acceleration is an unknown, as of relations that
         # hold for ever
         "n_moves", "n_accelerated",
+        # guards of places at which stops are met
+        "n_met_guards",
         # whether friction of a contact falls as it lets go
         "falling", "linear", "n_quadratures", "samples",
         # address of what the callbacks read of means of given motions, 0 where none is given
@@ -35,6 +37,7 @@ PROBLEM = Struct(
         "move_position": "n_moves", "move_speed": "n_moves", "move_acceleration": "n_moves",
         # nodes without inertia: their positions and speeds
         "balanced_position": "n_balanced", "balanced_speed": "n_balanced",
+        "met_guard": "n_met_guards",
         # entries of M in columns of speeds without inertia
         "light": "n_light",
         # the speed of an acceleration that is an unknown; of others they themselves

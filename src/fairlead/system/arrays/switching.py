@@ -13,6 +13,7 @@ import numpy as np
 from fairlead.component.instantiate import PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
+from fairlead.kernels.structure import Structure
 from fairlead.system.arrays.blocks import Block, Integers, Memory
 from fairlead.system.arrays.timing import tables
 
@@ -130,6 +131,22 @@ def limits(blocks: Sequence[Block]) -> Integers:
         slots = [max((int(g[k]["limits"]) for g in s.guards.values() if k < len(g)), default=0) for k in range(s.slots)]
         found += slots * block.count
     return np.array(found, dtype=np.int64)
+
+
+def met(blocks: Sequence[Block]) -> Integers:
+    """Guards of places at which a stop is met: they lead to a zone that holds without a limit."""
+    found: list[bool] = []
+    for block in blocks:
+        slots = met_slots(block.kernel.structure)
+        found += [slot in slots for slot in range(block.kernel.structure.slots)] * block.count
+    return np.flatnonzero(found)
+
+
+def met_slots(s: Structure) -> set[int]:
+    """Slots of a class whose guards are such."""
+    rigid = {s.zones.index(zone) for unknown in s.rigid for zone in s.holds[unknown]}
+    known = [pair for of_zone in s.guards.values() for pair in enumerate(of_zone)]
+    return {slot for slot, guard in known if guard["to"] in rigid and guard["unit"] in ("m", "rad")}
 
 
 def kinks(blocks: Sequence[Block]) -> Integers:

@@ -21,6 +21,7 @@ from fairlead.system.arrays.switching import (
     machine_kinds,
     machine_owners,
     machine_zones,
+    met,
     stops,
     takes_impulse,
 )
@@ -92,6 +93,7 @@ def build(
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),
         takes_impulse=takes_impulse(blocks, numbering.n),
+        met_guard=met(blocks),
         limit_guard=limits(blocks),
         kink_guard=kinks(blocks),
         linear=all(_is_linear(block, numbering) for block in blocks),

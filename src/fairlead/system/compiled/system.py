@@ -19,10 +19,10 @@ from fairlead.distinct import distinct
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.kernels.break_away import least_left
-from fairlead.kernels.structure import Structure
 from fairlead.system.arrays.blocks import Block, Memory, Tables
 from fairlead.system.arrays.plain_python import CalledController, Known, called_controllers
 from fairlead.system.arrays.recording import OutputSignal, Recording, choose
+from fairlead.system.arrays.switching import met_slots
 from fairlead.system.arrays.timing import PlacedTable
 from fairlead.system.arrays.working import Bytes, Working, addressed, discrete, offsets
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
@@ -76,6 +76,7 @@ class System:
     guard_inertia: Floats  # at the start
     holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
     takes_impulse: Integers  # per row: 0 it never holds, 1 it takes no impulse but rounding, 2 it takes any
+    met_guard: Integers  # guards of places at which a stop is met
     limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
     kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
@@ -161,7 +162,7 @@ class System:
     @property
     def rigid_stops(self) -> list[str]:
         """What is met at a place and then takes any impulse, by name."""
-        return [i.path for block in self.blocks if _meets_rigidly(block.kernel.structure) for i in block.instances]
+        return [i.path for block in self.blocks if met_slots(block.kernel.structure) for i in block.instances]
 
     @property
     def kept_positions(self) -> list[str]:
@@ -359,9 +360,3 @@ def _own_block(block: Block, k: int, own: Memory) -> Block:
     if discrete(k) in own:
         block = replace(block, parameters=own[discrete(k)])
     return replace(block, in_offset=own[offsets(k)]) if offsets(k) in own else block
-
-
-def _meets_rigidly(s: Structure) -> bool:
-    """True if a guard on a place leads to a zone that holds without a limit."""
-    rigid = {s.zones.index(zone) for unknown in s.rigid for zone in s.holds[unknown]}
-    return any(g["to"] in rigid and g["unit"] in ("m", "rad") for known in s.guards.values() for g in known)
