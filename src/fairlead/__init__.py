@@ -12,7 +12,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from fairlead.errors import FairleadError, ModelError, RunError, RunInterrupted, RunWarning, SteppingError, UsageError
-from fairlead.simulate import Model, describe_type, json_schema, load, run
+from fairlead.model import Model
+from fairlead.simulate import describe_type, json_schema, load, run
 
 if TYPE_CHECKING:
     from fairlead.result import Result

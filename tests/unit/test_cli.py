@@ -355,7 +355,7 @@ def test_ctrl_c_while_a_verb_loads_ends_like_one_later(monkeypatch):
     import sys
 
     monkeypatch.delitem(sys.modules, "fairlead.cli.verb")
-    monkeypatch.delitem(sys.modules, "fairlead.simulate", raising=False)
+    monkeypatch.delitem(sys.modules, "fairlead.model", raising=False)
     monkeypatch.setattr(fairlead, "load", StandIn(raises=KeyboardInterrupt()).load)
     said = CliRunner().invoke(app, ["check", "belt"])
     assert (said.exit_code, said.stderr) == (130, "interrupted\n")

@@ -46,7 +46,7 @@ ALLOWED = {
     "report": {"arguments", "errors", "quantities", "patterns", "results", "analysis", "flatten"},
 }
 # May import all that lies before:
-LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "tuning", "outer", "renewal",
+LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "tuning", "outer", "renewal", "model",
         "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__", "models"}  # fmt: skip
 
 

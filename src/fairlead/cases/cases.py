@@ -27,9 +27,9 @@ from fairlead.netlist.settings import RecordSettings
 from fairlead.running import run
 
 if TYPE_CHECKING:
+    from fairlead.model import Model
     from fairlead.result import Result
     from fairlead.results.events import Event
-    from fairlead.simulate import Model
 
 Floats = NDArray[np.float64]
 Take = Callable[["Result"], None]

@@ -26,7 +26,7 @@ from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si
 
 if TYPE_CHECKING:
-    from fairlead.simulate import Model
+    from fairlead.model import Model
 
 Function = Callable[[Any], float]
 OF_SEVERAL = ("peak", "lowest", "largest")

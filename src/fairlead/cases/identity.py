@@ -16,7 +16,7 @@ from fairlead.analysis.cost.kept_runs import bytes_of, code_digest
 from fairlead.netlist.netlist import Value
 
 if TYPE_CHECKING:
-    from fairlead.simulate import Model
+    from fairlead.model import Model
 
 FORMAT = "fairlead-case-1"
 LENGTH = 24

@@ -50,8 +50,8 @@ def run(
     import fairlead
     from fairlead.cli.growing import Growing
     from fairlead.cli.progress import progress_bar
+    from fairlead.model import Place
     from fairlead.netlist.settings_file import read_settings
-    from fairlead.simulate import Place
 
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries, allow_fmu=allow_fmu)

@@ -16,8 +16,8 @@ from fairlead.fmu.made import Asked, asked_of, made_of, own_version, sources
 from fairlead.fmu.refusals import refuse_version
 
 if TYPE_CHECKING:
+    from fairlead.model import Model
     from fairlead.netlist.keywords import RunKeywords
-    from fairlead.simulate import Model
 
 FOLDERS = {2: "linux64", 3: "x86_64-linux"}
 """Where the library is, by version of the standard."""

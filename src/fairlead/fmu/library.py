@@ -24,8 +24,8 @@ from fairlead.fmu.tuned import AFTER, ALWAYS, BEFORE, Tuned
 from fairlead.outer import Variable
 
 if TYPE_CHECKING:
+    from fairlead.model import Model
     from fairlead.netlist.keywords import RunKeywords
-    from fairlead.simulate import Model
 
 EXAMPLE_STEPS = 20
 MARK = "/* Written by fairlead, which leaves this file alone once it has been edited. Digest: "

@@ -31,10 +31,10 @@ from fairlead.outside import LaidOpen, Stepping, laid_open
 from fairlead.patterns import picked
 
 if TYPE_CHECKING:
+    from fairlead.model import Model
     from fairlead.netlist.keywords import RunKeywords
     from fairlead.netlist.netlist import Netlist
     from fairlead.netlist.settings import RunSettings
-    from fairlead.simulate import Model
     from fairlead.system.compiled.system import System
 
 RUN = ("run.h", "run.c", "image.h", "pivots.h", "pivots.c", "tuned.h", "tuned.c")

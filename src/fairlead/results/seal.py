@@ -28,7 +28,7 @@ def sealed(*files: Path) -> dict[str, Any]:
 
 def require_intact(file: Path, record: Mapping[str, Any]) -> None:
     """Raise DamagedResultsError when a file is not the one that the run of `record` has left."""
-    from fairlead.results import run_schema
+    import fairlead.results.run_schema as run_schema
 
     left = run_schema.files(file.with_name("run.json"), record).get(file.name)
     if left is None:

@@ -26,7 +26,7 @@ from fairlead.errors import FairleadError, Fault, ModelError, RunWarning
 from fairlead.netlist.files import display
 
 if TYPE_CHECKING:
-    from fairlead.simulate import Model
+    from fairlead.model import Model
     from fairlead.view.completion import Completion
 
 _answers: TextIO = sys.stdout

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fairlead.errors import FairleadError, UsageError
-from fairlead.simulate import Model
+from fairlead.model import Model
 from fairlead.studies.fits.fit_file import Asked, Law
 from fairlead.studies.fits.nests import Contained, Floats, places
 from fairlead.studies.fits.problem import Problem, Record, Target

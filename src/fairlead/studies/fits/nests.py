@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from fairlead.component.numbers import numbers
 from fairlead.errors import ModelError
-from fairlead.simulate import Model
+from fairlead.model import Model
 from fairlead.studies.fits.problem import FAR, Problem
 
 Floats = NDArray[np.float64]

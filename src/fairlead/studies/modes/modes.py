@@ -23,7 +23,7 @@ from fairlead.studies.modes.squeal import ranked
 from fairlead.studies.modes.table import Modes
 
 if TYPE_CHECKING:
-    from fairlead.simulate import Model
+    from fairlead.model import Model
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]

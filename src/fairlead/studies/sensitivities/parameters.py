@@ -16,7 +16,7 @@ from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si
 
 if TYPE_CHECKING:
-    from fairlead.simulate import Model
+    from fairlead.model import Model
 
 PLACE = Location("to")
 

@@ -22,7 +22,7 @@ from fairlead.studies.sensitivities.runs import Floats, Runs, Told
 from fairlead.studies.sensitivities.table import Sensitivities
 
 if TYPE_CHECKING:
-    from fairlead.simulate import Model
+    from fairlead.model import Model
 
 Figures = str | Function | Iterable[str] | Mapping[str, str | Function]
 Parameters = str | Iterable[str] | Mapping[str, str | float | None]

@@ -12,7 +12,7 @@ from pathlib import Path
 from fairlead.cases.cases import Cases
 from fairlead.cases.identity import named_files
 from fairlead.errors import UsageError
-from fairlead.simulate import Model
+from fairlead.model import Model
 from fairlead.studies.sweeps.job import Job
 
 Files = Mapping[str, bytes]
