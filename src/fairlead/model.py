@@ -50,6 +50,8 @@ if TYPE_CHECKING:
 STAGES = ("netlist", "component", "flatten", "system")
 DRAWINGS = ("mermaid", "dot", "svg")
 LONGEST_NAME = 60
+GIVEN = Location("set")
+"""The argument, in messages about values that were given by it."""
 Progress = Callable[[float, float, Any], None]
 S = TypeVar("S")
 
@@ -361,14 +363,12 @@ def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Itera
 def _told_by(
     called: str, renewed: Callable[..., Model], values: Mapping[str, float | str], near: Model | None
 ) -> Model:
-    """The model with other values; what is wrong with them is told as of the call, where nobody wrote --set."""
-    from fairlead.netlist.overrides import PLACE
-
+    """The model with other values; what is wrong with them is told as of the call, which has no argument `set`."""
     try:
         return renewed(values, near)
     except ModelError as error:
         place = Location(called)
-        raise ModelError([replace(one, where=place) if one.where == PLACE else one for one in error.faults]) from None
+        raise ModelError([replace(one, where=place) if one.where == GIVEN else one for one in error.faults]) from None
 
 
 def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
@@ -379,9 +379,12 @@ def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
 
 
 def as_text(values: Mapping[str, float | str]) -> dict[str, str]:
-    """Values as a command line has them; a text keeps its place, if it knows it."""
+    """Values as a command line has them; a text that knows its place keeps it, the others were given by `set`."""
+    from fairlead.netlist.settings_file import Setting
+
     texts = {"True": "true", "False": "false"}
-    return {name: value if isinstance(value, str) else texts.get(str(value), str(value))
+    return {name: value if isinstance(value, Setting)
+            else Setting(value if isinstance(value, str) else texts.get(str(value), str(value)), GIVEN)
             for name, value in values.items()}  # fmt: skip
 
 

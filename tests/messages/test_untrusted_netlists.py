@@ -159,7 +159,7 @@ def test_a_recording_grid_beyond_all_measure_is_told_at_its_place(tmp_path):
     text = ROD.replace("BLOCKS", "2") + "record: {every: 1e-12 s}\n"
     assert refused(tmp_path, text).startswith("a.yaml:7:17: record.every = 1e-12 s makes 1e+12 rows in 1 s.")
     said = refused(tmp_path, text, {"record.every": "1 ns"})
-    assert said.startswith("--set: record.every = 1e-09 s makes 1e+09 rows")
+    assert said.startswith("set: record.every = 1e-09 s makes 1e+09 rows")
 
 
 def test_a_recording_grid_longer_than_the_run_is_remarked(tmp_path):

@@ -23,9 +23,9 @@ def test_keywords_are_those_of_a_netlist():
 @pytest.mark.parametrize(
     ("name", "value", "says"),
     [
-        ("pad.normal_force", "2O N", "--set: pad.normal_force = 2O N is not a quantity."),
-        ("pad.normal_force", "20 m", "--set: pad.normal_force = 20 m is a length, not a force."),
-        ("block.mass", -1, "--set: block.mass = -1 is out of range.\n    Allowed: above 0 kg."),
+        ("pad.normal_force", "2O N", "set: pad.normal_force = 2O N is not a quantity."),
+        ("pad.normal_force", "20 m", "set: pad.normal_force = 20 m is a length, not a force."),
+        ("block.mass", -1, "set: block.mass = -1 is out of range.\n    Allowed: above 0 kg."),
         ("pad.normal_forc", "20 N", "Did you mean normal_force?"),
     ],
 )

@@ -123,7 +123,7 @@ def mistakes(call):
     try:
         call()
     except ModelError as error:
-        return [str(fault).replace("Model.with_values: ", "--set: ") for fault in error.faults]
+        return [str(fault).replace("Model.with_values: ", "set: ") for fault in error.faults]
     return []
 
 

@@ -45,6 +45,9 @@ def parse_settings(texts: list[str]) -> dict[str, str]:
     Raises:
         typer.BadParameter: a text is not NAME=VALUE, or a name comes twice.
     """
+    from fairlead.netlist.overrides import PLACE
+    from fairlead.netlist.settings_file import Setting
+
     settings: dict[str, str] = {}
     for text in texts:
         name, equals, value = (part.strip() for part in text.partition("="))
@@ -52,5 +55,5 @@ def parse_settings(texts: list[str]) -> dict[str, str]:
             raise typer.BadParameter(f"--set wants NAME=VALUE, such as --set mu=0.6; it got {text!r}.")
         if name in settings:
             raise typer.BadParameter(f"--set gives {shown(name)} twice: {settings[name]!r} and {value!r}.")
-        settings[name] = value
+        settings[name] = Setting(value, PLACE)
     return settings

@@ -29,6 +29,9 @@ class Setting(str):
         made.where = where
         return made
 
+    def __getnewargs__(self) -> tuple[str, Location]:  # type: ignore[override]  # str has its text alone
+        return str(self), self.where
+
 
 def read_settings(path: str | os.PathLike[str]) -> dict[str, str]:
     """The settings of a file. Raises UsageError when it cannot be read, ModelError with every line that is none."""

@@ -12,8 +12,8 @@ from fairlead.analysis.treatments.treatments import contacts, creep_of, head_of
 from fairlead.errors import Location
 from fairlead.netlist.netlist import Netlist, Value
 
-COMMAND = "--set"
-"""The file that values of the command line, and of `load(set=...)` and `with_values`, are said to stand in."""
+NO_FILE = ("--set", "set")
+"""What values of the command line, and of `load(set=...)` and `with_values`, are said to stand in."""
 
 
 def friction_record(flat: Any) -> dict[str, Any] | None:
@@ -53,7 +53,7 @@ def _place(netlist: Netlist, value: Value) -> str:
     named = re.fullmatch(r"\{(\w+)\}", value.written or "")
     given = netlist.parameters.get(named[1]) if named else None
     where: Location = (given if given is not None else value).where
-    return COMMAND if where.file == COMMAND else f"{PurePath(where.file).name}:{where.line}"
+    return where.file if where.file in NO_FILE else f"{PurePath(where.file).name}:{where.line}"
 
 
 def sentence(found: Mapping[str, Any] | None) -> str:
