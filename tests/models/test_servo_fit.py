@@ -5,6 +5,7 @@ import shutil
 import numpy as np
 import pytest
 
+import fairlead
 from fairlead.component.tables import TableError, points
 from fairlead.netlist.files import bundled_models
 from fairlead.studies.fits.fit_file import read_fit
@@ -29,6 +30,41 @@ def test_fitted_coulomb_and_viscous_friction_is_better_than_the_published_values
     for record in records:
         published = errors(record, {one.name: one.start for one in asked.sought})
         assert errors(record, fitted.values)["load.angle"].mean < published["load.angle"].mean, record.name
+
+
+PUBLISHED = {"resistance": 4.0, "constant": 0.387, "armature": 0.0018, "dry": 0.0128, "viscous": 0.00366}
+GAIN, MASS, ARM, GRAVITY = 100 * 4096 / (2 * np.pi) / (256 * 885), 0.49, 0.1, 9.80665
+ANGLE, SMALLER = 5e-4, 20  # rad: a third of a step of the encoder; time steps of the script in one of the record
+
+
+def turned(record: np.ndarray) -> np.ndarray:
+    """The angle of the pendulum at the times of a record, stepped by hand: half-implicit, friction as a limit."""
+    p, moment = PUBLISHED, MASS * ARM**2 + PUBLISHED["armature"]
+    angle, speed = record["angle_rad"][0], 0.0
+    found = [angle]
+    for row, later in zip(record[:-1], record[1:], strict=True):
+        h = (later["time_s"] - row["time_s"]) / SMALLER
+        for k in range(SMALLER):
+            part = (k + 0.5) / SMALLER
+            goal, supply, on = (row[n] + part * (later[n] - row[n]) for n in ("goal_rad", "supply_V", "torque_on"))
+            duty = np.clip(GAIN * (goal - angle), -1, 1)
+            current = on * (duty * supply - p["constant"] * speed) / p["resistance"]
+            torque = p["constant"] * current - MASS * GRAVITY * ARM * np.sin(angle)
+            free = (speed + h * torque / moment) / (1 + h * p["viscous"] / moment)
+            speed = np.sign(free) * max(0.0, abs(free) - h * p["dry"] / moment)
+            angle += h * speed
+        found.append(angle)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("name", ["sin_sin", "up_and_down", "lift_and_drop"])
+def test_the_servo_moves_as_in_a_script_of_its_equations(name: str) -> None:
+    file = f"{name}_kp100.csv"
+    record = np.genfromtxt(FOLDER / file, delimiter=",", names=True)
+    columns = {f"drive.{column}.table.file": file for column in ("goal", "supply", "on")}
+    model = fairlead.load(FOLDER / "servo.yaml", {**columns, "load.angle": float(record["angle_rad"][0])})
+    run = model.run(out=None, stop=float(record["time_s"][-1]))
+    assert np.abs(run.at("load.angle", record["time_s"]) - turned(record)).max() < ANGLE
 
 
 def test_two_columns_of_a_file_are_named_by_its_header(tmp_path) -> None:
