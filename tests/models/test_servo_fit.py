@@ -1,5 +1,6 @@
 """The measured servo: its records run as they are, and plain friction at the published values is off by what it is."""
 
+import itertools
 import shutil
 
 import numpy as np
@@ -42,7 +43,7 @@ def turned(record: np.ndarray) -> np.ndarray:
     p, moment = PUBLISHED, MASS * ARM**2 + PUBLISHED["armature"]
     angle, speed = record["angle_rad"][0], 0.0
     found = [angle]
-    for row, later in zip(record[:-1], record[1:], strict=True):
+    for row, later in itertools.pairwise(record):
         h = (later["time_s"] - row["time_s"]) / SMALLER
         for k in range(SMALLER):
             part = (k + 0.5) / SMALLER
