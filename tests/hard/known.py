@@ -19,6 +19,7 @@ SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 CREEPS = "a contact of several between the same bodies is shown with more than its stiction in a row; not traced yet"
 AT_LIMIT = "a contact that lets go twice within a dwell is shown with 1.3e-5 more than its limit; 1e-5 is allowed"
+ASIDE = "ida: a body that is put back to what moves as given is not in its history; it ends and names rodas"
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
 QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
 ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and this engine with hold"
@@ -47,7 +48,9 @@ MENDED: tuple[tuple[str, str, str], ...] = ()
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made
 anew."""
 
-WORSE: tuple[tuple[str, str, str, str], ...] = ()
+WORSE: tuple[tuple[str, str, str, str], ...] = (
+    ("body that a shaking plate throws, 8 Hz", "ida", "none", ASIDE),
+)
 """Rows that docs/stability.md shows as coming through at its commit, and that fail; as in KNOWN, where they belong once
 it is made anew."""
 

@@ -21,6 +21,7 @@ from tests.hard.cases import (
     slow,
     stiction,
     symmetry,
+    thrown,
 )
 
 __all__ = [
@@ -44,4 +45,5 @@ __all__ = [
     "slow",
     "stiction",
     "symmetry",
+    "thrown",
 ]
