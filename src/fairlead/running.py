@@ -117,9 +117,9 @@ def _sink(path: pathlib.Path | None, signals: list[Signal], header: dict[str, An
 def _explained(outcome: Outcome, system: System, engine: str) -> Outcome:
     """A run that ended since a controller in plain Python failed, or a table has no value there, says so.
 
-    One whose zones did not settle names the contacts that want another method, or engine.
+    One whose zones did not settle, or switch without end, names the contacts that want another method, or engine.
     """
-    if outcome.status == Status.NOT_SETTLED:
+    if outcome.status in (Status.NOT_SETTLED, Status.CHATTER):
         said = with_way_out(outcome.sentence, system, engine, outcome.culprits)
         return dataclasses.replace(outcome, sentence=said)
     if said := open_at(outcome.problem, outcome.status, outcome.culprits, outcome.t):

@@ -65,10 +65,11 @@ def test_what_has_left_is_not_met_again_at_once(simulate, seed):
     assert min(flown) > 1e-3 / frequency
 
 
-def test_ida_says_which_engine_to_take(simulate):
-    """It goes on from its own past, so that it cannot put a body back."""
+@pytest.mark.parametrize(("amplitude", "frequency", "accuracy"), [(1.0, 2, 1e-4), (0.35, 8, 1e-4), (0.35, 8, 1e-6)])
+def test_ida_says_which_engine_to_take(simulate, amplitude, frequency, accuracy):
+    """It goes on from its own past, so that it cannot put a body back; it does not meet it for ever either."""
     with pytest.raises(fairlead.RunError, match=r"Bodies at rest lie on what moves as given.*run\.engine: rodas"):
-        simulate(shaken(1.0, 2, "ida", 1e-4, 0.5))
+        simulate(shaken(amplitude, frequency, "ida", accuracy, 1.0 / frequency))
 
 
 @pytest.mark.parametrize("accuracy", ["1e-3", "1e-6"])

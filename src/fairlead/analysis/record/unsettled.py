@@ -6,6 +6,7 @@ another contact keeps the body moving, as at the dead centre of a crank, it stic
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from fairlead.analysis.record.chattering import MOST_NAMED
@@ -13,7 +14,7 @@ from fairlead.errors import listing
 from fairlead.system.compiled.system import System
 
 BANDED = "karnopp"
-CAUSE = "Two laws contradict each other"
+CAUSE = re.compile("Two laws contradict each other|Its zones have no consistent choice")
 """Where the cause and the way out begin in the sentence of a run that ends so (`integrate/sentences.py`)."""
 
 
@@ -22,7 +23,7 @@ def with_way_out(sentence: str, system: System, engine: str, cycling: Iterable[s
     wanted = set(cycling)
     if engine == "ida" and (shaken := sorted(wanted.intersection(system.on_given_motion))):
         why = "lie on what moves as given, to which ida does not bring bodies back"
-        return f"{sentence.partition(CAUSE)[0]}Bodies at {listing(shaken[:MOST_NAMED])} {why}. Take run.engine: rodas."
+        return f"{CAUSE.split(sentence)[0]}Bodies at {listing(shaken[:MOST_NAMED])} {why}. Take run.engine: rodas."
     banded = [instance.path for instance in system.flat.instances
               if instance.path in wanted and getattr(instance.type, "word", "") == BANDED]  # fmt: skip
     if not banded:
@@ -31,6 +32,6 @@ def with_way_out(sentence: str, system: System, engine: str, cycling: Iterable[s
     positions = any(block.kernel.structure.positions for block in system.blocks)
     keeps = "a relation of positions, as that of a crank or a cam, or " if positions else ""
     return (
-        f"{sentence.partition(CAUSE)[0]}{told} should stick inside {its} (method: {BANDED}), but {keeps}what else is "
+        f"{CAUSE.split(sentence)[0]}{told} should stick inside {its} (method: {BANDED}), but {keeps}what else is "
         f"held there keeps the slip going. Write method: hold for {told}, or binding."
     )

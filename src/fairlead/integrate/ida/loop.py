@@ -20,8 +20,8 @@ speed. Differences from `rodas`, numbered:
 4. IDA does not tell its rejected steps; they are not counted.
 5. fixed_step, method and theta belong to the other engines.
 6. Positions are not brought back to what a row that holds knows of them: a step goes on from the history of those
-   before. So it has no relations of positions, and a body that leaves a stop which moves as given, which it is off
-   by the error of the run, ends the run with zones that do not settle.
+   before. So it has no relations of positions. A body that leaves a stop which moves as given, which it is off by the
+   error of the run, ends the run: with zones that do not settle, or by meeting that stop again and again.
 
 Source of the method: Hindmarsh et al., ACM TOMS 31:363, 2005, DOI 10.1145/1089014.1089020; the Python
 package is scikit-sundae.
@@ -58,6 +58,9 @@ GROWTH_STRIDE = 0.2
 rests where its forces balance until they have left it by far. At 1/w the matrix of order one is singular."""
 GROWTH_SEEN = 1e-2
 """Bend of the motion over such a step, in weights, from which on IDA sees by itself how long it may be."""
+MET_AGAIN = 20
+"""Times a stop that moves as given is kept as it is for a dwell, since it was met and left faster than that, until the
+run ends: positions off by its error cross the stop without end."""
 LEAST_STEP = 1e-14
 """First step of a restart over the span, at least."""
 
@@ -68,6 +71,7 @@ class SundialsLoop:
     def __init__(self, problem: Instance, run: Run, memory: Memory) -> None:
         """Nothing is started yet; raises UsageError when scikit-sundae is missing."""
         self.memory, self.run = memory, run
+        self.met = memory.array["guard_machine"][memory.array["met_guard"]] if memory.number["n_moves"] > 0 else []
         memory.number["n_moves"] = 0
         self.go_on = machine_code.compiled_loop(RODAS)
         self.kernels = machine_code.compiled_sundials()
@@ -88,6 +92,8 @@ class SundialsLoop:
             status = self.go_on(address, 0)
             if status != Status.PAUSED or attempts <= 0:
                 return status
+            if len(self.met) and self.meets_again():
+                return Status.CHATTER
             attempts -= 1
             if number["steps"] >= number["max_steps"]:
                 return Status.MAX_STEPS
@@ -96,6 +102,14 @@ class SundialsLoop:
             ended = self.attempt(address)
             if ended is not None:
                 return ended
+
+    def meets_again(self) -> bool:
+        """True if a stop is met and left without end; it is the culprit then."""
+        number, often = self.memory.number, self.memory.array["chatters"][self.met]
+        if often.max() < MET_AGAIN:
+            return False
+        number["culprit"] = self.met[int(often.argmax())]
+        return True
 
     def attempt(self, address: int) -> Status | None:
         """One step of IDA, judged; or the status that ends the run."""
