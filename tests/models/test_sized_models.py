@@ -33,15 +33,20 @@ def test_the_core_is_two_ropes_of_aramid(name):
     assert 0.9 * softest < given < stiffest
 
 
-@pytest.mark.parametrize(("mu", "within"), [(0.35, 0.01), (0.60, 0.02)])  # as of the single bend: docs/physics.md, 7a
-def test_the_haul_takes_what_the_capstan_does(mu, within):
-    result = run("single_bend_sized", mu=mu)
+@pytest.mark.parametrize(
+    ("mu", "within", "settings"),  # as of the single bend: docs/physics.md, 7a
+    [(0.35, 0.01, {"line.element": "0.5 m"}), pytest.param(0.35, 0.01, {}, marks=pytest.mark.slow),
+     pytest.param(0.60, 0.02, {}, marks=pytest.mark.slow)],
+)  # fmt: skip
+def test_the_haul_takes_what_the_capstan_does(mu, within, settings):
+    result = run("single_bend_sized", mu=mu, **settings)
     assert -mean(result, result["haul.force"], 5, 15) == pytest.approx(800 * math.exp(mu * math.pi / 2), rel=within)
     parted = max(np.abs(result[signal]).max() for signal in result.match("line.registration[*].d"))
     assert parted < 0.02 if mu < 0.4 else parted > 0.12
     assert result.run["energy"]["closure"] < 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("core", ["on", "off"])
 def test_tensions_of_the_route_are_those_of_its_capstans(core):
     """Between bend A and the deployer 200 N times exp(+-mu 90 deg), also of a core that does not stretch."""

@@ -92,7 +92,7 @@ def test_a_verdict_read_from_json_knows_what_was_never_compressed():
         (", method: hold", {},
          "hold: stuck contacts do not move. The default, which is also the choice of scene0.yaml:8"),
         ("", {"friction.method": "tanh"},
-         "tanh: stuck contacts creep, by 0.0001 m/s at their limit. Not the default: the choice of --set"),
+         "tanh: stuck contacts creep, by 0.0001 m/s at their limit. Not the default: the choice of set"),
         (", method: binding, creep: 1 mm/s", {},
          "binding: stuck contacts creep, by 0.001 m/s at their limit. Not the default: the choice of scene0.yaml:8"),
     ],
@@ -105,7 +105,7 @@ def test_who_chose_the_treatment_of_friction_is_told(scene, more, settings, says
 def test_a_scene_parameter_that_was_set_is_the_choice_of_who_set_it(scene):
     text = "parameters: {how: hold}\nfriction: {method: '{how}'}\n" + PAD.format(more="").replace("\n", "\n", 1)
     assert of_friction(scene(text).run(out=None).run["friction"]).endswith("the choice of scene0.yaml:3")
-    assert of_friction(scene(text, how="tanh").run(out=None).run["friction"]).endswith("the choice of --set")
+    assert of_friction(scene(text, how="tanh").run(out=None).run["friction"]).endswith("the choice of set")
 
 
 def test_a_scene_without_contacts_says_nothing_of_friction():
