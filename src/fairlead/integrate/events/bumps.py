@@ -1,7 +1,8 @@
 """Guards that are below zero at both ends of a trial step and may rise to it between.
 
-A guard that leaves the start upwards and comes to the end downwards has a top inside. Where the cubic through its ends
-and slopes may reach zero, the top is looked for by parabolas:
+A guard that leaves the start upwards or comes to the end downwards may have a top inside: it may fall first and then
+rise and fall, or rise, fall and rise. Where the cubic through its ends and slopes has a top that may reach zero, the
+top is looked for by parabolas:
 
     a < x < b     three places, x above both others: the next is the top of the parabola through them
     a < b         no such place is known: that of the parabola that leaves the higher end by its slope, to the other
@@ -51,19 +52,20 @@ def earliest_bump(m, h):
     end = reals(guards.at_g_end, ng)
     g, early, late = reals(guards.at_g, ng), reals(guards.at_g_early, ng), reals(guards.at_g_late, ng)
     tolerance, ahead = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_ahead, ng)
-    rising = False
+    below = False
     for i in range(ng):
-        rising = rising or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i])
-    if not rising:
+        below = below or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0)
+    if not below:
         return 1.0
     guards_at(m, 1.0 - NEAR, h, guards.at_g_late)
     followed, looked = 0, False
     for i in range(ng):
-        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and early[i] > g[i] and late[i] > end[i]:
-            rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
-            if max(g[i], end[i]) + (1.0 + MARGIN) * HIGHEST * (rise - fall) < 0.0:
+        rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
+        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and (rise > 0.0 or fall < 0.0):
+            higher_end = max(g[i], end[i])
+            if higher_end + (1.0 + MARGIN) * HIGHEST * (max(rise, 0.0) + max(-fall, 0.0)) < 0.0:
                 continue
-            if run.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
+            if rise > 0.0 and run.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
                 if not looked:
                     look_ahead(m.problem, run, m.point, m.events)
                     copy(reals(guards.at_g_probe, ng), ahead)
@@ -71,7 +73,7 @@ def earliest_bump(m, h):
                 if g[i] - ahead[i] > RISE * tolerance[i]:
                     continue
             top, height = hermite_top(g[i], end[i], rise, fall)
-            if height + MARGIN * (height - max(g[i], end[i])) >= 0.0:
+            if 0.0 < top < 1.0 and height + MARGIN * (height - higher_end) >= 0.0:
                 follow(guards, followed, i, top, rise, fall)
                 followed += 1
     return climb(m, h, followed) if followed > 0 else 1.0
@@ -79,13 +81,18 @@ def earliest_bump(m, h):
 
 @compiled
 def hermite_top(g0, g1, s0, s1):
-    """Where, and how high, the cubic with these end values and slopes (s0 > 0 > s1) is largest on [0, 1].
+    """Where, and how high, the top of the cubic with these end values and slopes is; at 1 where it has none inside.
 
-    Its slope s0 + 2 p x + 3 q x^2 has one root there, as it is above zero at 0 and below at 1; the formula that
-    does not subtract what is alike holds for q of either sign, and for none.
+    Its slope s0 + 2 p x + 3 q x^2 has one root at which it falls; the formula that does not subtract what is alike
+    holds for q of either sign, and for none, where the slopes are s0 > 0 > s1. With s0 < 0 the top lies behind a dip.
     """
     p, q = 3.0 * (g1 - g0) - 2.0 * s0 - s1, s0 + s1 - 2.0 * (g1 - g0)
-    x = min(s0 / (sqrt(max(p * p - 3.0 * q * s0, 0.0)) - p), 1.0)
+    discriminant = p * p - 3.0 * q * s0
+    if discriminant < 0.0 and not s0 > 0.0 > s1:
+        return 1.0, g1
+    root = sqrt(max(discriminant, 0.0)) - p
+    x = s0 / root if s0 * root > 0.0 else 1.0
+    x = min(x, 1.0)
     return x, g0 + x * (s0 + x * (p + x * q))
 
 

@@ -2,8 +2,8 @@
 
 Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1;
 exactly zero at t0 does not fire. A guard that starts at zero and dips below it counts as below from
-there on. Double crossing: below zero at both ends, slope up at t0 and down at t1: the interior
-extremum is tested (bumps.py). Companion rule: a guard above its tolerance that never was below zero means that
+there on. Double crossing: below zero at both ends, where the cubic through ends and slopes has a top between them:
+it is tested (bumps.py). Companion rule: a guard above its tolerance that never was below zero means that
 the zones at t0 were wrong (the caller settles from there).
 The limit of a force that holds fires where it goes on beyond its tolerance: a load that comes to its limit and no
 further is held (limits.py).

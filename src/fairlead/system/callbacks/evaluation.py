@@ -130,7 +130,7 @@ def take_samples(ctx, t, y):
     z, zones, tables = f8(ctx[Z]), i8(ctx[ZONES]), f8(ctx[TABLES])
     period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
     for k in range(0, ctx[N_SAMPLED]):
-        if begun[0] + count[k] * period[k] <= t:
+        if begun[0] + count[k] * period[k] <= t + 2e-15 * abs(t):  # as in at_time
             b, i = places[SAMPLED_ROW * k + SAMPLED_BLOCK], places[SAMPLED_ROW * k + SAMPLED_INSTANCE]
             call_kernel(kernels[k], SAMPLE, i8(blocks + WORD * BLOCK * b), i, i + 1, z, zones, tables, z)
             count[k] += 1

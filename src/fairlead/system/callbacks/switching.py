@@ -83,24 +83,30 @@ def slips(ctx, t, y, mode, r):
 
 
 def next_time(ctx, t):
-    """The end of the piece in force that comes first."""
+    """When something is due next: what is due together with t is not. The end of a piece in force, or a sample."""
+    now = t + 2e-15 * abs(t)  # as in at_time
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
     soonest = 1e309  # read as infinity
     for k in range(0, ctx[N_TIME]):
         at, zone = place[TIME * k + TIME_TABLE], zones[place[TIME * k + TIME_ZONE]]
         right = tables[at + STRIDE * zone + RIGHT]
-        if right > t:
+        if right > now:
             soonest = min(soonest, right)
     period, count, begun = f8(ctx[SAMPLE_PERIOD]), i8(ctx[SAMPLE_COUNT]), f8(ctx[SAMPLE_START])
     for k in range(0, ctx[N_SAMPLED]):
         sample = begun[0] + count[k] * period[k]
-        if sample > t:
+        if sample > now:
             soonest = min(soonest, sample)
     return soonest
 
 
 def at_time(ctx, t, y):
-    """Take what was set, move to the pieces that hold from t on, sample what is due; samplers read what was before."""
+    """Take what was set, move to the pieces that hold from t on, sample what is due; samplers read what was before.
+
+    What is due within a few digits of the last place is due at one instant: a pulse at 0.1 s + 5 * 0.1 s ends the time
+    before a sample at 12 * 0.05 s, or after it, as they are rounded.
+    """
+    now = t + 2e-15 * abs(t)
     place, zones, tables = i8(ctx[TIME_PLACE]), i8(ctx[ZONES]), f8(ctx[TABLES])
     due, at, values = i8(ctx[SET_DUE]), i8(ctx[SET_AT]), f8(ctx[SET_VALUES])
     changed = due[0]
@@ -111,7 +117,7 @@ def at_time(ctx, t, y):
     for k in range(0, ctx[N_TIME]):
         machine, table = place[TIME * k + TIME_ZONE], place[TIME * k + TIME_TABLE]
         for _ in range(0, place[TIME * k + TIME_PIECES]):
-            if tables[table + STRIDE * zones[machine] + RIGHT] <= t:
+            if tables[table + STRIDE * zones[machine] + RIGHT] <= now:
                 zones[machine] += 1
                 changed = 1
     if ctx[N_SAMPLED] > 0:
