@@ -122,6 +122,10 @@ class Facts(Protocol):
         """True if `at_time` takes samples of the unknowns: they are then made consistent before."""
 
     @property
+    def n_swings(self) -> int:
+        """How many angles `swings` tells: of sines that only guards read, which no error of a step knows."""
+
+    @property
     def longest_step(self) -> float:
         """Longest step [s]: what swings in time alone shows in no unknown while all rests."""
 
@@ -151,6 +155,7 @@ class Plain:
     guard_machine: Integers
     zones: Integers
     linear = samples = False
+    n_swings = 0
     longest_step = np.inf
     ledger = (-1, -1)
     narrowing = None

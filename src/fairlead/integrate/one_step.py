@@ -32,10 +32,14 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import defect, midpoint_defect
 from fairlead.integrate.point.meters import judge_meters
+from fairlead.integrate.point.swings import judge_swings
 from fairlead.integrate.record.between import find_stiff
 
 ROUGH = 10.0
 """Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
+LEAST_SHARE = 1e-6
+"""Share of the absolute weight of a force below which it is nothing in its scene, whatever its limit: rounding of
+others would else be asked of."""
 MOST_KEPT = 0.8
 """Share of a step that is taken again at most."""
 STUBBORN = 6
@@ -68,7 +72,7 @@ def trial_of(method: OneStep) -> Any:
         status = take(m, h)
         if status == INACCURATE:
             return REPLAN
-        judge_end(run, point, recorder, status)
+        judge_end(m.problem, run, point, recorder, status)
         if run.error <= 1.0 or run.adaptive == 0:
             prepare(m, h)
             judge_inside(m, h)
@@ -80,12 +84,13 @@ def trial_of(method: OneStep) -> Any:
 
 
 @compiled
-def judge_end(run, point, recorder, status):
+def judge_end(problem, run, point, recorder, status):
     """Error of the end of the trial step."""
     run.error = inf
     if status != SINGULAR:
         run.error = estimate_error(point)
         judge_meters(run, point, recorder)
+        judge_swings(problem, run, point, run.h)
 
 
 @compiled
@@ -120,7 +125,7 @@ def cut_too_rough(m, h):
     """True if the piece up to a crossing is to be taken as a step of its own, which the next trial then is."""
     run, point = m.run, m.point
     piece = min(run.cut_at, MOST_KEPT) * h
-    if piece < smallest_step(run, point) or not rough(m.problem, run, point, m.linear, h):
+    if piece < smallest_step(run, point) or not rough(m.problem, run, point, m.events.guards, m.linear, h):
         return False
     m.events.guards.n_fired = 0
     take_again(run, piece, TOO_LONG)
@@ -128,7 +133,7 @@ def cut_too_rough(m, h):
 
 
 @compiled
-def rough(problem, run, point, linear, h):
+def rough(problem, run, point, guards, linear, h):
     """True if the dense output does not satisfy the equations at `cut_at`, where the step is to be cut.
 
     The error of a step is that of its end. A law may change much between the last stage before a crossing and the one
@@ -136,10 +141,30 @@ def rough(problem, run, point, linear, h):
     all stages may lie beside the rise, and the piece of the step up to rest misses it.
     """
     defect(problem, point, linear, h, run.cut_at)
-    if weighted_norm(point, point.at_error_vector) <= ROUGH:
+    if weighted_norm(point, point.at_error_vector) <= ROUGH and not limits_are_rough(problem, point, guards):
         return False
     run.rejected_switch += 1
     return True
+
+
+@compiled
+def limits_are_rough(problem, point, guards):
+    """True if a force that comes to its limit is off by more than ROUGH of its own weight there.
+
+    The weight of a force counts what is small beside the forces of the scene as nothing. A contact that holds no more
+    than that would let go at any time; so its force is asked for a share of what it is at the larger end of the step.
+    """
+    fired, bounded = indices(guards.at_fired, guards.n_guards), indices(problem.at_bounded_row, guards.n_guards)
+    limit, n = indices(guards.at_limit_guard, guards.n_guards), point.n
+    y, y_end, error = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_error_vector, n)
+    absolute, relative = reals(point.at_absolute, n), reals(point.at_relative, n)
+    for k in range(guards.n_fired):
+        row = bounded[fired[k]]
+        if limit[fired[k]] == 1 and row >= 0:
+            own = max(relative[row] * max(abs(y[row]), abs(y_end[row])), LEAST_SHARE * absolute[row])
+            if abs(error[row]) > ROUGH * own:
+                return True
+    return False
 
 
 @compiled

@@ -43,8 +43,8 @@ NUMBERS = (
     "total_events", "stop_asked", "failed", "localising", "locates", "damps", "driven", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
-    "theta_raise", "gap", "gap_before", "t_cut", "t_bent", "growth", "t_growth", "allowed", "allowed_before",
-    "block_steps",
+    "theta_raise", "gap", "gap_before", "t_cut", "t_bent", "growth", "t_growth", "swing_step", "allowed",
+    "allowed_before", "block_steps",
     *COUNTS,
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""

@@ -69,12 +69,14 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
         "n_accelerated": int(np.count_nonzero(problem.moves[:, 2] >= 0)), "n_met_guards": len(problem.met_guard),
         "n_balanced": len(problem.balanced), "n_light": len(light),
+        "n_swings": problem.n_swings,
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_moves": len(problem.moves), "n_balanced": len(problem.balanced), "n_light": len(light),
-        "n_met_guards": len(problem.met_guard), "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
+        "n_met_guards": len(problem.met_guard), "n_swings": problem.n_swings,
+        "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
@@ -187,7 +189,7 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     own = place(memory.piece)
     check_instance(own)
     write_numbers(memory, plan.numbers | settings(run, tableau) | {"stages": s, "max_passes": passes})
-    write_numbers(memory, {"max_step": _longest_step(run, own), "narrow_at": NEVER_LOOK})
+    write_numbers(memory, {"max_step": _longest_step(run, own), "narrow_at": NEVER_LOOK, "swing_step": NEVER})
     point_at_instance(memory, own)
     engine = engine_of(run)
     write_numbers(memory, engine.numbers(run, own))

@@ -61,7 +61,7 @@ Bytes = NDArray[np.uint8]
 
 CALLBACKS = (
     "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
-    "slopes", "gap", "ahead",
+    "slopes", "gap", "ahead", "swings",
 )  # fmt: skip
 """The names a problem may use in `callbacks`; the first three must be there."""
 

@@ -20,6 +20,7 @@ from fairlead.kernels.flow_rates import flow_rates, joins, output_rates, yields
 from fairlead.kernels.guard_slots import bounds_what_holds, in_slots
 from fairlead.kernels.held_pairs import held_pairs
 from fairlead.kernels.structure import Structure
+from fairlead.kernels.swings import swings
 
 WATTS = {("m/s", "N"), ("rad/s", "N*m"), ("Pa", "m^3/s"), ("V", "A")}
 """Units of what is equal at a node and of what sums to zero there, where their product is a power."""
@@ -63,6 +64,9 @@ class KernelFacts:
         self.mass = sorted({(u, self.inputs.index(s)) for z in self.zones for u, h in z.holds.items() for s in h.rates})
         self.slots = max((len(z.guards) for z in self.zones), default=0)
         self.members = max((len(of_groups(z)) for z in self.zones), default=0)
+        periods = {sine(path, "omega") for path in traced.time_tables}
+        self.swings = {id(zone): self._swings(zone, periods) for zone in self.zones}
+        self.most_swings = max(([name for name, _ in each] for each in self.swings.values()), key=len, default=[])
         # Kinds of derivatives: where they go, which, the values by zone, and which of them never change.
         self.kinds = [
             (layout.D_SIGNALS, self.d_signals, self.fit_outputs),
@@ -94,6 +98,7 @@ class KernelFacts:
             curved=self._curved(self.d_signals, self.fit_outputs), guards_read=self._guards_read(),
             late=self._late(), stores=any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones),
             modes=modes, members=self.members, shares_left=shares_left(t), sines=self._sines(),
+            swings=self.most_swings,
             carries=carried_ratio(t) if has.carries else [],
             reads={name: self._reads(zone) for name, zone in t.zones.items()},
             inverse_masses={
@@ -238,6 +243,11 @@ class KernelFacts:
         keys = ([key(sine(path, part)) for part in ("amplitude", "omega")] for path in self.traced.time_tables)
         parts = ([at.get(one.number) for one in both] for both in keys)
         return [(size, pace) for size, pace in parts if size is not None and pace is not None]
+
+    def _swings(self, zone: TracedZone, periods: set[str]) -> list[tuple[str, sympy.Expr]]:
+        """What sines of a zone are taken of; an output that can be recorded only feeds nothing."""
+        outputs = dict(zip(self.outputs, self.fit_outputs(zone), strict=True))
+        return swings([value for guard in zone.guards for value in guard.values], outputs, self.inputs, periods)
 
     def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
         pairs = zip(self.targets, self.target_values(zone), strict=True)

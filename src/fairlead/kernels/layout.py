@@ -33,11 +33,12 @@ STRIDE, RIGHT = 8, 1  # numbers in a row of a table, and where its right border 
     D_MASS,
     GUARDS,  # offset into the guard vector
     OUTPUTS,  # offset into the vector of all outputs
+    SWING_FIRST,  # offset into the vector of what sines are taken of
     IN_COEF_STEP,  # numbers from one instance to the next in IN_COEF: NI, or 0 where all have those of the first
     IN_OFFSET_STEP,  # the same in IN_OFFSET
     FLOW_COEF_STEP,  # the same in FLOW_COEF
     BLOCK,
-) = range(20)
+) = range(21)
 
 # What a kernel is asked to do. `out` is z for SIGNALS, w for FLOWS, LEDGER, SLIP and DRIFT, else the vector named.
 # Partial derivatives that are one number in all zones, whatever the inputs, are asked for once: FIXED_.
@@ -45,7 +46,8 @@ SIGNALS, FLOWS, LEDGER, PARTIALS_SIGNALS, PARTIALS_FLOWS, PARTIALS_LEDGER, MASS,
 FIXED_SIGNALS, FIXED_FLOWS, FIXED_LEDGER, DRIFT = range(11, 15)
 MEMBERS = 15  # of guards that are groups, one after another: (count, members) numbers from the beginning of `out`
 GAP = 16  # as SLIP, of relations of positions that are kept, and of stops how far open they are
-MODES = 17
+SWINGS = 17  # what sines are taken of that no error of a step knows, see swings.py
+MODES = 18
 
 DISSIPATED, SUPPLIED, STORED_ENERGY = "dissipated", "supplied", "stored"
 OUTPUT_LINES = (STORED_ENERGY, DISSIPATED, SUPPLIED)  # follow the outputs of every instance

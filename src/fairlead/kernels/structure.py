@@ -11,6 +11,8 @@ Sum = list[tuple[int, float]]
 """Inputs by place, and their coefficients, see dependence.py."""
 PIECES = "01cv"
 """What the piece of a table in force is: zero, one, any other constant, anything else."""
+OF_GUARD = ""
+"""Stands for a guard where otherwise the name of an output does."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,7 @@ class Structure:
     # then (key, power) of parameters ("p:radius") and inputs; empty for a class that carries nothing
     inverse_masses: dict[str, str]  # parameter -> the port whose body it is one over the mass of
     sines: list[tuple[int, int]]  # places in parameters of (amplitude, angular frequency) of what swings in time
+    swings: list[str]  # by what a sine is taken of: the output that has it, or OF_GUARD (swings.py)
     shares_left: list[tuple[str, str]]  # of friction when a contact lets go, see `break_away`
     rebounds: dict[str, tuple[int, float]]  # unknown that rebounds -> place of its share in parameters or -1, number
     positions: dict[str, list[str]]  # unknown that keeps a relation of positions -> the ports it reads

@@ -79,6 +79,7 @@ class KernelText:
             layout.OUTPUT: self._all_outputs,
             layout.SAMPLE: self._sample,
             layout.MEMBERS: self._members,
+            layout.SWINGS: self._swings,
         }
         loops = {mode: self._loop(mode, [what(zone) for zone in self.facts.zones]) for mode, what in modes.items()}
         for kind, mode in enumerate((layout.FIXED_SIGNALS, layout.FIXED_FLOWS, layout.FIXED_LEDGER)):
@@ -139,6 +140,12 @@ class KernelText:
         """Every value of the guards that are groups."""
         place = f"out[i*{self.facts.members} + {{k}}] = {{{{}}}}"
         return [(place.format(k=k), value) for k, value in enumerate(of_groups(zone))]
+
+    def _swings(self, zone: TracedZone) -> list[Statement]:
+        """What sines are taken of; zero where another zone has more of them."""
+        most, given = len(self.facts.most_swings), [angle for _, angle in self.facts.swings[id(zone)]]
+        place = f"out[block[{layout.SWING_FIRST}] + i*{most} + {{k}}] = {{{{}}}}"
+        return [(place.format(k=k), given[k] if k < len(given) else sympy.S.Zero) for k in range(most)]
 
     def _all_outputs(self, zone: TracedZone) -> list[Statement]:
         names = [*self.facts.outputs, *layout.OUTPUT_LINES]

@@ -8,6 +8,8 @@ All take the address of the struct first (memory/arena.py) and work on arrays at
 
 from __future__ import annotations
 
+from math import inf
+
 from fairlead.integrate.codes import RECORD, STEP_FLOOR
 from fairlead.integrate.events.crossing import COMPANION, NONE, first_crossing, guards_at
 from fairlead.integrate.events.given_up import settle_at_start
@@ -19,6 +21,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 from fairlead.integrate.one_step import rough
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.point.swings import largest_turn
 
 
 def residual(address, t, at_y, at_rate, at_r):
@@ -74,7 +77,7 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     1 if it is to be taken again, shorter: it is cut at a crossing where it does not satisfy the equations. Else 0.
     `rooted` are guards whose rise through zero at t_end was located by the integrator; what the rules of
     crossing.py see earlier in the step (a double crossing, a guard that begins at zero) comes first. A step of
-    `floor` is not taken again.
+    `floor` is not taken again. Or it turns an angle too far (swings.py).
     """
     m = memory_at(address)
     problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
@@ -82,6 +85,8 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     run.h = h
     run.landing = 1 if t_end >= run.t_land else 0
     prepare_cubic(point, h, at_y_end, at_rate_end)
+    if turns_too_far(problem, run, point, h) and h > 2.0 * floor:
+        return 1
     found = first_crossing(m, h)
     if found == COMPANION:
         run.rejected_companion += 1
@@ -95,12 +100,25 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     crossed = guards.n_fired > 0
     if crossed and h > 2.0 * floor:
         weigh(point, point.at_y_end)
-        if rough(problem, run, point, m.linear, h):
+        if rough(problem, run, point, guards, m.linear, h):
             guards.n_fired = 0
             return 1
     accept(run, point, h, crossed)
     copy(reals(at_rate_end, point.n), reals(point.at_slope, point.n))
     return 0
+
+
+@compiled
+def turns_too_far(problem, run, point, h):
+    """True if the step turns an angle by more than twice what it should; `swing_step` is how long it should be.
+
+    Steps of a multistep method grow without being asked, so the bound on them comes with the next start.
+    """
+    if problem.n_swings == 0:
+        return False
+    turn = largest_turn(problem, point, h)
+    run.swing_step = h / turn if turn > 0.0 else inf
+    return turn > 2.0
 
 
 @compiled

@@ -140,7 +140,8 @@ class SundialsLoop:
         algebraic = array["differential"] == 0
         array["slope"][algebraic] = array["curvature"][algebraic]
         relative, absolute = self.weights.freeze(array["y"])
-        longest = min(self.max_step, GROWTH_STRIDE / number["growth"]) if number["growth"] > 0.0 else self.max_step
+        longest = min(self.max_step, float(number["swing_step"]))
+        longest = min(longest, GROWTH_STRIDE / number["growth"]) if number["growth"] > 0.0 else longest
         self.solver.start(
             float(number["t"]), array["y"], array["slope"], rtol=relative, atol=absolute,
             first_step=min(first_step, longest), max_step=longest, min_step=self.least_step, max_order=self.max_order,

@@ -8,7 +8,7 @@ PROBLEM = Struct(
     calls=(
         "context", "call_rhs", "call_jacobian", "call_mass", "call_guards", "call_switch", "call_slip",
         "call_next_time", "call_at_time", "call_outputs", "call_forces", "call_drift", "call_slopes", "call_gap",
-        "call_ahead",
+        "call_ahead", "call_swings",
     ),
     integers=(
         # sizes
@@ -22,6 +22,8 @@ PROBLEM = Struct(
         "n_moves", "n_accelerated",
         # guards of places at which stops are met
         "n_met_guards",
+        # what sines are taken of that no error of a step knows
+        "n_swings",
         # whether friction of a contact falls as it lets go
         "falling", "linear", "n_quadratures", "samples",
         # address of what the callbacks read of means of given motions, 0 where none is given
@@ -31,6 +33,8 @@ PROBLEM = Struct(
     ),
     reals={
         "rebound": "n",
+        # the angles of `n_swings` at both ends of a trial step
+        "swing": "n_swings", "swing_end": "n_swings",
     },
     indices={
         # relations of positions: a position, its speed, and its acceleration where that is an unknown

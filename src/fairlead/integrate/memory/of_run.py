@@ -21,7 +21,7 @@ RUN = Struct(
     numbers=(
         "start", "stop", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "error_exponent", "h",
         "h_wanted", "h_next", "error", "last_error", "cut_at", "t_piece", "t_land", "t_next", "t_release", "growth",
-        "t_growth", "fixed_step",
+        "t_growth", "fixed_step", "swing_step",
     ),
     indices={
         "rejections_by_unknown": "n",

@@ -39,6 +39,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import cut_too_rough
 from fairlead.integrate.point.controller import step_after_rejection
 from fairlead.integrate.point.even_steps import FINE, rounded
+from fairlead.integrate.point.swings import judge_swings
 from fairlead.integrate.record.between import end_massless, find_stiff, hold_inside, prepare_rows
 from fairlead.integrate.record.rows import rows_inside
 from fairlead.integrate.stepping.history import begin_history, keep_step, note_rejection, remember_slope
@@ -122,6 +123,7 @@ def finish_inside(m, h, status):
     if rule.theta_now == MIDDLE:
         refine_end(problem, point, linear, stepping, h)
     run.error = error_of_step(m, h)
+    judge_swings(problem, run, point, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
     if goes_past_switch(m, h):
@@ -140,6 +142,7 @@ def finish_located(m, h):
     if rule.gap == 0.0 and stops_little(m):
         return settle_at_start(m)
     run.error = end_located(m, h)
+    judge_swings(problem, run, point, h)
     if not isfinite(run.error) or run.error > 1.0:
         return reject_error(m, h)
     hold_inside(m)

@@ -14,7 +14,7 @@ FIRST_PARTIAL = 1  # the vector of partial derivatives begins with a constant 1
 
 
 class Share(NamedTuple):
-    """Where the numbers of a block begin: four kinds of partial derivatives in one vector, guards, outputs."""
+    """Where the numbers of a block begin: four kinds of partial derivatives in one vector, guards, outputs, swings."""
 
     signals: int
     flows: int
@@ -22,20 +22,22 @@ class Share(NamedTuple):
     mass: int
     guards: int
     outputs: int
+    swings: int
 
 
 def shares(blocks: Sequence[Block]) -> tuple[list[Share], Share]:
     """The share of every block, in order; and where the next one would begin."""
     found = []
-    partials, guards, outputs = FIRST_PARTIAL, 0, 0
+    partials, guards, outputs, swings = FIRST_PARTIAL, 0, 0, 0
     for block in blocks:
         s = block.kernel.structure
         sizes = [block.count * len(pairs) for pairs in (s.d_signals, s.d_flows, s.d_ledger, s.mass)]
         first, second, third, fourth, partials = (partials + np.cumsum([0, *sizes])).tolist()
-        found.append(Share(first, second, third, fourth, guards, outputs))
+        found.append(Share(first, second, third, fourth, guards, outputs, swings))
         guards += block.count * s.slots
         outputs += block.count * len(s.all_outputs)
-    return found, Share(partials, partials, partials, partials, guards, outputs)
+        swings += block.count * len(s.swings)
+    return found, Share(partials, partials, partials, partials, guards, outputs, swings)
 
 
 def rows(blocks: Sequence[Block], shares_: Sequence[Share], end: Share) -> Memory:

@@ -15,6 +15,12 @@ def guards(ctx, t, y, g):
         guard_shares(ctx, t, y, g)
 
 
+def swings(ctx, t, y, angles):
+    """What sines are taken of that no error of a step knows."""
+    look(ctx, t, y)
+    ask(ctx, SWINGS, angles)
+
+
 def switch(ctx, t, y, fired, n_fired):
     """Follow the fired guards; of several of one instance the first counts."""
     place, to, machines, zones = i8(ctx[GUARD_PLACE]), i8(ctx[GUARD_TO]), i8(ctx[GUARD_MACHINES]), i8(ctx[ZONES])

@@ -30,7 +30,7 @@ from fairlead.system.callbacks.evaluation import (
 )
 from fairlead.system.callbacks.recorded import expand, let_slip, outputs, show, spread
 from fairlead.system.callbacks.rigid_clusters import add_shares, guard_shares, look_around, regroup, unite
-from fairlead.system.callbacks.switching import at_time, drift, gap, guards, next_time, slip, slips, switch
+from fairlead.system.callbacks.switching import at_time, drift, gap, guards, next_time, slip, slips, swings, switch
 
 SPREAD = "spread"
 """The one that no engine calls."""
@@ -41,6 +41,7 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
     "slopes": (slopes, ("I8", "float", "F8", "F8", "F8"), "None"),
     "mass": (mass, ("I8", "F8"), "None"),
     "guards": (guards, ("I8", "float", "F8", "F8"), "None"),
+    "swings": (swings, ("I8", "float", "F8", "F8"), "None"),
     "switch": (switch, ("I8", "float", "F8", "I8", "int"), "int"),
     "slip": (slip, ("I8", "float", "F8", "F8"), "int"),
     "drift": (drift, ("I8", "float", "F8", "F8"), "None"),

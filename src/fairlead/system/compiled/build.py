@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Floats, Tables
 from fairlead.system.arrays.outputs import signals, stored
 from fairlead.system.arrays.shares import rows, shares
@@ -100,6 +101,7 @@ def build(
         machine_names=list(machines),
         on_given_motion=on_given_motion,
         machine_kind=machine_kinds(blocks, len(machines)),
+        n_swings=end.swings if memory["counts"][layout.SWINGS].any() else 0,
         guard_names=[name for name, _ in slots],
         machine_zones=machine_zones(blocks, len(machines)),
         machine_guards=machine_owners(blocks, len(machines)),

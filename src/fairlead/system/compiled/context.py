@@ -12,6 +12,7 @@ import numpy as np
 from fairlead.distinct import distinct
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
+from fairlead.kernels.structure import OF_GUARD
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory, Tables
 from fairlead.system.arrays.following import followers
 from fairlead.system.arrays.switching import holds
@@ -54,7 +55,7 @@ def working_arrays(
         "f_rest": np.zeros(numbering.w_dump + 1),
         "zones": np.zeros(machines, dtype=np.int64), "tables": tables.vector(),
         "kernels": np.array([b.kernel.address for b in blocks], dtype=np.int64),
-        "counts": _counts(blocks), "schedule": schedule,
+        "counts": _counts(blocks, numbering.dump), "schedule": schedule,
         "pairs": np.array(numbering.pairs, dtype=np.int64).reshape(-1, layout.PAIR),
         "inverse_mass": _inverse_mass(flat, numbering),
         "accelerated": np.array([(numbering.rate[k], a) for k, a in numbering.accelerated.items()],
@@ -109,14 +110,21 @@ def _inverse_mass(flat: FlatModel, numbering: Numbering) -> Floats:
     return inverse
 
 
-def _counts(blocks: Sequence[Block]) -> Integers:
+def _counts(blocks: Sequence[Block], dump: int) -> Integers:
     """How many instances of every block to ask, by mode; none whose kernel has no answer. Outputs: see `shown.py`."""
     counts = np.zeros((layout.MODES, len(blocks)), dtype=np.int64)
     for k, block in enumerate(blocks):
         for mode in block.kernel.structure.modes:
-            if mode != layout.OUTPUT and (block.acts or mode == layout.GUARD):
+            asked = _read_swings(block, dump) if mode == layout.SWINGS else mode != layout.OUTPUT
+            if asked and (block.acts or mode == layout.GUARD):
                 counts[mode, k] = block.count
     return counts
+
+
+def _read_swings(block: Block, dump: int) -> bool:
+    """True if a guard, or an output that something reads, has a sine of what swings."""
+    s = block.kernel.structure
+    return any(name == OF_GUARD or (block.sig_index[:, s.outputs.index(name)] != dump).any() for name in s.swings)
 
 
 def _schedule(blocks: Sequence[Block], numbering: Numbering) -> Integers:

@@ -83,6 +83,7 @@ class System:
     machine_names: Sequence[str]
     machine_kind: Integers  # per machine: equal for the same place in instances of one class variant
     on_given_motion: list[str]  # stops of which a side moves as given
+    n_swings: int  # what sines are taken of that no error of a step knows
     guard_names: Sequence[str]
     machine_zones: list[Sequence[str]]
     machine_guards: list[Any]  # per machine: the block and the instance it belongs to
