@@ -82,6 +82,7 @@ class KernelFacts:
         return Structure(
             inputs=self.inputs, parameters=self.parameters, tables=t.tables, time_tables=t.time_tables,
             zones=list(t.zones), machines=self.machines, outputs=self.outputs, unfit=self.unfit,
+            zeros=[name for name in has.outputs if all(zone.outputs.get(name) == 0 for zone in self.zones)],
             targets=self.targets, ledger=self.ledger, mass=self.mass,
             d_signals=self.d_signals, d_flows=self.d_flows, d_ledger=self.d_ledger,
             holds={u: [n for n, z in t.zones.items() if u in z.holds] for z in self.zones for u in z.holds},

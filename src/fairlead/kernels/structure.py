@@ -26,6 +26,7 @@ class Structure:
     zones: list[str]
     machines: int
     outputs: list[str]
+    zeros: list[str]  # outputs that are zero, whatever happens
     unfit: dict[str, str]  # outputs that cannot feed an input or prescribe a motion, and why
     targets: list[str]  # "port:a", "own:force": where flows, rates and balances go
     ledger: list[str]

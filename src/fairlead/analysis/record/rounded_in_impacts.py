@@ -21,18 +21,8 @@ RIGID = 2
 
 def remark(system: System, lost: Mapping[str, float]) -> str:
     """What to tell where impacts took energy (`lost`, by part) and such contacts are in the scene; "" for nothing."""
-    pressed = pressed_by_impulses(system) if lost else {}
-    if not pressed:
-        return ""
-    rounded = [name for name, rounds in pressed.items() if rounds]
-    said = _of_rounded(rounded, lost) if rounded else ""
-    in_circles = [name for name, rounds in pressed.items() if not rounds]
-    if in_circles:
-        said += (" " if said else "") + (
-            f"{_listed(in_circles)} may close circles with other contacts, and take part in impacts with the losses of "
-            f"no load. Impacts took energy in this run ({_listed(list(lost))}); the share of gears in it is not known."
-        )
-    return said
+    rounded = pressed_by_impulses(system) if lost else []
+    return _of_rounded(rounded, lost) if rounded else ""
 
 
 def _listed(names: list[str]) -> str:
@@ -49,11 +39,8 @@ def _of_rounded(names: list[str], lost: Mapping[str, float]) -> str:
     )
 
 
-def pressed_by_impulses(system: System) -> dict[str, bool]:
-    """Contacts whose force follows one that takes any impulse, by name: True for those that never hold exactly.
-
-    Those that do are left out, but where they may close circles with others.
-    """
+def pressed_by_impulses(system: System) -> list[str]:
+    """Contacts that never hold exactly and whose force follows one that takes any impulse, by name."""
     told: set[int] = set(np.flatnonzero(system.takes_impulse >= RIGID).tolist())  # and signals that follow them
     before = 0
     while len(told) > before:
@@ -62,11 +49,10 @@ def pressed_by_impulses(system: System) -> dict[str, bool]:
             for inputs, outputs in zip(block.in_index.tolist(), block.sig_index.tolist(), strict=True):
                 told |= {outputs[o] for o, i in block.kernel.structure.d_signals if inputs[i] in told}
     contacts = {signal.name.rpartition(".")[0] for signal in system.signals if signal.role == CREEP}
-    circles, found = {system.machine_names[machine] for machine in system.beyond_row.tolist()}, {}
+    found = []
     for block in system.blocks:
         s = block.kernel.structure
         for instance, inputs in zip(block.instances, block.in_index.tolist(), strict=True):
-            follows = any(inputs[i] in told for _, i in s.d_flows)
-            if instance.path in contacts and follows and (not s.holds or instance.path in circles):
-                found[instance.path] = not s.holds
+            if instance.path in contacts and not s.holds and any(inputs[i] in told for _, i in s.d_flows):
+                found.append(instance.path)
     return found

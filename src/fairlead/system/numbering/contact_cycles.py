@@ -10,7 +10,7 @@ at rest. So they are joined with what is at rest by such a circle too: a stop at
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from fairlead.component.instantiate import PortRef
@@ -33,7 +33,8 @@ class HeldPair:
 
 def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPair]:
     """Those that lie on a circle, in the order of the instances."""
-    pairs = [pair for instance in flat.instances for pair in _pairs(flat, instance.path, structures[instance.path])]
+    still = _standing(flat, structures)
+    pairs = [one for each in flat.instances for one in _pairs(flat, each.path, structures[each.path], still)]
     edges = [_edge(flat, pair) for pair in pairs]
     if _forest(edges):
         return []
@@ -45,28 +46,45 @@ def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPa
     return [pair for pair, edge in zip(pairs, edges, strict=True) if parallel[edge] > 1 or edge not in bridges]
 
 
-def _pairs(flat: FlatModel, path: str, structure: Structure) -> Iterator[HeldPair]:
+def _standing(flat: FlatModel, structures: Mapping[str, Structure]) -> frozenset[int]:
+    """Groups whose motion is given, by a law whose speed is nothing else than zero: fixed points."""
+    found = set()
+    for index, group in enumerate(flat.groups):
+        given = group.prescribed
+        if given is not None and given.outputs is not None:
+            found |= {index} if given.outputs[1] in structures[given.by.instance].zeros else set()
+    return frozenset(found)
+
+
+def _pairs(flat: FlatModel, path: str, structure: Structure, still: frozenset[int]) -> Iterator[HeldPair]:
     for unknown, speeds in structure.pairs.items():
-        moving = [one for one in ends(flat, path, speeds) if one[0] != REST]  # a lever whose pivot stands joins two
+        joined = ends(flat, path, speeds, still)
+        moving = [one for one in joined if one[0] != REST]  # a lever whose pivot stands joins two
         if len(moving) <= 2:
             one, other = (*moving, (REST, 1.0), (REST, 1.0))[:2]
             yield HeldPair(path, unknown, (one, other), structure.senses[unknown])
 
 
-def ends(flat: FlatModel, path: str, speeds: Mapping[str, float]) -> list[tuple[int, float]]:
-    """Every group that a slip is a sum of speeds of, with its coefficient: two ports may belong to one, over a gear."""
+def ends(
+    flat: FlatModel, path: str, speeds: Mapping[str, float], still: Collection[int] = ()
+) -> list[tuple[int, float]]:
+    """Every group that a slip is a sum of speeds of, with its coefficient: two ports may belong to one, over a gear.
+
+    Those that stand are all REST, as are those of `still`.
+    """
     found: dict[int, float] = {}
     for port, speed in speeds.items():
-        index, coef = _end(flat, path, port, speed)
+        index, coef = _end(flat, path, port, speed, still)
         found[index] = coef if index == REST else found.get(index, 0.0) + coef
     return list(found.items())
 
 
-def _end(flat: FlatModel, path: str, port: str, speed: float) -> tuple[int, float]:
+def _end(flat: FlatModel, path: str, port: str, speed: float, still: Collection[int]) -> tuple[int, float]:
     """The group a port belongs to, and what a unit of its speed adds to the slip, for a `speed` at the port."""
     index, ratio, _ = flat.place(PortRef(path, port))
     prescribed = flat.groups[index].prescribed
-    return (REST, 1.0) if prescribed is not None and prescribed.outputs is None else (index, speed * ratio)
+    stands = index in still or (prescribed is not None and prescribed.outputs is None)
+    return (REST, 1.0) if stands else (index, speed * ratio)
 
 
 def _edge(flat: FlatModel, pair: HeldPair) -> tuple[int, int]:
