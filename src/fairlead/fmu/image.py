@@ -37,7 +37,7 @@ OF_BLOCK = (
     "ledger_index",
 )  # fmt: skip
 """Arrays of a block, in the order of their addresses in its row (layout.py)."""
-IN_CONTEXT = (*ADDRESSES, *(name.upper() for name in CHANGED), "SELECTED", "COUNTS", "SET_AT")
+IN_CONTEXT = (*ADDRESSES, *(name.upper() for name in CHANGED), "SELECTED", "COUNTS", "SHOWN_FLOWS", "SET_AT")
 """Positions of the context that hold addresses."""
 
 
@@ -127,7 +127,7 @@ def _arrays(memory: Memory, own: Instance) -> tuple[dict[str, np.ndarray], dict[
     others = {f"memory {name}": array for name, array in memory.array.items() if f"memory {name}" not in mine}
     others |= {name: array for name, array in own.memory.items() if name not in mine}
     others |= {f"{name} {k}": getattr(block, name) for k, block in enumerate(own.blocks) for name in OF_BLOCK}
-    others |= {"selected": own.record.selected, "counts": own.record.counts}
+    others |= {"selected": own.record.selected, "counts": own.record.counts, "shown_flows": own.record.shown_flows}
     seen = {array.ctypes.data for array in mine.values()}
     begin, end = memory.arena.ctypes.data, memory.arena.ctypes.data + memory.arena.nbytes
     found: dict[str, np.ndarray] = {}

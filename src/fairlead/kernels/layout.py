@@ -158,7 +158,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     WHOLE_ZONES,  # those of the whole
     WHOLE_W,
     SLIP_SHOWN,  # 1 if an output may follow the slip of what is carried
-    RATES_SHOWN,  # 1 if an output that is shown reads an acceleration or a reaction
+    RATES_SHOWN,  # whether an output that is shown reads an acceleration or a reaction, see below
     N_ACCELERATED,  # bodies whose acceleration is an unknown
     ACCELERATED,  # int64 (accelerated, ACCELERATED_ROW)  their speed and their acceleration
     ACCELERATED_MASS,  # float64 (accelerated,)
@@ -190,8 +190,10 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     N_FOLLOWING_FLOWS,
     FOLLOWING,  # int64 (following, CALL)
     FOLLOWING_FLOWS,  # int64 (., CALL)
+    N_SHOWN_FLOWS,  # calls for the flows that give the accelerations and reactions that outputs that are shown read
+    SHOWN_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(135)
+) = range(137)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last
@@ -225,3 +227,6 @@ CARRIED_X, CARRIED_V, CARRIER_X, CARRIER_V, CARRIER_A, CARRIED_ROW = range(6)
 RATIO_X, OFFSET_X, RATIO_V, RATIO_MASS, INVERSE_BOND, CARRIED_COEFS = range(6)
 
 FREE, DRIVEN, AT_REST = range(3)  # what a union of bodies hangs on
+
+# Of RATES_SHOWN: no output that is shown reads one, all have to be found, or those that SHOWN_FLOWS give.
+NO_RATES, ALL_RATES, SOME_RATES = range(3)

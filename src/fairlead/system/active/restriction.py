@@ -68,7 +68,7 @@ def _weights(system: Instance, unknowns: Integers, guards: Integers) -> Weights:
 
 def _shown(part: System, system: Instance) -> Recording:
     """What is recorded of the whole; of its own the part shows nothing."""
-    nothing = recording([], [], part.blocks, part.memory["counts"])
+    nothing = recording([], [], part.blocks, part.numbering, part.memory)
     return dataclasses.replace(nothing, recorded=system.recorded)
 
 

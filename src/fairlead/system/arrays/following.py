@@ -27,14 +27,14 @@ def followers(blocks: Sequence[Block], schedule: Integers, given: Integers, dump
     signals: list[list[int]] = []
     for place, first, end in schedule.tolist():
         found = first + np.flatnonzero(_reads(blocks[place], followed)[first:end])
-        signals += _runs(place, found)
+        signals += runs(place, found)
         followed[blocks[place].sig_index[found]] = True
         followed[dump] = False
     flows = [
         call
         for place, block in enumerate(blocks)
         if block.acts and layout.FLOWS in block.kernel.structure.modes
-        for call in _runs(place, np.flatnonzero(_reads(block, followed)))
+        for call in runs(place, np.flatnonzero(_reads(block, followed)))
     ]
     return {
         "following": np.array(signals, dtype=np.int64).reshape(-1, layout.CALL),
@@ -48,7 +48,7 @@ def _reads(block: Block, followed: Booleans) -> Booleans:
     return np.any(inside & followed[np.where(inside, block.in_index, 0)], axis=1)
 
 
-def _runs(place: int, found: Integers) -> list[list[int]]:
+def runs(place: int, found: Integers) -> list[list[int]]:
     """Calls of block `place` for these instances, those next to each other together."""
     runs = np.split(found, np.flatnonzero(np.diff(found) > 1) + 1)
     return [[place, int(run[0]), int(run[-1]) + 1] for run in runs if len(run)]

@@ -10,9 +10,10 @@ import numpy as np
 from fairlead.component.declare import CREEP, INTEGRAL, PULL, STRAIN
 from fairlead.kernels import layout
 from fairlead.patterns import picked
-from fairlead.system.arrays.blocks import Block, Integers
+from fairlead.system.arrays.blocks import Block, Integers, Memory
 from fairlead.system.arrays.shares import shares
-from fairlead.system.arrays.shown import what_to_ask
+from fairlead.system.arrays.shown import flows_to_ask, what_to_ask
+from fairlead.system.numbering.unknowns import Numbering
 
 WATCHED = (CREEP, STRAIN, PULL, INTEGRAL)
 """Roles of outputs that every run looks at, whatever is recorded."""
@@ -40,34 +41,49 @@ class Recording:
     """Where what is recorded comes from, see layout.py."""
     counts: Integers
     """By mode and block: instances to ask."""
-    late: bool
-    """Whether some of it is known only after the forces."""
+    rates: int
+    """RATES_SHOWN: what of it is known only after the forces."""
+    shown_flows: Integers
+    """Calls for the flows that this takes, if not all."""
+
+    @property
+    def late(self) -> bool:
+        """Whether some of it is known only after the forces."""
+        return self.rates != layout.NO_RATES
 
     def tell(self, context: Integers) -> None:
         """Write the choice into a context."""
         context[layout.N_SELECTED] = len(self.selected)
         context[layout.SELECTED] = self.selected.ctypes.data
         context[layout.COUNTS] = self.counts.ctypes.data
-        context[layout.RATES_SHOWN] = int(self.late)
+        context[layout.RATES_SHOWN] = self.rates
+        context[layout.N_SHOWN_FLOWS] = len(self.shown_flows)
+        context[layout.SHOWN_FLOWS] = self.shown_flows.ctypes.data if len(self.shown_flows) else 0
 
 
 def choose(
-    signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], counts: Integers
-) -> Recording:
-    """The signals whose names fit a pattern with * and ?; `counts` of the other modes are those of the System."""
+    signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], numbering: Numbering,
+    memory: Memory,
+) -> Recording:  # fmt: skip
+    """The signals of a System whose names fit a pattern with * and ?."""
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]
     hidden = [s for s in signals if (s.role in WATCHED or s.rounded_by or s.at < 0) and s.name not in names]
-    return recording(chosen, chosen + hidden, blocks, counts)
+    return recording(chosen, chosen + hidden, blocks, numbering, memory)
 
 
 def recording(
-    chosen: list[OutputSignal], recorded: list[OutputSignal], blocks: Sequence[Block], counts: Integers
-) -> Recording:
-    """What the callbacks must know to record this."""
+    chosen: list[OutputSignal], recorded: list[OutputSignal], blocks: Sequence[Block], numbering: Numbering,
+    memory: Memory,
+) -> Recording:  # fmt: skip
+    """What the callbacks must know to record this; the counts of other modes are those of the System."""
     selected = np.array([s.at for s in recorded], dtype=np.int64)
-    asked, counts = what_to_ask(blocks, shares(blocks)[0], selected), counts.copy()
-    counts[layout.OUTPUT], late = asked
-    return Recording(chosen, recorded, selected, counts, late)
+    counts = memory["counts"].copy()
+    counts[layout.OUTPUT], late = what_to_ask(blocks, shares(blocks)[0], selected)
+    flows = flows_to_ask(blocks, numbering, memory, late) if len(late) else np.zeros((0, layout.CALL), dtype=np.int64)
+    rates = layout.NO_RATES if not len(late) else layout.ALL_RATES if flows is None else layout.SOME_RATES
+    if flows is None:
+        flows = np.zeros((0, layout.CALL), dtype=np.int64)
+    return Recording(chosen, recorded, selected, counts, rates, flows)
 

@@ -118,6 +118,22 @@ def of_accelerations(ctx, y, w):
 def accelerate(ctx, t, y):
     """As evaluate, and the accelerations in force, for guards and outputs."""
     evaluate(ctx, t, y)
+    divide(ctx)
+
+
+def accelerate_shown(ctx, t, y):
+    """Signals, and the accelerations and reactions that outputs read which are shown; others are not right."""
+    look(ctx, t, y)
+    w, rest = f8(ctx[W]), f8(ctx[F_REST])
+    for i in range(0, ctx[N] + ctx[N_REACTIONS] + 1):
+        w[i] = rest[i]
+    make_calls(ctx, FLOWS, ctx[SHOWN_FLOWS], 0, ctx[N_SHOWN_FLOWS], w)
+    react(ctx, w)
+    divide(ctx)
+
+
+def divide(ctx):
+    """Accelerations in z: the rows of w by what they move."""
     z, w, inverse, first = f8(ctx[Z]), f8(ctx[W]), f8(ctx[INVERSE_MASS]), ctx[ACCELERATION_AT]
     for i in range(0, ctx[N]):
         z[first + i] = w[i] * inverse[i]

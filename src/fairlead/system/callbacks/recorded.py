@@ -17,10 +17,12 @@ def outputs(ctx, t, y, out):
 
 def show(ctx, t, y, out):
     """The recorded outputs, then the stored energy of all."""
-    if ctx[RATES_SHOWN] == 0:
+    if ctx[RATES_SHOWN] == NO_RATES:
         look(ctx, t, y)
-    if ctx[RATES_SHOWN] > 0:
+    if ctx[RATES_SHOWN] == ALL_RATES:
         accelerate(ctx, t, y)
+    if ctx[RATES_SHOWN] == SOME_RATES:
+        accelerate_shown(ctx, t, y)
     z, everything, selected, stored = f8(ctx[Z]), f8(ctx[OUTPUTS_ALL]), i8(ctx[SELECTED]), i8(ctx[STORED])
     ask(ctx, OUTPUT, everything)
     total = ctx[N_SELECTED]

@@ -12,9 +12,11 @@ from fairlead.system.callbacks.algebraic_rates import add_rates, find_known, fin
 from fairlead.system.callbacks.derivatives import assemble, fix, hold_light, jacobian, mass, slopes
 from fairlead.system.callbacks.evaluation import (
     accelerate,
+    accelerate_shown,
     ahead,
     ask,
     average,
+    divide,
     evaluate,
     follow,
     forces,
@@ -56,7 +58,7 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
     make_calls, give_motions, average, put_average, look, ask, gather, react, follow, of_accelerations, evaluate,
-    accelerate, slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
+    divide, accelerate, accelerate_shown, slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
 )  # fmt: skip
 """What callbacks call."""
 

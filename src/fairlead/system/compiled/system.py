@@ -266,8 +266,9 @@ class System:
 
     @functools.cached_property
     def _recording(self) -> Callable[[tuple[str, ...]], Recording]:
-        counts = self.memory["counts"]
-        return functools.lru_cache(maxsize=8)(lambda names: choose(self.signals, names, self.blocks, counts))
+        return functools.lru_cache(maxsize=8)(
+            lambda names: choose(self.signals, names, self.blocks, self.numbering, self.memory)
+        )
 
     def instance(self, run: Asked | None = None, piece: Bytes | None = None) -> Instance:
         """This System for one run, with memory of its own; in `piece`, `working.size` bytes of zeros, if given."""
