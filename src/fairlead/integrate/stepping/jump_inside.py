@@ -82,9 +82,28 @@ def find_limits(guards, contacts):
 @compiled
 def put_jumps_right(m, h):
     """After the zones have switched: what is asked of the rows of machines that have, by their jumps."""
+    contacts = m.stepping.contacts
+    find_limits(m.events.guards, contacts)
+    if any_falls(m.problem, contacts):
+        ask_of_rows(m, h)
+    note_kinds(m.events.guards, contacts, m.events.settling.passes == 1 and m.stepping.rule.gap > 0.0)
+
+
+@compiled
+def any_falls(problem, contacts):
+    """True if the friction of a machine that has switched falls as it lets go: no other law jumps in its row."""
+    falls, at = indices(problem.at_falls, problem.n_zones), reals(contacts.at_jump_at, contacts.n_zones)
+    found = False
+    for z in range(problem.n_zones):
+        found = found or (falls[z] == 1 and at[z] != STAYED)
+    return found
+
+
+@compiled
+def ask_of_rows(m, h):
+    """Of the rows of those whose friction falls, by f at both ends; nothing is asked of others."""
     problem, point, contacts, rule = m.problem, m.point, m.stepping.contacts, m.stepping.rule
     n = problem.n
-    find_limits(m.events.guards, contacts)
     holder, at = indices(problem.at_holder, n), reals(contacts.at_jump_at, contacts.n_zones)
     jumped, falls = indices(contacts.at_met, contacts.n_zones), indices(problem.at_falls, problem.n_zones)
     field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
@@ -94,10 +113,10 @@ def put_jumps_right(m, h):
     kick, first, second = reals(rule.at_kick, n), reals(rule.at_kick_first, n), reals(rule.at_kick_second, n)
     for k in range(n):
         z = holder[k]
-        if z < 0 or at[z] == STAYED:
+        if z < 0 or at[z] == STAYED or falls[z] == 0:
             continue
         s, jump = max((at[z] * (rule.gap + 0.5 * h) - rule.gap) / h, EARLIEST), 0.0
-        if at[z] != NO_LIMIT and falls[z] == 1:
+        if at[z] != NO_LIMIT:
             jump = before[k] + at[z] * (after[k] - before[k])
         if abs(jump) > weight[k]:
             jumped[z] = 1
@@ -106,7 +125,6 @@ def put_jumps_right(m, h):
         kick[k] = s * jump
         first[k] = -12.0 * s * s * jump
         second[k] = 2.0 * s * (3.0 * s - 1.0) * jump
-    note_kinds(m.events.guards, contacts, m.events.settling.passes == 1 and rule.gap > 0.0)
 
 
 @compiled
