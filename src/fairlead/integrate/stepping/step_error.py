@@ -84,21 +84,20 @@ def error_of_step(m, h):
     second = (rule.theta_now - MIDDLE) * h * h
     weigh(point, point.at_y_end)
     for k in range(n):
-        error[k] = 0.0
-        slope[k] = 0.0
-        bend[k] = 0.0
         if not isfinite(y_end[k]):
             point.worst = k
             return inf - inf
-        if differential[k] == 1:
-            slope[k] = (y_end[k] - y[k]) * per_step
-            curve, curve_before = (slope[k] - before[k]) * per_near, (before[k] - earlier[k]) * per_far
-            if curve * curve_before > 0.0 and abs(curve) <= UNEVEN * abs(curve_before):
-                bend[k] = -0.5 * h * h * curve
-            if controlled[k] == 1 or (rule.locates == 1 and quadrature[k] == 0):
-                error[k] = abs(third * (curve - curve_before)) + abs(second * curve)
-        else:
-            slope[k] = (y_end[k] - (y[k] if settled else mean[k])) * per_near
+    located, start = rule.locates == 1, y if settled else mean
+    for k in range(n):
+        moving, rise = differential[k] == 1, (y_end[k] - start[k]) * per_near
+        rate = (y_end[k] - y[k]) * per_step
+        curve, curve_before = (rate - before[k]) * per_near, (before[k] - earlier[k]) * per_far
+        even = (curve * curve_before > 0.0) & (abs(curve) <= UNEVEN * abs(curve_before))
+        parabola, missed = -0.5 * h * h * curve, abs(third * (curve - curve_before)) + abs(second * curve)
+        judged = (controlled[k] == 1) | (located & (quadrature[k] == 0))
+        slope[k] = rate if moving else rise
+        bend[k] = parabola if moving & even else 0.0
+        error[k] = missed if moving & judged else 0.0
     if rule.locates == 1:
         return error_of_located(point, stepping, h)
     size = weighted_norm(point, point.at_error_vector)

@@ -32,9 +32,10 @@ def show(ctx, t, y, out):
             out[k] = everything[source]
         if source < 0:
             out[k] = z[-1 - source]
-    out[total] = 0.0
+    energy = 0.0
     for k in range(0, ctx[N_STORED]):
-        out[total] += everything[stored[k]]
+        energy += everything[stored[k]]
+    out[total] = energy
 
 
 def spread(ctx, t, y, of_whole):
