@@ -77,6 +77,9 @@ class Values:
         self.arguments: dict[str, Any] = {}
         self.variables: dict[str, Any] = {}
         self.given: set[str] = set()
+        self.latest: dict[str, tuple[ir.Block, Any]] = {}
+        """Of a variable the value that it was last seen with, and the block that saw it. In that block it has it still:
+        only what stands there can give it another. So most reads need no instruction."""
 
     def branch_on(self, test: ast.expr, yes: ir.Block, no: ir.Block) -> None:
         """Go on in one of two blocks."""
@@ -152,7 +155,11 @@ class Values:
     def named(self, node: ast.Name) -> Any:
         """The value of a variable, an argument or a position of layout.py."""
         if node.id in self.given:
-            return self.builder.load(self.variables[node.id])
+            block, value = self.latest.get(node.id, (None, None))
+            if block is not self.builder.block:
+                value = self.builder.load(self.variables[node.id])
+                self.latest[node.id] = (self.builder.block, value)
+            return value
         if node.id in self.variables:
             self.where.refuse(node, f"{node.id} has a value on some ways to this place only; give it one before")
         if node.id in self.arguments:

@@ -121,9 +121,16 @@ def _define(
 
 
 def _stored(tree: ast.FunctionDef) -> set[str]:
-    """Names that the text gives a value somewhere."""
-    names = (node for node in ast.walk(tree) if isinstance(node, ast.Name))
-    return {node.id for node in names if isinstance(node.ctx, ast.Store)}
+    """Names that the text gives a value somewhere; only statements do, so expressions are not looked through."""
+    found: set[str] = set()
+    left: list[Any] = [tree]
+    while left:
+        statement = left.pop()
+        left += [*getattr(statement, "body", ()), *getattr(statement, "orelse", ())]
+        for target in getattr(statement, "targets", None) or [getattr(statement, "target", None)]:
+            places = target.elts if isinstance(target, ast.Tuple) else [target]
+            found |= {place.id for place in places if isinstance(place, ast.Name)}
+    return found
 
 
 def _optimised(text: str) -> str:
@@ -299,4 +306,5 @@ class _Lowering(Values):
         if statement is not None:
             value = self.fitted(value, place.type.pointee, statement, name)
         self.builder.store(value, place)
+        self.latest[name] = (self.builder.block, value)
         self.given.add(name)
