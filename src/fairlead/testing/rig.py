@@ -100,8 +100,12 @@ class Rig:
         block[: len(self._arrays)] = [array.ctypes.data for array in self._arrays]
         return block
 
+    @functools.cached_property
+    def _widths(self) -> dict[int, int]:
+        return widths(self.structure)
+
     def _shape(self, mode: int) -> tuple[int, int]:
-        columns = widths(self.structure)[mode]
+        columns = self._widths[mode]
         return (1, columns) if mode == layout.LEDGER else (self.count, columns)
 
 

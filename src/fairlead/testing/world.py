@@ -238,7 +238,7 @@ def _around(rng: np.random.Generator, most: float) -> float:
     """A number of either sign, its size from a millionth of `most` up; now and then exactly zero."""
     if rng.random() < 0.05:
         return 0.0
-    return float(rng.choice([-1, 1]) * most * 10 ** rng.uniform(-6, 0))
+    return float((-1, 1)[rng.integers(2)] * most * 10 ** rng.uniform(-6, 0))
 
 
 def _written(text: str) -> str:
