@@ -28,6 +28,8 @@ import sympy
 from fairlead.component.keys import INPUT, PORT, TABLE, key
 from fairlead.component.piecewise import DEGREE
 from fairlead.component.trace import Traced, TracedGuard, TraceError, symbol
+from fairlead.kernels.derivative import derivative, symbols_in
+from fairlead.kernels.in_floats import varies
 from fairlead.kernels.structure import PIECES, Sum
 
 MANY_TERMS = 1000
@@ -51,12 +53,12 @@ def in_case(expression: sympy.Expr, tables: Sequence[str], case: str) -> sympy.E
             given |= {symbol(f"T:{path}:{k + 1}"): sympy.S.Zero for k in range(1, DEGREE + 1)}
         if kind in "01":
             given[symbol(f"T:{path}:1")] = sympy.Integer(kind)
-    return expression.xreplace(given) if given.keys() & expression.free_symbols else expression
+    return expression.xreplace(given) if given.keys() & symbols_in(expression) else expression
 
 
 def sums(expression: sympy.Expr, inputs: Sequence[str]) -> list[Sum]:
     """The sums of inputs through which an expression depends on them."""
-    names = {s.name for s in expression.free_symbols}
+    names = {s.name for s in symbols_in(expression)}
     used = [j for j, key in enumerate(inputs) if key in names]
     found: list[Sum] = []
     for alike in _alike(used, inputs):
@@ -85,13 +87,15 @@ def _differences(expression: sympy.Expr, alike: list[int], inputs: Sequence[str]
 def _moves_along(expression: sympy.Expr, keys: Sequence[str]) -> bool:
     """True if it reads these inputs only over each other: written in the first and the others over it, that cancels."""
     first, *others = (symbol(text) for text in keys)
+    if varies(expression, [first, *others]):
+        return False
     shifted = expression.xreplace({other: other + first for other in others})
-    if first not in shifted.free_symbols:
+    if first not in symbols_in(shifted):
         return True
-    read = any(key(s.name).kind == TABLE for s in shifted.free_symbols)  # then the place counts; long to write out
+    read = any(key(s.name).kind == TABLE for s in symbols_in(shifted))  # then the place counts; long to write out
     if read or any(_terms(part) > MANY_TERMS for part in sympy.preorder_traversal(shifted)):
         return False
-    return first not in sympy.expand(shifted).free_symbols
+    return first not in symbols_in(sympy.expand(shifted))
 
 
 def _terms(expression: sympy.Expr) -> int:
@@ -107,10 +111,10 @@ def _terms(expression: sympy.Expr) -> int:
 
 def member(expression: sympy.Expr, inputs: Sequence[str]) -> dict[str, Any]:
     """A member of a guard: its sums; the slopes instead, where it is one sum with numbers for coefficients."""
-    names = {s.name for s in expression.free_symbols}
+    names = {s.name for s in symbols_in(expression)}
     used = [j for j, key in enumerate(inputs) if key in names]
     if used and expression.is_polynomial(*(symbol(inputs[j]) for j in used)):
-        slopes = [sympy.diff(expression, symbol(inputs[j])) for j in used]
+        slopes = [derivative(expression, symbol(inputs[j])) for j in used]
         if all(slope.is_number for slope in slopes):
             return {"sums": [[(j, float(slope)) for j, slope in zip(used, slopes, strict=True)]], "straight": True}
     return {"sums": sums(expression, inputs), "straight": False}
@@ -141,7 +145,7 @@ def carried_ratio(traced: Traced) -> list[tuple[str, float]]:
     if says is None:
         return []
     flow = traced.zones[says.zone].flows.get(says.node, sympy.S.Zero)
-    own, by = (sympy.diff(flow, symbol(f"port:{port}:v")) for port in (says.node, says.by))
+    own, by = (derivative(flow, symbol(f"port:{port}:v")) for port in (says.node, says.by))
     ratio = sympy.cancel(-by / own) if own != 0 else sympy.S.Zero
     number, factors = ratio.as_coeff_Mul()
     found: list[tuple[str, float]] = [("", float(number))]

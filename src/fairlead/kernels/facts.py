@@ -16,9 +16,11 @@ from fairlead.component.trace import HoldRow, Traced, TracedGuard, TracedZone, i
 from fairlead.kernels import layout
 from fairlead.kernels.break_away import parameters_as_text, shares_left
 from fairlead.kernels.dependence import carried_ratio, reads
+from fairlead.kernels.derivative import derivative, symbols_in
 from fairlead.kernels.flow_rates import flow_rates, joins, output_rates, yields
 from fairlead.kernels.guard_slots import bounds_what_holds, in_slots
 from fairlead.kernels.held_pairs import held_pairs
+from fairlead.kernels.in_floats import differs
 from fairlead.kernels.structure import Structure
 from fairlead.kernels.swings import swings
 
@@ -51,7 +53,7 @@ class KernelFacts:
         self.targets = [f"port:{name}" for name in self._flowing()] + [f"own:{n}" for n in (*has.states, *has.unknowns)]
         self.targets += [f"{RATE}:{name}" for name in (self._flowing() if rated else [])]
         self.outputs = [*has.outputs, *(of_outputs[0] if of_outputs else ())]
-        symbols = sorted({s.name for e in self._everything() for s in e.free_symbols} | set(read_in_python(has)))
+        symbols = sorted({s.name for e in self._everything() for s in symbols_in(e)} | set(read_in_python(has)))
         self.inputs = [text for text in symbols if key(text).kind in (PORT, OWN, INPUT, TIME)]
         discrete = {f"p:#{name}" for name in has.discrete}
         numbers = {text for text in symbols if key(text).kind == PARAMETER} | discrete
@@ -126,7 +128,7 @@ class KernelFacts:
 
     def partial(self, values: list[Any], pair: tuple[int, int]) -> sympy.Expr:
         """The derivative of a value to an input."""
-        return sympy.diff(values[pair[0]] or 0, symbol(self.inputs[pair[1]]))
+        return derivative(sympy.sympify(values[pair[0]] or 0), symbol(self.inputs[pair[1]]))
 
     def _fixed(self, pairs: list[tuple[int, int]], values: Callable[[TracedZone], list[Any]]) -> list[int]:
         """Places of the derivatives that are the same in all zones, and made of parameters alone."""
@@ -134,7 +136,7 @@ class KernelFacts:
         found = []
         for e, pair in enumerate(pairs):
             partials = [self.partial(each, pair) for each in given]
-            plain = all(key(s.name).is_fixed for s in partials[0].free_symbols)
+            plain = all(key(s.name).is_fixed for s in symbols_in(partials[0]))
             if plain and all(other == partials[0] for other in partials):
                 found.append(e)
         return found
@@ -146,7 +148,7 @@ class KernelFacts:
             for zone in self.zones
             for pair in pairs
             if self.inputs[pair[1]] != "t"
-            and any(s.name in self.inputs for s in self.partial(values(zone), pair).free_symbols)
+            and any(s.name in self.inputs for s in symbols_in(self.partial(values(zone), pair)))
         }
         return sorted(found)
 
@@ -176,7 +178,7 @@ class KernelFacts:
     def _unfit(self, name: str) -> str:
         """Why an output can be recorded only, or "" when it may feed a law."""
         values = [zone.outputs[name] for zone in self.zones if name in zone.outputs]
-        symbols = (key(s.name) for value in values for s in value.free_symbols)
+        symbols = (key(s.name) for value in values for s in symbols_in(value))
         read = {one.part for one in symbols if one.kind == PORT}
         if "a" in read:
             return "it reads an acceleration, which is known only after the forces"
@@ -200,7 +202,7 @@ class KernelFacts:
         for zone in self.zones:
             for k, value in enumerate(values(zone)):
                 if value is not None:
-                    used = {s.name for s in value.free_symbols}
+                    used = {s.name for s in symbols_in(value)}
                     found |= {(k, j) for j, text in enumerate(self.inputs) if text in used}
         return sorted(found)
 
@@ -208,7 +210,8 @@ class KernelFacts:
         """True if it passes power at its ports and says nothing of energy: a class of a user who left that out."""
         if self.ledger or any(zone.ledger.get(layout.STORED_ENERGY, 0) != 0 for zone in self.zones):
             return False
-        return any(self._power(zone) != 0 for zone in self.zones)
+        powers = map(self._power, self.zones)
+        return any(differs(power, sympy.S.Zero) or sympy.expand(power) != 0 for power in powers)
 
     def _power(self, zone: TracedZone) -> sympy.Expr:
         """What a zone takes in at its ports [W], where what it holds does not slip."""
@@ -224,7 +227,7 @@ class KernelFacts:
                 continue
             speed = symbol(next(iter(row.rates)))
             power = power.subs(speed, speed - row.slip / row.rates[speed.name])
-        return sympy.expand(power)
+        return power
 
     def _restitution(self, row: HoldRow) -> tuple[int, float]:
         """Place in the parameters, or -1 where it is a number, which follows."""
@@ -252,17 +255,17 @@ class KernelFacts:
 
     def _dependence(self, zone: TracedZone) -> dict[str, list[str]]:
         pairs = zip(self.targets, self.target_values(zone), strict=True)
-        return {t: sorted(s.name for s in v.free_symbols if s.name in self.inputs) for t, v in pairs if v is not None}
+        return {t: sorted(s.name for s in symbols_in(v) if s.name in self.inputs) for t, v in pairs if v is not None}
 
 
 def _ports_of(way: sympy.Expr) -> list[str]:
     """The ports whose positions stand in it."""
-    return sorted({key(s.name).name for s in way.free_symbols if key(s.name).kind == PORT})
+    return sorted({key(s.name).name for s in symbols_in(way) if key(s.name).kind == PORT})
 
 
 def _is_late(value: Any) -> bool:
     """True if it reads an acceleration or a reaction."""
-    return any(key(s.name).is_late for s in sympy.sympify(value).free_symbols)
+    return any(key(s.name).is_late for s in symbols_in(sympy.sympify(value)))
 
 
 def of_groups(zone: TracedZone) -> list[sympy.Expr]:

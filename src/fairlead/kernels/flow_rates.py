@@ -21,6 +21,8 @@ from fairlead.component.declaration import Declaration
 from fairlead.component.keys import INPUT, OWN, PARAMETER, PORT, RATE, TABLE, TIME, key, rate_of
 from fairlead.component.trace import TracedZone, symbol
 from fairlead.kernels.break_away import parameters_as_text
+from fairlead.kernels.derivative import derivative, symbols_in
+from fairlead.kernels.in_floats import differs
 
 UNIT_RATIOS = (-1, 1)
 
@@ -60,11 +62,11 @@ def rate(value: sympy.Expr, zone: TracedZone, has: Declaration, *, speeds: bool 
     Raises NoRateError.
     """
     total = sympy.S.Zero
-    read = (s for s in value.free_symbols if key(s.name).kind == PORT and key(s.name).part != "x")
+    read = (s for s in symbols_in(value) if key(s.name).kind == PORT and key(s.name).part != "x")
     if not speeds and any(read):
         raise NoRateError("a speed")
-    for s in sorted(value.free_symbols, key=lambda s: s.name):
-        total += sympy.diff(value, s) * _rate_of(s, zone, has)
+    for s in sorted(symbols_in(value), key=lambda s: s.name):
+        total += derivative(value, s) * _rate_of(s, zone, has)
     return total
 
 
@@ -86,8 +88,8 @@ def _rate_of(s: sympy.Symbol, zone: TracedZone, has: Declaration) -> sympy.Expr:
     if one.name in zone.holds:
         return sympy.S.Zero
     row = zone.own.get(one.name, sympy.S.Zero)
-    slope = sympy.diff(row, s)
-    if slope == 0 or s in slope.free_symbols:
+    slope = derivative(row, s)
+    if slope == 0 or s in symbols_in(slope):
         raise NoRateError(f"{one.name}, which its law does not give alone")
     return -rate(row.xreplace({s: sympy.S.Zero}), zone, has) / slope
 
@@ -96,9 +98,9 @@ def yields(zone: TracedZone, has: Declaration) -> set[str]:
     """Ports whose flow knows a state that follows a speed: a jump there would not be one of positions alone."""
     found = set()
     for port, flow in zone.flows.items():
-        states = [key(s.name).name for s in _resolved(flow, zone, has).free_symbols if key(s.name).kind == OWN]
+        states = [key(s.name).name for s in symbols_in(_resolved(flow, zone, has)) if key(s.name).kind == OWN]
         rates = (zone.own.get(name, sympy.S.Zero) for name in states if name in has.states)
-        if any(key(s.name).is_speed for value in rates for s in value.free_symbols):
+        if any(key(s.name).is_speed for value in rates for s in symbols_in(value)):
             found.add(port)
     return found
 
@@ -113,15 +115,15 @@ def joins(zone: TracedZone, has: Declaration) -> list[dict[str, Any]]:
     found = []
     for unknown, row in zone.holds.items():
         u = symbol(f"own:{unknown}")
-        weights = {port: sympy.diff(flow, u) for port, flow in zone.flows.items()}
+        weights = {port: derivative(flow, u) for port, flow in zone.flows.items()}
         ports = sorted({key(one).name for one in row.rates})
         found.append(_join(ports, {port: weights.get(port, sympy.S.Zero) for port in ports}, "held"))
     flows = {port: _resolved(flow, zone, has) for port, flow in zone.flows.items()}
-    speeds = sorted({s for flow in flows.values() for s in flow.free_symbols if key(s.name).is_speed}, key=str)
+    speeds = sorted({s for flow in flows.values() for s in symbols_in(flow) if key(s.name).is_speed}, key=str)
     if speeds:
         ports = sorted({key(s.name).name for s in speeds})
-        slopes = [sympy.diff(flow, s) for flow in flows.values() for s in speeds]
-        read = {key(s.name) for slope in slopes for s in slope.free_symbols}
+        slopes = [derivative(flow, s) for flow in flows.values() for s in speeds]
+        read = {key(s.name) for slope in slopes for s in symbols_in(slope)}
         plain = all(one.is_fixed for one in read)
         steady = all(one.is_fixed or one.kind == INPUT for one in read)
         text = parameters_as_text(sum(sympy.Abs(slope) for slope in slopes)) if plain else "1" if steady else ""
@@ -136,12 +138,12 @@ def _join(ports: list[str], weights: Mapping[str, sympy.Expr], slope: str) -> di
 
 def _resolved(flow: sympy.Expr, zone: TracedZone, has: Declaration) -> sympy.Expr:
     """With the unknowns that rows of this zone give put in; one that is not given alone stays."""
-    for s in sorted(flow.free_symbols, key=lambda s: s.name):
+    for s in sorted(symbols_in(flow), key=lambda s: s.name):
         one = key(s.name)
         if one.kind == OWN and one.name in has.unknowns and one.name in zone.own and one.name not in zone.holds:
             row = zone.own[one.name]
-            slope = sympy.diff(row, s)
-            if slope != 0 and s not in slope.free_symbols and row.has(s):
+            slope = derivative(row, s)
+            if slope != 0 and s not in symbols_in(slope) and row.has(s):
                 flow = flow.xreplace({s: -row.xreplace({s: sympy.S.Zero}) / slope})
     return flow
 
@@ -152,6 +154,11 @@ def _ratios(flows: Mapping[str, sympy.Expr], ports: list[str]) -> dict[str, symp
     found = {}
     for port in ports:
         flow = flows.get(port, sympy.S.Zero)
-        fits = [ratio for ratio in UNIT_RATIOS if first != 0 and sympy.expand(flow - ratio * first) == 0]
+        fits = [ratio for ratio in UNIT_RATIOS if first != 0 and _same(flow, ratio * first)]
         found[port] = sympy.Integer(fits[0]) if fits else sympy.S.Zero
     return found
+
+
+def _same(one: sympy.Expr, other: sympy.Expr) -> bool:
+    """True if two expressions are the same when they are written out."""
+    return not differs(one, other) and sympy.expand(one - other) == 0

@@ -8,6 +8,7 @@ import sympy
 
 from fairlead.component.keys import key
 from fairlead.component.trace import TracedZone, symbol
+from fairlead.kernels.derivative import derivative
 
 
 def held_pairs(zones: Iterable[TracedZone]) -> dict[str, tuple[dict[str, float], float]]:
@@ -28,7 +29,7 @@ def _held_pair(
     zone: TracedZone, unknown: str, rates: Mapping[str, sympy.Expr]
 ) -> tuple[dict[str, float], float] | None:
     speeds = {key(speed).name: rate for speed, rate in rates.items()}
-    taken = {port: sympy.diff(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
+    taken = {port: derivative(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
     taken = {port: value for port, value in taken.items() if value != 0}
     if taken.keys() != speeds.keys() or not all(v.is_Number for v in (*taken.values(), *speeds.values())):
         return None

@@ -14,6 +14,7 @@ For every mode the text has one loop over instances and, inside, one branch per 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import sympy
 from sympy.printing.pycode import PythonCodePrinter
@@ -22,6 +23,7 @@ from fairlead.component.keys import PARAMETER, TABLE, key
 from fairlead.component.piecewise import DEGREE, STRIDE
 from fairlead.component.trace import Traced, TracedGuard, TracedZone
 from fairlead.kernels import layout
+from fairlead.kernels.derivative import symbols_in
 from fairlead.kernels.facts import KernelFacts, of_groups
 from fairlead.kernels.structure import Structure
 
@@ -43,6 +45,13 @@ class _Printer(PythonCodePrinter):
 
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False})
+        self._not_supported: set[Any] = set()
+        self._number_symbols: set[Any] = set()
+
+    def text(self, expression: sympy.Expr) -> str:
+        """What `doprint` writes, without its search for what no law can hold; what cannot be printed is left to it."""
+        written = self._print(expression)
+        return self.doprint(expression) if self._not_supported or self._number_symbols else written
 
     def _print_sign(self, expression: sympy.Expr) -> str:
         return f"sign({self._print(expression.args[0])})"
@@ -60,6 +69,7 @@ class KernelText:
     def __init__(self, traced: Traced, *, rated: int = 0) -> None:
         """Number what the class reads and writes, if `rated` with the rates of its flows."""
         self.facts = KernelFacts(traced, rated=rated)
+        self._short: dict[sympy.Expr, sympy.Expr] = {}
 
     def write(self) -> tuple[str, Structure]:
         """The text and the structure."""
@@ -184,7 +194,7 @@ class KernelText:
 
         So a node of a line outside its device costs no more than the look at its window.
         """
-        factors = {s for _, e in statements for s in e.free_symbols if _is_coefficient(s)}
+        factors = {s for _, e in statements for s in symbols_in(e) if _is_coefficient(s)}
         rest = [(place, e.xreplace(dict.fromkeys(factors, sympy.S.Zero))) for place, e in statements]
         if len(self.facts.traced.tables) != 1 or self._count_inputs(statements) < self._count_inputs(rest) + WORTH:
             return self._body(statements)
@@ -196,7 +206,7 @@ class KernelText:
         ]  # fmt: skip
 
     def _count_inputs(self, statements: list[Statement]) -> int:
-        return len({s for _, e in statements for s in e.free_symbols if s.name in self.facts.inputs})
+        return len({s for _, e in statements for s in symbols_in(e) if s.name in self.facts.inputs})
 
     def _piece(self, table: int) -> str:
         """Where in `tables` the piece of a table begins that is in force."""
@@ -206,17 +216,28 @@ class KernelText:
     def _body(self, statements: list[Statement]) -> list[str]:
         """Loads, shared subexpressions and stores of one zone."""
         names = {s: sympy.Symbol(n, real=True) for s, n in self._identifiers(e for _, e in statements).items()}
-        shared, values = sympy.cse([e.xreplace(names) for _, e in statements], sympy.numbered_symbols("s"))
+        self._short.update(names)
+        shared, values = sympy.cse([self._shortened(e) for _, e in statements], sympy.numbered_symbols("s"))
         printer = _Printer()
         return [
             *self._loads(names),
-            *(f"{name} = {printer.doprint(value)}" for name, value in shared),
-            *(place.format(printer.doprint(value)) for (place, _), value in zip(statements, values, strict=True)),
+            *(f"{name} = {printer.text(value)}" for name, value in shared),
+            *(place.format(printer.text(value)) for (place, _), value in zip(statements, values, strict=True)),
         ]
+
+    def _shortened(self, expression: sympy.Expr) -> sympy.Expr:
+        """With the short names; modes have many parts in common, each of which is renamed once."""
+        found = self._short.get(expression)
+        if found is None:
+            parts = [self._shortened(part) for part in expression.args]
+            same = all(new is old for new, old in zip(parts, expression.args, strict=True))
+            found = expression if same else expression.func(*parts)
+            self._short[expression] = found
+        return found
 
     def _identifiers(self, expressions: Iterable[sympy.Expr]) -> dict[sympy.Symbol, str]:
         """Short names of the symbols in use: u input, p parameter, c coefficient of a table."""
-        found = sorted({s for e in expressions for s in e.free_symbols}, key=lambda s: s.name)
+        found = sorted({s for e in expressions for s in symbols_in(e)}, key=lambda s: s.name)
         names = {}
         for s in found:
             one = key(s.name)
