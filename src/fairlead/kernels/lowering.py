@@ -64,18 +64,24 @@ def lower(
     """LLVM of the one function in `source`, under the symbol `name`, its arguments of the given kinds.
 
     A source is the text of a function, of which `file` is said to hold it, or the function itself. `shared`
-    are the functions it may call, in the order of their use. Raises LoweringError, with file and line, for
+    are the functions it may call, in the order of their use. Its loops are not unrolled: those of kernels go over
+    long laws, and code of four times the length is no faster. Raises LoweringError, with file and line, for
     text that would not do what it does in Python.
     """
-    return lower_together({name: (source, kinds, returns)}, shared, file)[name]
+    return lower_together({name: (source, kinds, returns)}, shared, file, unrolled=False)[name]
 
 
 def lower_together(
-    functions: Mapping[str, tuple[Source, Sequence[str], str]], shared: Sequence[Source] = (), file: str = "<text>"
+    functions: Mapping[str, tuple[Source, Sequence[str], str]],
+    shared: Sequence[Source] = (),
+    file: str = "<text>",
+    *,
+    unrolled: bool = True,
 ) -> dict[str, Lowered]:
     """LLVM of several functions in one module, by name: of each its source, arguments and result, as `lower` has them.
 
-    What they share is compiled once. Raises LoweringError.
+    What they share is compiled once, and short loops are written out several times if they may be `unrolled`.
+    Raises LoweringError.
     """
     module = ir.Module("fairlead")
     for text in shared:
@@ -85,7 +91,7 @@ def lower_together(
     for name, (source, kinds, returns) in functions.items():
         tree, where = _parsed(source, file)
         _define(module, tree, where, name, kinds, returns)
-    text = _optimised(str(module))
+    text = _optimised(str(module), unrolled)
     return {name: Lowered(name, text) for name in functions}
 
 
@@ -133,11 +139,12 @@ def _stored(tree: ast.FunctionDef) -> set[str]:
     return found
 
 
-def _optimised(text: str) -> str:
+def _optimised(text: str, unrolled: bool) -> str:
     machine = target_machine()
     module = llvm.parse_assembly(text)
     module.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=2)
+    options.loop_unrolling = unrolled
     builder = llvm.create_pass_builder(machine, options)
     builder.getModulePassManager().run(module, builder)
     return str(module)
