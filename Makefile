@@ -39,10 +39,11 @@ test: engine  ## install with what the tests need, run the tests (WORKERS=0 in o
 test-all: engine  ## the rest of the tests, those that take long
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
 
-# A worker would wait for the loop that another one compiles; here every core has one of its own to compile.
+# A worker would wait for the loop that another one compiles; here every core has one of its own to compile. That of
+# rodas is exported by tests as well: it is made of the bitcode they need.
 .PHONY: engine
 engine: $(VENV)/test.done
-	$(RUN) -m fairlead.integrate.compile_all
+	$(RUN) -m fairlead.integrate.compile_all rodas
 
 browser:  ## install Debian's chromium, which the tests of pages drive; without it they are skipped
 	@if command -v chromium >/dev/null && command -v chromedriver >/dev/null; then echo "chromium is installed"; \

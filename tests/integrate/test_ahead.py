@@ -10,6 +10,7 @@ import pytest
 from fairlead import native, sealed
 from fairlead.errors import UsageError
 from fairlead.integrate import ahead, machine_code
+from fairlead.integrate.bitcode import kept_with_native
 from fairlead.integrate.engine import Engine
 from fairlead.kernels.lowering import lower
 
@@ -102,3 +103,27 @@ def test_a_loop_that_asks_for_its_indices_is_not_the_one_compiled_ahead(installe
     monkeypatch.setenv("FAIRLEAD_CHECK_INDICES", "1")
     with pytest.raises(UsageError, match="FAIRLEAD_CHECK_INDICES is set"):
         LOOP.loaded()
+
+
+def test_bitcode_that_was_kept_for_export_gives_the_machine_code_as_well(installed, monkeypatch):
+    """numba compiles the bitcode, in a process of its own, and nothing besides."""
+    made = []
+
+    def make(code, path):
+        made.append(code)
+        ahead.write(path, bitcode(code.fingerprint()))
+
+    monkeypatch.setattr("fairlead.integrate.bitcode._make", make)
+    kept_with_native(LOOP)
+    kept_with_native(LOOP)
+    found = LOOP.loaded()
+    assert made == [LOOP]
+    assert found.cached
+    assert squares_of(found) == [0.5 + k * k for k in range(9)]
+
+
+def test_a_loop_that_asks_for_its_indices_is_not_made_of_what_was_kept_for_export(installed, monkeypatch):
+    monkeypatch.setattr("fairlead.integrate.bitcode._make", lambda code, path: ahead.write(path, bitcode("any")))
+    monkeypatch.setenv("FAIRLEAD_CHECK_INDICES", "1")
+    with pytest.raises(ModuleNotFoundError, match="nowhere"):  # numba is asked to compile it
+        kept_with_native(LOOP)

@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 import fairlead.integrate.ahead as ahead
 import fairlead.native as native
 import fairlead.sealed as sealed
-from fairlead.integrate.compile_all import all_compiled
+from fairlead.integrate.all_compiled import all_compiled
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.machine_code import Compiled, loop_code, numba_or_reason
 from fairlead.processor import VARIABLE
@@ -61,6 +61,12 @@ def _kept(code: Compiled, reason: str) -> ahead.Bitcode:
         except (OSError, sealed.BrokenSealError):
             _make(code, path)
         return ahead.read(path)
+
+
+def kept_with_native(code: Compiled) -> None:
+    """Have bitcode and machine code in the cache, the latter made of the former if it is missing."""
+    stored, reason = ahead.find(code.module, code.fingerprint())
+    code.loaded((stored or _kept(code, reason)).for_here)
 
 
 def _make(code: Compiled, path: pathlib.Path) -> None:

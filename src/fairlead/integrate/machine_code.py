@@ -45,9 +45,10 @@ class Compiled:
                 state.update(hashlib.sha256(file.read_bytes().replace(b"\r\n", b"\n")).digest())
         return state.hexdigest()
 
-    def loaded(self) -> native.Native:
-        """Machine code from the cache, else from bitcode compiled ahead, else by numba.
+    def loaded(self, build: Callable[[], native.Build] | None = None) -> native.Native:
+        """Machine code from the cache, else from bitcode compiled ahead, else from what `build` gives, else by numba.
 
+        `build` knows no checks of indices: where they are asked for, numba compiles.
         Raises UsageError where it has to be compiled and numba is missing.
         """
         sources, check = self.fingerprint(), os.environ.get(CHECK, "")
@@ -55,7 +56,7 @@ class Compiled:
         if stored:
             return native.load_or_compile(native.digest("ahead", str(stored.llvm), sources), stored.for_here)
         key = native.digest("integrate", _version_of_numba(), sources, check)
-        return native.load_or_compile(key, lambda: self.build(reason))
+        return native.load_or_compile(key, build if build and not check else lambda: self.build(reason))
 
     def is_cached(self) -> bool:
         """Have the machine code in the cache; True if it was."""
