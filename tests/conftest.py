@@ -10,6 +10,7 @@ import gc
 import itertools
 import os
 import signal
+import sys
 import textwrap
 from collections.abc import Callable, Generator
 from pathlib import Path
@@ -33,6 +34,11 @@ hypothesis.settings.register_profile(
 )
 hypothesis.settings.load_profile("same")
 """The same examples everywhere, however slow the machine; others by hand: pytest --hypothesis-profile=default."""
+
+if providers := sys.modules.get("hypothesis.internal.conjecture.providers"):
+    # Nor do examples depend on what is imported: hypothesis would read all of fairlead for numbers that stand in it,
+    # to try them too, which takes each worker two seconds where no folder .hypothesis keeps them.
+    vars(providers)["is_local_module_file"] = lambda path: False
 
 
 YOUNG = 1_000_000
