@@ -109,7 +109,9 @@ def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
             between = "between two prescribed motions" if sides[0] is not sides[1] else "across a prescribed motion"
             what = f"{instance.path} lies {between} ({who}); no law determines its force."
             other = ", or write friction: {method: binding}" if issubclass(instance.type, Family) else ""
-            faults.append(Fault(instance.where, what, f"Put a Mass and a Spring between{other}."))
+            turns = sides[0].domain.name == sides[1].domain.name == "rotational"
+            bodies = "an Inertia and a TorsionSpring" if turns else "a Mass and a Spring"
+            faults.append(Fault(instance.where, what, f"Put {bodies} between{other}."))
     return faults
 
 

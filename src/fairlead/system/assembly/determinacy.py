@@ -91,7 +91,9 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
         if held.isdisjoint(groups):
             nodes = [flat.nodes[number] for k in sorted(groups) for number in flat.groups[k].nodes]
             hangs = "hang together without any mass, and on no fixed or driven point"
-            way_out = "Join one of them to a Ground or a source of motion, or add a Mass."
+            turning = all(node.domain.name == "rotational" for node in nodes)
+            way_out = f"Join one of them to {'a Housing' if turning else 'a Ground'} or a source of motion, "
+            way_out += "or add an Inertia." if turning else "or add a Mass."
             if not any(node.domain.mechanical for node in nodes):
                 hangs, way_out = OPEN[nodes[0].domain.name].hangs, OPEN[nodes[0].domain.name].anchor
             yield Fault(_written(flat, nodes[0]), f"{_named(flat, nodes)} {hangs}.", way_out)

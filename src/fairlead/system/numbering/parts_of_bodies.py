@@ -88,7 +88,8 @@ def _found(flat: FlatModel) -> tuple[list[Part], list[Fault]]:
         if flat.groups[group].free and flat.groups[group].mass == 0:
             name, where = next((i.path, i.where) for i in told.values() if i is not None)
             what = f"{name} joins nodes without any mass, and nothing says how they move."
-            faults.append(Fault(where, what, "Add a Mass at one of its ends."))
+            turns = flat.groups[group].domain.name == "rotational"
+            faults.append(Fault(where, what, f"Add {'an Inertia' if turns else 'a Mass'} at one of its ends."))
         for piece, by in told.items():
             row = None if by is None else (by.path, by.type.answers.bears)
             parts.append(Part(group, tuple(members[piece]), row, _mass(members[piece], inertia)))
