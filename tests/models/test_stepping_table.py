@@ -1,5 +1,7 @@
 """What `stepping` does with a class of scenes is what its table says: refused by name, landed on, or inside steps."""
 
+import contextlib
+
 import pytest
 
 from fairlead.analysis.treatments.stepping_table import (
@@ -13,7 +15,7 @@ from fairlead.analysis.treatments.stepping_table import (
     most_located,
 )
 from fairlead.engine import engine_of
-from fairlead.errors import ModelError, UsageError
+from fairlead.errors import ModelError, RunWarning, UsageError
 from fairlead.integrate import Run
 
 MANY = FEW + 5
@@ -121,3 +123,18 @@ def test_auto_takes_stepping_from_a_hundred_contacts_on_where_switches_may_be_in
     model = scene(row(count, contact, "auto"))
     engine, _ = engine_of(model.netlist.run, model.system)
     assert engine == ("stepping" if serves and count >= 100 else "rodas")
+
+
+@pytest.mark.parametrize(("engine", "told"), [("stepping", True), ("rodas", False)])
+def test_what_follows_time_at_once_is_told_to_be_a_mean(engine, told, simulate):
+    """The current through a resistor at an alternating voltage: no accuracy makes the steps of `stepping` shorter."""
+    said = pytest.warns(RunWarning, match=r"(?s)load\.plus\.voltage.*rodas")
+    with said if told else contextlib.nullcontext():
+        simulate(f"""
+        components:
+          mains: {{type: VoltageSource, voltage: {{sine: {{amplitude: 20 V, frequency: 50 Hz}}}}}}
+          load: {{type: Resistor, resistance: 10 ohm}}
+          earth: {{type: Earth}}
+        connections: [[mains.plus, load.plus], [mains.minus, load.minus, earth.terminal]]
+        run: {{stop: 0.1 s, engine: {engine}}}
+        """)

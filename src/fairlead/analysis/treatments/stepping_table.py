@@ -15,6 +15,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple
 
+import numpy as np
+
 from fairlead.component.base import Component, Family
 from fairlead.errors import Fault, Location
 from fairlead.kernels.break_away import least_left
@@ -30,6 +32,8 @@ FEW = 40
 """Machines up to which every switch is landed on, as `Run.most_located` has it."""
 EVERY_SWITCH = 2**31
 """Of `Run.most_located`: whatever there is."""
+OF_NODES = ("V", "A", "Pa", "m^3/s", "W")
+"""Units of what a node that stores nothing has, or passes on, outside mechanics; contacts and lines are mechanics."""
 WAY_OUT = "Take run.engine: rodas (or auto)."
 
 
@@ -163,6 +167,16 @@ def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
     found = handling(system, settings)
     if found.way == INSIDE and found.parts:
         yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
+    if means := _followed_at_once(system):
+        what = f"what follows a quantity in time at once ({few(means)}) is known to stepping as means over its steps"
+        yield Fault(_where(system, [means[0].rpartition(".")[0].rpartition(".")[0]]), f"run.engine: {what}.", WAY_OUT)
+
+
+def _followed_at_once(system: System) -> list[str]:
+    """Voltages, pressures and the like that balance what is given in time, and have no rate and no inertia."""
+    free = ~system.differential & system.timed & (system.holder < 0) & ~system.quadrature
+    unknowns = system.numbering.unknowns
+    return [unknowns[k].name for k in np.flatnonzero(free) if unknowns[k].unit in OF_NODES]
 
 
 def most_located(system: System, settings: RunSettings) -> int:
