@@ -23,15 +23,15 @@ def swings(
 ) -> list[tuple[str, sympy.Expr]]:
     """What the sines of a zone are taken of, less what is fixed, each with the output it is in; OF_GUARD for guards.
 
-    Left out is what does not change by itself, what is known only after the forces, and a time times one of `periods`.
+    Left out is what does not change by itself, what may jump (a sign, an acceleration), and time in `periods`.
     """
     found: dict[sympy.Expr, str] = {}
     of = [(OF_GUARD, value) for value in guards] + [(n, v) for n, v in sorted(outputs.items()) if v is not None]
     for name, value in of:
         for each in sorted(sympy.sympify(value).atoms(*SINES), key=str):
             angle = _what_changes(each.args[0], inputs)
-            late = any(key(s.name).is_late for s in angle.free_symbols)
-            if angle != 0 and not late and not _is_known(angle, periods):
+            jumps = angle.has(sympy.sign) or any(key(s.name).is_late for s in angle.free_symbols)
+            if angle != 0 and not jumps and not _is_known(angle, periods):
                 found.setdefault(angle, name)
     return [(name, angle) for angle, name in found.items()]
 
