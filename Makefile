@@ -32,9 +32,12 @@ ifeq ($(MODEL),single_bend)
 endif
 	@echo "Open results/$(MODEL)/report.html in a browser."
 
+# Threads of numpy's BLAS wait for each other by turning round, which takes the cores from the other workers.
+ONE_THREAD := OPENBLAS_NUM_THREADS=1
+
 # Neighbours share runs, so each worker takes a stretch of the tests and steals from the end of another's.
 test: engine  ## install with what the tests need, run the tests (WORKERS=0 in one process)
-	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m "not slow" $(TESTS)
+	$(ONE_THREAD) $(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m "not slow" $(TESTS)
 
 test-all: engine  ## the rest of the tests, those that take long
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
