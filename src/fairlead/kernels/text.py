@@ -192,11 +192,14 @@ class KernelText:
     def _branches(self, statements: list[Statement]) -> list[str]:
         """The body of one zone; and, for a table that is zero in this piece, one without all that it multiplies.
 
-        So a node of a line outside its device costs no more than the look at its window.
+        So a node of a line outside its device costs no more than the look at its window. Not where a value is a
+        quotient of the table, which has none there.
         """
         factors = {s for _, e in statements for s in symbols_in(e) if _is_coefficient(s)}
         rest = [(place, e.xreplace(dict.fromkeys(factors, sympy.S.Zero))) for place, e in statements]
         if len(self.facts.traced.tables) != 1 or self._count_inputs(statements) < self._count_inputs(rest) + WORTH:
+            return self._body(statements)
+        if any(e.has(sympy.nan, sympy.zoo) for _, e in rest):
             return self._body(statements)
         rows = [f"tables[{self._piece(0)} + {COEFFICIENT[str(k)]}] == 0" for k in range(1, DEGREE + 2)]
         return [
