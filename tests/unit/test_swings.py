@@ -5,7 +5,7 @@ import sympy
 
 from fairlead.component.symbols import sine, symbol
 from fairlead.kernels.structure import OF_GUARD
-from fairlead.kernels.swings import swings
+from fairlead.kernels.swings import by_place, swings
 
 X, V, T, U, P = (symbol(text) for text in ("port:a:x", "port:a:v", "t", "in:u", "p:pitch"))
 OMEGA = symbol(sine("value", "omega"))
@@ -48,3 +48,17 @@ def test_of_others_nothing_is_asked(value):
 def test_an_angle_that_several_read_is_told_once_and_an_output_that_feeds_nothing_not_at_all():
     shared = sympy.sin(X) + sympy.cos(X + P)
     assert found([shared], signal=shared, other=sympy.sin(2 * X), alone=None) == [(OF_GUARD, X), ("other", 2 * X)]
+
+
+@pytest.mark.parametrize(
+    ("zones", "asked"),
+    [
+        ([], []),
+        ([["signal"], []], ["signal"]),
+        ([["signal"], [OF_GUARD]], [OF_GUARD]),
+        ([[OF_GUARD], ["signal"]], [OF_GUARD]),
+        ([["signal", "other"], ["signal"]], ["signal", "other"]),
+    ],
+)
+def test_where_zones_have_their_angles_in_different_things_they_are_asked_for_in_any_case(zones, asked):
+    assert by_place(zones) == asked

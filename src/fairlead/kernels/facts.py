@@ -22,7 +22,7 @@ from fairlead.kernels.guard_slots import bounds_what_holds, in_slots
 from fairlead.kernels.held_pairs import held_pairs
 from fairlead.kernels.in_floats import differs
 from fairlead.kernels.structure import Structure
-from fairlead.kernels.swings import swings
+from fairlead.kernels.swings import by_place, swings
 
 WATTS = {("m/s", "N"), ("rad/s", "N*m"), ("Pa", "m^3/s"), ("V", "A")}
 """Units of what is equal at a node and of what sums to zero there, where their product is a power."""
@@ -68,7 +68,7 @@ class KernelFacts:
         self.members = max((len(of_groups(z)) for z in self.zones), default=0)
         periods = {sine(path, "omega") for path in traced.time_tables}
         self.swings = {id(zone): self._swings(zone, periods) for zone in self.zones}
-        self.most_swings = max(([name for name, _ in each] for each in self.swings.values()), key=len, default=[])
+        self.most_swings = by_place([[name for name, _ in each] for each in self.swings.values()])
         # Kinds of derivatives: where they go, which, the values by zone, and which of them never change.
         self.kinds = [
             (layout.D_SIGNALS, self.d_signals, self.fit_outputs),

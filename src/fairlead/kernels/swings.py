@@ -36,6 +36,12 @@ def swings(
     return [(name, angle) for angle, name in found.items()]
 
 
+def by_place(zones: Sequence[Sequence[str]]) -> list[str]:
+    """By place what has the angle there, in all zones alike; else OF_GUARD, for which it is always asked."""
+    found = [{names[k] for names in zones if k < len(names)} for k in range(max(map(len, zones), default=0))]
+    return [names.pop() if len(names) == 1 else OF_GUARD for names in found]
+
+
 def _what_changes(angle: sympy.Expr, inputs: Sequence[str]) -> sympy.Expr:
     """The terms that read an input."""
     terms = sympy.Add.make_args(angle)
