@@ -56,7 +56,7 @@ class RunSettings(Strict):
     """Relative accuracy; sets the tolerances of all unknowns together."""
     engine: Literal["auto", "rodas", "stepping", "ida"] = "auto"
     """The engine. rodas locates every switch; stepping finds many stick-slip switches inside each step; ida is an
-    independent check (BDF by SUNDIALS). auto is rodas, or stepping for 200 contacts and more that hold exactly
+    independent check (BDF by SUNDIALS). auto is rodas, or stepping for 100 contacts and more that hold exactly
     with laws that are linear between switches and stiction not above sliding friction; run.json says which and why."""
     method: Literal["auto", "rodas5p", "rodas3p"] = "auto"
     """The Rosenbrock method; auto takes rodas5p. rodas3p (order 3) serves loose accuracies with few switches."""
