@@ -22,13 +22,13 @@ LONGEST = 220  # characters of a reason
 HEAD = """\
 # Hard cases: what stays stable
 
-How far can you trust a run of a difficult scene? This page plays scenes that were chosen to break an engine. Physics
-says what is right in each: a closed form, a balance of energy or momentum, monotonicity, symmetry. That is its
-*oracle*.
+How far can you trust a run of a difficult scene? This page lists scenes that were chosen to break an engine, and the
+result of each. If you want to know about your own scene, find the case nearest to it below, and read its row.
 
-Each scene is played on every engine: `rodas` (with its second method as `rodas3p`), `stepping` and `ida`. Each is
-played with exact hold, with robust binding (creep 1e-5 m/s unless the case says otherwise) and with LuGre, where they
-apply. If you want to know about your own scene, find the case nearest to it below, and read its row.
+Each scene has an *oracle*, a rule that tells whether a result is right without using the engine: a closed form, a balance
+of energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second method as
+`rodas3p`), `stepping` and `ida`. It runs with exact hold, with robust binding (creep 1e-5 m/s unless the case says
+otherwise) and with LuGre, where they apply. `make hard` repeats all of them:
 
 ```sh
 make hard                                                # all rows; an interrupted round goes on, at the same commit
@@ -37,15 +37,15 @@ make hard                                                # all rows; an interrup
 .venv/bin/python -m tests.hard --peers                   # other tools (extra `bench`), their part of this page alone
 ```
 
-`make hard` writes this page, from rows of one commit. The cases are in `tests/hard/cases`, scenes without a generator
+`make hard` writes this page from rows of one commit. The cases are in `tests/hard/cases`, scenes without a generator
 in `models/hard`. `tests/hard/known.py` lists the rows that fail and those that the tests leave to `make hard`.
 
-| verdict | means |
+| verdict | meaning |
 |---|---|
-| ok | finished; the oracle is satisfied, energy adds up to ten accuracies, what holds does not slip |
-| stopped | ended before its stop, with a message that says where and why; nothing wrong was told |
-| wrong | it finished, and something told is not so |
-| stuck | its budget of time ran out, or no answer came |
+| ok | finished; the result satisfies the oracle, energy balances to ten accuracies, held contacts do not slip |
+| stopped | ended before its stop, with a message that says where and why; it reported nothing wrong |
+| wrong | finished, and a reported result is wrong |
+| stuck | its budget of time ran out, or it gave no answer |
 | crashed | an exception, or the process ended |
 """
 
@@ -100,7 +100,7 @@ def _waiting(left: Sequence[Row]) -> str:
 def _summary(done: Done) -> str:
     attempts = [attempt for _, attempt in done]
     words = [word for word in (*TREATMENTS, "none") if any(one.treatment == word for one in attempts)]
-    lines = ["## Summary", "", "Rows that came through, of those played. `auto` counts rows on the engine that",
+    lines = ["## Summary", "", "Each cell counts the rows that are `ok`, of all rows run. `auto` counts rows on the engine that",
              "`run.engine: auto` picks for their scenes; `none` are scenes without a contact.", "",
              _line("engine", *words), _line(*["---"] * (len(words) + 1))]  # fmt: skip
     for engine in (*ENGINES, "auto"):
@@ -134,7 +134,7 @@ def _failures(done: Done) -> str:
 
 
 def _cases(done: Done) -> str:
-    told = "Cells: verdict (*ok* on the engine of `auto`), wall time of it all, switches, worst energy closure."
+    told = "Each cell has the verdict (*ok* on the engine of `auto`), total wall time, number of switches and worst energy closure."
     lines = ["## The cases", "", told, ""]
     themes: dict[str, dict[str, list[tuple[Row, Attempt]]]] = {}
     for row, one in done:

@@ -15,10 +15,11 @@ END = "<!-- end of other tools -->"
 HEAD = f"""\
 {TITLE}
 
-Hard cases that other tools can state, with the same closed forms. Each cell is the largest difference from what is
-right; `ok` is within the bound of the hard case. Each tool has its best form (`tests/hard/peers/played.py`):
+The table has the hard cases that other tools can state, with the same closed forms. Each cell is the largest difference
+from the right result; `ok` is within the bound of the hard case. Each tool has its best form
+(`tests/hard/peers/played.py`):
 
-- **scipy**: `solve_ivp`, a terminal event per contact, a new start at each event and each jump; rtol 1e-10. Zones,
+- **scipy**: `solve_ivp`, a terminal event for each contact, a new start at each event and each jump; rtol 1e-10. Zones,
   forces of held contacts and the order of release are written by hand
   (`tests/hard/peers/dry.py`, which PathSim uses too).
 - **PathSim**: one ODE block, the largest guard as an event; RKDP87, tolerance 1e-10.
