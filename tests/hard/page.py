@@ -25,8 +25,8 @@ HEAD = """\
 How far can you trust a run of a difficult scene? This page lists scenes that were chosen to break an engine, and the
 result of each. If you want to know about your own scene, find the case nearest to it below, and read its row.
 
-Each scene has an *oracle*, a rule that tells whether a result is right without using the engine: a closed form, a balance
-of energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second method as
+Each scene has an *oracle*, a rule that tells without the engine whether a result is right: a closed form, a balance of
+energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second method as
 `rodas3p`), `stepping` and `ida`. It runs with exact hold, with robust binding (creep 1e-5 m/s unless the case says
 otherwise) and with LuGre, where they apply. `make hard` repeats all of them:
 
@@ -100,7 +100,8 @@ def _waiting(left: Sequence[Row]) -> str:
 def _summary(done: Done) -> str:
     attempts = [attempt for _, attempt in done]
     words = [word for word in (*TREATMENTS, "none") if any(one.treatment == word for one in attempts)]
-    lines = ["## Summary", "", "Each cell counts the rows that are `ok`, of all rows run. `auto` counts rows on the engine that",
+    lines = ["## Summary", "",
+             "Each cell counts the rows that are `ok`, of all rows run. `auto` counts rows on the engine that",
              "`run.engine: auto` picks for their scenes; `none` are scenes without a contact.", "",
              _line("engine", *words), _line(*["---"] * (len(words) + 1))]  # fmt: skip
     for engine in (*ENGINES, "auto"):
@@ -134,7 +135,10 @@ def _failures(done: Done) -> str:
 
 
 def _cases(done: Done) -> str:
-    told = "Each cell has the verdict (*ok* on the engine of `auto`), total wall time, number of switches and worst energy closure."
+    told = (
+        "Each cell has the verdict (*ok* on the engine of `auto`), total wall time, number of switches and worst "
+        "energy closure."
+    )
     lines = ["## The cases", "", told, ""]
     themes: dict[str, dict[str, list[tuple[Row, Attempt]]]] = {}
     for row, one in done:
