@@ -10,7 +10,7 @@ ROUNDED = 1e-9  # by which a communication step may miss a multiple of a fixed s
 
 
 class Fmu(Composite):
-    """An FMU for co-simulation: it gets its inputs every `period`, and what it gives is held in between.
+    """An FMU for co-simulation: it gets its inputs every `period`, and its outputs are held in between.
 
     Its signals are the inputs and outputs of the FMU, in SI. Foreign code runs only where it is allowed
     (`--allow-fmu`), in a process of its own.

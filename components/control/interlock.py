@@ -64,7 +64,7 @@ class RuckTrip(Trip):
 
 
 class ZeroTensionHold(Component):
-    """Pays out no further while the line is slack: below `low` the reference is kept from being positive.
+    """Stops paying out while the line is slack: below `low` the reference cannot be positive.
 
     It passes again when the tension is back above `release`. Hauling in is never held up. Sampled.
     """

@@ -11,7 +11,7 @@ class ReferenceShaper(Component):
     """
 
     passes, at_most = "target", "most"  # steadily the target, on the way at most this rate
-    target = Input("1", "Where to.", signed=True)
+    target = Input("1", "Target of the reference.", signed=True)
     period = Parameter("s", "Time between samples.", default=0.01, above=0)
     most = Parameter("1/s", "Largest rate.", above=0)
     jerk = Parameter("1/s^2", "Largest rate of the rate; no limit when not given.", default=None, above=0)

@@ -9,7 +9,7 @@ class SignalGain(Component):
     value = Input("1", "What comes in.", signed=True)
     gain = Parameter("1", "Factor, in SI of both.", default=1.0)
     offset = Parameter("1", "What is added.", default=0.0)
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def law(p, value):
         """At once."""

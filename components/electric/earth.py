@@ -4,7 +4,7 @@ from fairlead.component import Component, Electrical, Law
 
 
 class Earth(Component):
-    """Zero volts; it takes whatever current comes."""
+    """Zero volts, at any current."""
 
     terminal = Electrical("the terminal")
 

@@ -27,7 +27,7 @@ class Inductor(TwoTerminals):
     """inductance di/dt = u - resistance i.  A coil whose current is `initial` at the start."""
 
     inductance = Parameter("V*s/A", "Inductance.", above=0)
-    resistance = Parameter("ohm", "Of the wire.", default=0.0, least=0)
+    resistance = Parameter("ohm", "Resistance of the wire.", default=0.0, least=0)
     initial = Parameter("A", "Current at the start.", default=0.0, physics=False)
     flowing = State("A", "Current.", start="initial")
 

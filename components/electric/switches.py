@@ -6,7 +6,7 @@ from fairlead.component import Input, Law, Output, Parameter, Zones, guard, zone
 
 
 class ElectricSwitch(TwoTerminals):
-    """A contact or transistor that a signal closes.
+    """A switch (contact or transistor) that a signal closes.
 
     current = u/closed_resistance while `control` is above 1/2, else u/open_resistance.
     """
@@ -36,7 +36,7 @@ class ElectricSwitch(TwoTerminals):
 
 
 class Diode(TwoTerminals):
-    """Lets a current pass from plus to minus alone.
+    """Lets current pass only from plus to minus.
 
     blocking      u < threshold     current = u/blocking_resistance
     conducting    u > threshold     the same, and (u - threshold)/resistance beside

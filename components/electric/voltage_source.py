@@ -22,7 +22,7 @@ class VoltageSource(Sourced):
 
 
 class VoltageActuator(Sourced):
-    """Keeps the voltage that a signal says, less what its resistance takes: an amplifier."""
+    """An amplifier: gives the voltage of a signal, less the drop over its resistance."""
 
     voltage = Input("V", "Voltage of plus over minus without load.", signed=True)
 

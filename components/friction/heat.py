@@ -44,7 +44,7 @@ class FrictionHeat(Component):
 
 
 class TemperatureSource(Component):
-    """A temperature given in time, as a signal."""
+    """A given temperature that may vary with time, as a signal."""
 
     profile = Waveform("K", "Temperature in time.")
     temperature = Output("K", "The temperature.")

@@ -33,7 +33,7 @@ CYLINDER = {
     "port_diameter": Parameter("m", "Diameter of the bores that fill the chambers.", default=0.02, above=0),
     "internal_leakage": Parameter("m^3/s/Pa", "Leakage across the piston.", default=0.0, least=0),
     "seal_force": Parameter("N", "Sliding friction of the seals.", default=0.0, least=0),
-    "stop_stiffness": Parameter("N/m", "Of the end stops.", default=1e8, above=0),
+    "stop_stiffness": Parameter("N/m", "Stiffness of the end stops.", default=1e8, above=0),
     "stop_damping": Parameter("s/m", "Share of their force that is added per speed.", default=5.0, least=0),
 }
 

@@ -20,7 +20,7 @@ class FlowSource(Component):
 
 
 class FlowActuator(Component):
-    """Moves the flow that a signal says from its inlet to its outlet: an ideal pump of variable displacement."""
+    """An ideal pump of variable displacement: the flow of a signal, from its inlet to its outlet."""
 
     inlet = Hydraulic("from the tank")
     outlet = Hydraulic("where it goes")

@@ -112,7 +112,7 @@ class PilotedRelief(PilotCheckValve):
 
 
 class CounterbalanceValve(Composite):
-    """Holds a load and lets it down as its pilot asks; oil that lifts the load passes freely.
+    """Holds a load, and lowers it under the control of its pilot; oil that lifts the load passes freely.
 
     It opens from  p_load - p_valve + ratio (p_pilot - p_valve) = setting  on. A check valve beside leads from `valve`
     to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes and brakes

@@ -4,7 +4,7 @@ from fairlead.component import Component, Hydraulic, Law, Output, Parameter
 
 
 class PressureSource(Component):
-    """Keeps its port at a pressure, whatever flow that takes."""
+    """Keeps its port at a pressure, at any flow."""
 
     port = Hydraulic("the outlet")
     pressure = Parameter("Pa", "Pressure, absolute.", least=0)
@@ -27,6 +27,6 @@ class PressureSource(Component):
 
 
 class Tank(PressureSource):
-    """An open tank: constant pressure, that of the air unless it says otherwise. It takes whatever comes back."""
+    """An open tank: constant pressure, by default that of the air. It takes whatever comes back."""
 
     pressure = Parameter("Pa", "Pressure, absolute.", default=1e5, least=0)

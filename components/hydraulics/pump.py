@@ -4,7 +4,7 @@ from fairlead.component import Component, Hydraulic, Law, Output, Parameter, Sta
 
 
 class FixedPump(Component):
-    """Gives a constant flow at any pressure; a relief valve must take what nobody uses."""
+    """Gives a constant flow at any pressure; a relief valve must take the flow that is not used."""
 
     inlet = Hydraulic("from the tank")
     outlet = Hydraulic("pressure side")

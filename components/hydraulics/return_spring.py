@@ -8,7 +8,7 @@ class ReturnSpring(Component):
 
     body, rod = Translational("the barrel"), Translational("the rod")
     preload = Parameter("N", "Force of the spring on a rod that is in.", least=0)
-    stiffness = Parameter("N/m", "Of the spring.", least=0)
+    stiffness = Parameter("N/m", "Stiffness of the spring.", least=0)
     area = Parameter("m^2", "Area on which the air presses.", least=0)
     air = Parameter("Pa", "Pressure of the air.", least=0)
     force = Output("N", "Force that pulls the rod in.")

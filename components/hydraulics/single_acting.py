@@ -30,7 +30,7 @@ class SingleActingCylinder(Composite):
     bore_diameter, stroke = CYLINDER["bore_diameter"], CYLINDER["stroke"]
     dead_volume = Parameter("m^3", "Volume that the piston does not sweep.", default=1e-4, above=0)
     preload = Parameter("N", "Force of the spring on a rod that is in.", default=0.0, least=0)
-    stiffness = Parameter("N/m", "Of the spring.", default=0.0, least=0)
+    stiffness = Parameter("N/m", "Stiffness of the spring.", default=0.0, least=0)
     air = Parameter("Pa", "Pressure of the air on the other side.", default=1e5, least=0)
     port_diameter, seal_force = CYLINDER["port_diameter"], CYLINDER["seal_force"]
     stop_stiffness, stop_damping = CYLINDER["stop_stiffness"], CYLINDER["stop_damping"]

@@ -29,7 +29,7 @@ class VariablePump(Component):
     shaft = Rotational("what drives it")
     setting = Input("1", "Share of the displacement, with its direction.", signed=True)
     displacement = Parameter("m^3/rad", "Oil per angle at full setting; 28 cm^3/rev is a size.", above=0)
-    leakage = Parameter("m^3/s/Pa", "From side to side.", default=0.0, least=0)
+    leakage = Parameter("m^3/s/Pa", "Conductance of the leak from side to side.", default=0.0, least=0)
     flow = Output("m^3/s", "Flow out, after leakage.")
     torque = Output("N*m", "Torque that brakes the shaft.")
     zones = Zones("within", "full", "reversed", forward=["full"], backward=["reversed"])

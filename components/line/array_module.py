@@ -43,7 +43,7 @@ RELAXING = {
 
 
 class ArrayModule(Composite):
-    """Two-layer line in one or more modules; nodes travel along the route, devices stand.
+    """Two-layer line in one or more modules; its nodes move along the route, the devices do not move.
 
     hose[i], core[i]            elements between node i and i+1, i = 0 at the inboard end
     hose_node[i], core_node[i]  masses; where modules end hose and core are one body (end connector)

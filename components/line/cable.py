@@ -28,7 +28,7 @@ from fairlead.component import (
 
 
 class Cable(Composite):
-    """Line of one layer; nodes travel along the route, devices stand.
+    """Line of one layer; its nodes move along the route, the devices do not move.
 
     line[i]                     elements between node i and i+1, i = 0 at the inboard end
     node[i]                     masses

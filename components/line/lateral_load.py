@@ -29,7 +29,7 @@ class LateralLoad(Component):
     hose_out = Input("N", "Hose tension on the outboard side.", default=0.0)
     core_in = Input("N", "Core tension on the inboard side.", default=0.0)
     core_out = Input("N", "Core tension on the outboard side.", default=0.0)
-    more = Input("N", "What presses besides.", default=0.0)
+    more = Input("N", "Further normal force.", default=0.0)
     force = Output("N", "Normal force.", role="share")
 
     def law(p, flange, behind, ahead, hose_in, hose_out, core_in, core_out, more):
@@ -84,7 +84,7 @@ class PressedLoad(Component):
     flange = Translational("the node, whose position along the route counts")
     load = Table("m", "N/m", "Load per length times window along the route.")
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
-    more = Input("N", "What presses besides.", default=0.0)
+    more = Input("N", "Further normal force.", default=0.0)
     force = Output("N", "Normal force.", role="share")
 
     def law(p, flange, more):
@@ -102,7 +102,7 @@ class ClampLoad(Component):
     window = Table("m", "1", "Share of the node that lies in the clamp, over its place.")
     length = Parameter("m", "Length of line that belongs to the node.", above=0)
     pressing = Input("N/m", "Load of the belts, per length.", default=0.0)
-    more = Input("N", "What presses besides.", default=0.0)
+    more = Input("N", "Further normal force.", default=0.0)
     force = Output("N", "Normal force.", role="share")
 
     def law(p, flange, pressing, more):

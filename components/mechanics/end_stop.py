@@ -23,7 +23,7 @@ class EndStop(Component):
     b = Translational("what hits them")
     lower = Parameter("m", "Travel at the lower stop.", default=0.0)
     upper = Parameter("m", "Travel at the upper stop.")
-    stiffness = Parameter("N/m", "Of a stop.", default=1e8, above=0)
+    stiffness = Parameter("N/m", "Stiffness of a stop.", default=1e8, above=0)
     damping = Parameter("s/m", "Share of the force that is added per speed of approach.", default=5.0, least=0)
     travel = Output("m", "b.x - a.x.")
     force = Output("N", "Force of a stop on a, positive at the upper one.")

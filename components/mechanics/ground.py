@@ -4,7 +4,7 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Ground(Component):
-    """A point that never moves; it takes whatever force comes."""
+    """A point that never moves; it takes any force."""
 
     flange = Translational("the fixed point")
 
@@ -18,10 +18,10 @@ class Ground(Component):
 
 
 class FixedPoint(Component):
-    """A point that never moves and stands at `position`; it takes whatever force comes."""
+    """A fixed point at `position`; it takes any force."""
 
     flange = Translational("the fixed point")
-    position = Parameter("m", "Where it stands.", physics=False)
+    position = Parameter("m", "Position of the point.", physics=False)
     x = Output("m", "Position.")
     v = Output("m/s", "Velocity: none.")
     a = Output("m/s^2", "Acceleration: none.")

@@ -11,7 +11,7 @@ from fairlead.component import Choice, Composite, Effect, Expansion, Output, Par
 
 
 class MassWithStops(Composite):
-    """A body that slides with dry and viscous friction between two stops that stand: a spool, a slide, a hammer.
+    """A body that slides with dry and viscous friction between two fixed stops: a spool, a slide, a hammer.
 
     mass a = force - friction,  lower <= x <= upper. Friction is `sliding` while it moves, `breakaway` from rest, with a
     decay over `speed` between (Stribeck), and `viscous` per speed besides. Stops that are `rigid` give back
@@ -28,9 +28,9 @@ class MassWithStops(Composite):
     breakaway = Parameter("N", "Force to begin; that of sliding when not given.", default=None, least=0)
     speed = Parameter("m/s", "Speed over which breakaway falls to sliding.", default=0.01, above=0)
     viscous = Parameter("N*s/m", "Friction that grows with speed.", default=0.0, least=0)
-    stops = Choice(("rigid", "elastic"), "What the stops are.", default="rigid")
+    stops = Choice(("rigid", "elastic"), "Kind of the stops.", default="rigid")
     restitution = Parameter("1", "Share of speed given back, of rigid stops.", default=0.0, least=0, most=1)
-    stiffness = Parameter("N/m", "Of elastic stops.", default=1e8, above=0)
+    stiffness = Parameter("N/m", "Stiffness of elastic stops.", default=1e8, above=0)
     damping = Parameter("s/m", "Share of their force that is added per speed of approach.", default=5.0, least=0)
     position = Parameter("m", "Position at the start.", default=None, physics=False)
     velocity = Parameter("m/s", "Velocity at the start.", default=None, physics=False)

@@ -57,9 +57,9 @@ class Loose(Component, abstract=True):
     transmits = True  # in steady motion its ends move alike
     a = Translational("driving side")
     b = Translational("driven side")
-    stiffness = Parameter("N/m", "Of what is in contact.", above=0)
+    stiffness = Parameter("N/m", "Stiffness of the parts in contact.", above=0)
     damping = Parameter("s/m", "Share of the force that is added per speed of approach.", default=10.0, least=0)
-    play = Parameter("m", "Way that b can go while a stands still.", least=0)
+    play = Parameter("m", "Distance that b can move while a stands still.", least=0)
     zones = Zones("gap", "drive", "reverse", "drive_opening", "reverse_opening",
                   forward=["drive", "drive_opening"], backward=["reverse", "reverse_opening"])  # fmt: skip
     meets_forward = guard("gap", to="drive", unit="m", mirrored="meets_backward")(beyond)
@@ -118,7 +118,7 @@ class ElasticGap(Component):
     a = Translational("the one behind")
     b = Translational("the one in front")
     length = Parameter("m", "Distance at which they touch.", default=0.0)
-    stiffness = Parameter("N/m", "Of the contact.", above=0)
+    stiffness = Parameter("N/m", "Stiffness of the contact.", above=0)
     damping = Parameter("N*s/m", "Force per speed of approach, up to that of the spring.", default=0.0, least=0)
     force = Output("N", "Force that pushes them apart, never negative.")
     gap = Output("m", "b.x - a.x - length.")

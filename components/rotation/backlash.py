@@ -23,7 +23,7 @@ class Backlash(Component):
     asked_with = {"damping": 100.0}  # or no random motion would tear the teeth apart
     a = Rotational("driving side")
     b = Rotational("driven side")
-    stiffness = Parameter("N*m/rad", "Of the teeth in contact.", above=0)
+    stiffness = Parameter("N*m/rad", "Stiffness of the teeth in contact.", above=0)
     damping = Parameter("s/rad", "Share of the torque that is added per speed of approach.", default=10.0, least=0)
     play = Parameter("rad", "Angle by which b can turn while a stands still.", least=0)
     torque = Output("N*m", "Torque carried from a to b.")

@@ -30,9 +30,9 @@ class BeltSpans(Component):
     """
 
     a, b = Translational("belt on the first pulley"), Translational("belt on the second pulley")
-    stiffness = Parameter("N/m", "Of both spans together.", above=0)
-    damping = Parameter("N*s/m", "Of both spans together.", least=0)
-    tension = Parameter("N", "Of each span at rest.", above=0)
+    stiffness = Parameter("N/m", "Stiffness of both spans together.", above=0)
+    damping = Parameter("N*s/m", "Damping of both spans together.", least=0)
+    tension = Parameter("N", "Tension of each span at rest.", above=0)
     mass = Parameter("kg/m", "Mass of the belt per length.", least=0)
     ratio = Parameter("1", "exp(mu wrap) of the pulley that slips.", above=1)
     round_off = Parameter("N", "Tension over which corners are rounded off.", above=0)
@@ -67,14 +67,14 @@ class BeltDrive(Composite):
 
     a = Rotational("driving pulley")
     b = Rotational("driven pulley")
-    radius_a = Parameter("m", "Of the driving pulley, to the middle of the belt.", above=0, usual=(1e-3, 10))
-    radius_b = Parameter("m", "Of the driven pulley.", above=0, usual=(1e-3, 10))
-    tension = Parameter("N", "Of each span at rest.", above=0)
+    radius_a = Parameter("m", "Radius of the driving pulley, to the middle of the belt.", above=0, usual=(1e-3, 10))
+    radius_b = Parameter("m", "Radius of the driven pulley.", above=0, usual=(1e-3, 10))
+    tension = Parameter("N", "Tension of each span at rest.", above=0)
     mu = Parameter("1", "Coefficient of friction of belt on pulley.", above=0, usual=(0.01, 5))
     wrap_a = Parameter("rad", "Angle that the belt wraps on the driving pulley.", default=pi, above=0)
     wrap_b = Parameter("rad", "Angle on the driven pulley.", default=pi, above=0)
-    stiffness = Parameter("N/m", "Of both free spans together.", default=1e6, above=0)
-    damping = Parameter("N*s/m", "Of both free spans together.", default=100.0, least=0)
+    stiffness = Parameter("N/m", "Stiffness of both free spans together.", default=1e6, above=0)
+    damping = Parameter("N*s/m", "Damping of both free spans together.", default=100.0, least=0)
     mass = Parameter("kg/m", "Mass of the belt per length.", default=0.0, least=0)
     round_off = Parameter(
         "N", "Tension over which corners are rounded off; a millionth of `tension` when not given.", default=None,

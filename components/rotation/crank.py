@@ -29,7 +29,7 @@ class Crank(Component):
 
     shaft = Rotational("the shaft with the crank")
     slider = Translational("what the rod moves")
-    radius = Parameter("m", "Of the crank, from the shaft to the pin.", above=0)
+    radius = Parameter("m", "Radius of the crank, from the shaft to the pin.", above=0)
     rod = Parameter("m", "Length of the connecting rod, above radius + |offset|.", above=0)
     offset = Parameter("m", "Distance of the slider's line from the shaft, to the side of angle pi/2.", default=0.0)
     centre = Parameter("m", "Position of the shaft along the slider's line.", default=0.0)

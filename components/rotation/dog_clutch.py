@@ -19,7 +19,7 @@ SHIFTED = 0.5  # of the way: half in is in
 
 
 class DogClutch(Component):
-    """Two shafts are one while teeth are in; they go in only where the speeds are nearly the same.
+    """Joins two shafts while its teeth are engaged; they engage only at nearly the same speeds.
 
     out                torque = 0
     ahead, behind      torque = 0,   teeth are pressed on while b is faster, or slower

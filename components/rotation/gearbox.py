@@ -37,7 +37,7 @@ class Gearbox(Composite):
     ratio = Parameter("1", "Turns of b for one turn of a; not zero. 1/30 slows down.")
     efficiency = Parameter("1", "Share of the torque that arrives at b when a drives.", default=0.95, above=0, most=1)
     play = Parameter("rad", "Angle by which b can turn while a stands still.", default=1e-3, least=0)
-    stiffness = Parameter("N*m/rad", "Of the teeth, at shaft b.", default=1e7, above=0)
+    stiffness = Parameter("N*m/rad", "Stiffness of the teeth, at shaft b.", default=1e7, above=0)
     damping = Parameter("s/rad", "Share of their torque that is added per speed of approach.", default=10.0, least=0)
     round_off = Parameter("N*m", "Torque over which the corner of the loss at no load is rounded off.", default=1e-3,
                           above=0)  # fmt: skip

@@ -4,7 +4,7 @@ from fairlead.component import Component, Rotational
 
 
 class Housing(Component):
-    """Never turns; it takes whatever torque comes."""
+    """Never turns; it takes any torque."""
 
     shaft = Rotational("the fixed point")
 

@@ -50,7 +50,7 @@ class FlankLoad(Component):
     """Normal force on the flanks of a thread, from the axial force that they carry, signal in and out."""
 
     slope = Parameter("rad", "Lead angle of the thread.", above=0)
-    half_angle = Parameter("rad", "Of the thread in its normal section; zero for a square thread.", least=0)
+    half_angle = Parameter("rad", "Half angle of the thread in its normal section; zero for a square thread.", least=0)
     preload = Parameter("N", "Axial force between the halves of a preloaded nut.", least=0)
     round_off = Parameter("N", "Axial force over which the corner at no load is rounded off.", above=0)
     axial = Input("N", "Axial part of the force that presses them.", signed=True)
@@ -67,9 +67,11 @@ class Screw(Composite, abstract=True):
     """What a lead screw and a worm have in common: a thread with friction on its flanks."""
 
     radius = Parameter("m", "Mean radius of the thread.", above=0, usual=(1e-4, 1))
-    lead = Parameter("m", "Way of the nut for one turn of the screw.", above=0, usual=(1e-5, 1))
+    lead = Parameter("m", "Travel of the nut for one turn of the screw.", above=0, usual=(1e-5, 1))
     curve = Part(Curve, "Coefficient of friction of the flanks over slip speed.")
-    half_angle = Parameter("rad", "Of the thread in its normal section; zero: square.", default=0.0, least=0, below=1.5)
+    half_angle = Parameter(
+        "rad", "Half angle of the thread in its normal section; zero: square.", default=0.0, least=0, below=1.5
+    )
     preload = Parameter("N", "Axial force between the halves of a preloaded nut.", default=0.0, least=0)
     round_off = Parameter("N", "Axial force over which the corner at no load is rounded off.", default=1e-3, above=0)
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)

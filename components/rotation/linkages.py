@@ -42,7 +42,7 @@ class Cam(Linkage):
     """
 
     base = Parameter("m", "Position of the follower at its lowest.", default=0.0)
-    lift = Parameter("m", "From the lowest to the highest point.", above=0)
+    lift = Parameter("m", "Travel from the lowest to the highest point.", above=0)
     lobes = Parameter("1", "How often it lifts in a turn.", default=1.0, above=0, most=20)
 
     def law(p, shaft, slider, push):
@@ -57,7 +57,7 @@ class ArmPin(Linkage):
     make a lever of two arms. With a shaft that turns round it is a Scotch yoke.
     """
 
-    radius = Parameter("m", "Of the pin from the shaft; negative: on the other side.")
+    radius = Parameter("m", "Distance of the pin from the shaft; negative: on the other side.")
     zero = Parameter("rad", "Angle at which the arm is square to the slider's line.", default=0.0)
     centre = Parameter("m", "Position of the slider there.", default=0.0)
 

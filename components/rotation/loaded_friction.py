@@ -30,7 +30,7 @@ class ToothLoad(Component):
 
 
 class LoadedFriction(Composite):
-    """Dry friction of a gear train between two shafts, that follows the torques on both of its sides.
+    """Dry friction of a gear train between two shafts, which depends on the torques on both sides.
 
     level = dry + |by_motor * motor - by_load * load|,  friction while turning = level (1 + (excess) exp(-(w/speed)^2))
     + viscous w. Motor and load count with the sign with which they turn the shaft forward, so that a motor that holds a

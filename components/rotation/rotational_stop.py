@@ -23,7 +23,7 @@ class RotationalStop(Component):
     b = Rotational("what hits them")
     lower = Parameter("rad", "Turn at the lower stop.", default=0.0)
     upper = Parameter("rad", "Turn at the upper stop.")
-    stiffness = Parameter("N*m/rad", "Of a stop.", default=1e6, above=0)
+    stiffness = Parameter("N*m/rad", "Stiffness of a stop.", default=1e6, above=0)
     damping = Parameter("s/rad", "Share of the torque that is added per speed of approach.", default=5.0, least=0)
     turn = Output("rad", "b.angle - a.angle.")
     torque = Output("N*m", "Torque of a stop on a, positive at the upper one.")

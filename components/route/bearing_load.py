@@ -24,7 +24,7 @@ class Told(Component):
 
     exempt = {"energy": "A sum of signals is no power."}
     sum = Summing("the sum")
-    value = Input("N", "What is told.")
+    value = Input("N", "Value that is added.")
 
     def law(p, value):
         """A flow into the sum."""

@@ -13,10 +13,10 @@ class Dancer(Component):
 
     carriage = Translational("the carriage, which goes out as y grows")
     force = Waveform("N", "Force that draws the loop out.", default=0.0)
-    stiffness = Parameter("N/m", "Of a spring that draws the loop in.", default=0.0, least=0)
+    stiffness = Parameter("N/m", "Stiffness of a spring that draws the loop in.", default=0.0, least=0)
     damping = Parameter("N*s/m", "Damping of the carriage.", default=0.0, least=0)
-    stroke = Parameter("m", "Way of the carriage.", above=0)
-    stop_stiffness = Parameter("N/m", "Of the stops.", default=1e5, above=0)
+    stroke = Parameter("m", "Travel of the carriage.", above=0)
+    stop_stiffness = Parameter("N/m", "Stiffness of the stops.", default=1e5, above=0)
     pull = Output("N", "Force on the carriage, positive outward.")
     zones = Zones("free", "low", "high")
 

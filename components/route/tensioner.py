@@ -21,10 +21,10 @@ class Tensioner(Station):
     word = "Tensioner"
     mass = Parameter("kg", "Mass of carriage and dancer.", default=20.0, above=0)
     force = Waveform("N", "Force that draws the loop out.", default=0.0)
-    stiffness = Parameter("N/m", "Of a spring that draws the loop in as it grows.", default=0.0, least=0)
+    stiffness = Parameter("N/m", "Stiffness of a spring that draws the loop in as it grows.", default=0.0, least=0)
     damping = Parameter("N*s/m", "Damping of the carriage.", default=100.0, least=0)
-    stroke = Parameter("m", "Way of the carriage.", default=1.0, above=0)
-    stop_stiffness = Parameter("N/m", "Of the stops.", default=1e5, above=0)
+    stroke = Parameter("m", "Travel of the carriage.", default=1.0, above=0)
+    stop_stiffness = Parameter("N/m", "Stiffness of the stops.", default=1e5, above=0)
 
     def extent(p):
         """It takes no length of the route; the loop is told apart."""

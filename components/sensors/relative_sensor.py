@@ -4,7 +4,7 @@ from fairlead.component import Component, Law, Output, Translational, Unknown, h
 
 
 class RelativeMotionSensor(Component):
-    """Reads how far b is ahead of a, and how fast it draws away; it takes no force."""
+    """Reads the position and the velocity of b relative to a; it takes no force."""
 
     a = Translational("what is read from")
     b = Translational("what is read")

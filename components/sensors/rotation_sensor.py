@@ -17,7 +17,7 @@ class RotationSensor(Component):
 
 
 class RelativeRotationSensor(Component):
-    """Reads by how much b is turned, and turns, over a; it takes no torque."""
+    """Reads the angle and the speed of b relative to a; it takes no torque."""
 
     a = Rotational("what is read from")
     b = Rotational("what is read")

@@ -20,12 +20,12 @@ class SampledSensor(Controller):
     """
 
     passes = "value"
-    value = Input("1", "What is measured.", signed=True)
+    value = Input("1", "Measured quantity.", signed=True)
     sampling = Effect("The sensor works in samples; off: it is perfect.", off=PerfectSignal)
     noise = Parameter("1", "Standard deviation of the noise, in SI of what is measured.", default=None, above=0)
     resolution = Parameter("1", "Step of its numbers, in SI of what is measured.", default=None, above=0)
-    seed = Count("Of the noise.", default=1, least=0)
-    signal = Output("1", "What is told.")
+    seed = Count("Seed of the noise.", default=1, least=0)
+    signal = Output("1", "Reading of the sensor.")
 
     def begin(self):
         """No sample is taken yet."""

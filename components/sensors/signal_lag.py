@@ -6,8 +6,8 @@ from fairlead.component import Component, Effect, Input, Law, Output, Parameter,
 class PerfectSignal(Component):
     """Tells what it reads."""
 
-    value = Input("1", "What is measured.", signed=True)
-    signal = Output("1", "What is told.")
+    value = Input("1", "Measured quantity.", signed=True)
+    signal = Output("1", "Reading of the sensor.")
 
     def law(p, value):
         """At once."""
@@ -18,12 +18,12 @@ class SignalLag(Component):
     """A sensor with a lag:  lag d(signal)/dt = value - signal."""
 
     passes = "value"
-    value = Input("1", "What is measured.", signed=True)
+    value = Input("1", "Measured quantity.", signed=True)
     sensor_lag = Effect("The sensor takes its time.", off=PerfectSignal)
     lag = Parameter("s", "Time constant.", above=0)
-    initial = Parameter("1", "What it tells at the start.", default=0.0)
-    told = State("1", "What is told.", start="initial", nominal=0.1)
-    signal = Output("1", "What is told.")
+    initial = Parameter("1", "Reading at the start.", default=0.0)
+    told = State("1", "Reading of the sensor.", start="initial", nominal=0.1)
+    signal = Output("1", "Reading of the sensor.")
 
     def law(p, value, told):
         """First order."""

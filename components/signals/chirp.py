@@ -13,7 +13,7 @@ class SignalChirp(Component):
     table from a file.
     """
 
-    amplitude = Parameter("1", "Of the sine, in SI of what it feeds.", default=1.0)
+    amplitude = Parameter("1", "Amplitude of the sine, in the SI unit of the input that it feeds.", default=1.0)
     offset = Parameter("1", "What is added.", default=0.0)
     first = Parameter("1/s", "Frequency at the start.", above=0)
     last = Parameter("1/s", "Frequency at `over`; another one than the first.", above=0)

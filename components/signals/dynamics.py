@@ -85,7 +85,7 @@ class SecondOrder(Component):
     initial = Parameter("1", "Signal at the start.", default=0.0, physics=False)
     told = State("1", "The signal.", start="initial", nominal=0.1)
     rate = State("1/s", "Its rate.", nominal=1.0)
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
     slope = Output("1/s", "Its rate.")
 
     def law(p, value, told, rate):

@@ -30,7 +30,7 @@ class ElementaryFunction(Component):
     exempt = {"odd": "Most of these functions are not."}
     value = Input("1", "What comes in.")
     curve = Choice(tuple(CURVES), "Which function.")
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def law(p, value):
         """At once."""

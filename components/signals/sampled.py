@@ -28,9 +28,9 @@ class SignalDelay(Controller):
     """
 
     value = Input("1", "What comes in.", signed=True)
-    samples = Count("By how many samples it is late.", default=1)
+    samples = Count("Delay in samples.", default=1)
     initial = Parameter("1", "Signal before the first value has come through.", default=0.0, physics=False)
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def begin(self):
         """Nothing is under way."""

@@ -31,7 +31,7 @@ class StateMachine(Composite):
     asked_with = {"states": (("off", {"power": 0}), ("on", {"power": 1})),
                   "transitions": (("off", {"on": "a > 1"}), ("on", {"off": "a < 0"}))}  # fmt: skip
     states = Entries("States by name, each with its outputs: {idle: {valve: 0}, filling: {valve: 1}}.")
-    transitions = Entries("By the state that is left: the state that is entered, and the condition.")
+    transitions = Entries("For each state: the states that may follow it, each with its condition.")
     inputs = Entries("Units of the inputs by name; plain numbers when not given.", default=None)
     constants = Entries("Numbers by name, which may have units.", default=())
     state = Output("1", "Number of the state in force, from 0.")

@@ -38,7 +38,7 @@ class StateSpace(Composite):
     d = Matrix("D, outputs per input, at once; zero when not given.", default=None)
     initial = Matrix("The states at the start, a list; zero when not given.", default=None)
     value = Input("1", "What comes in.", signed=True)
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def check(p):
         """The matrices fit together."""

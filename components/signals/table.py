@@ -9,7 +9,7 @@ class SignalTable(Component):
     exempt = {"odd": "A table is what it is."}
     value = Input("1", "What comes in.", signed=True)
     points = Table("1", "1", "Value and signal, in SI of both.")
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def law(p, value):
         """At once."""

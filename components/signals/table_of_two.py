@@ -26,7 +26,7 @@ class SignalTable2(Composite):
     x = Input("1", "Along the first row.", signed=True)
     y = Input("1", "Down the first column.", signed=True)
     file = File("The map, relative to the netlist and in its folder or below.", ending=".csv")
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def check(p):
         """The file is a map of numbers."""

@@ -35,7 +35,7 @@ class TransferThrough(Component):
     value = Input("1", "What comes in.", signed=True)
     state = Input("1", "The last state.", 0.0, signed=True)
     through = Parameter("1", "Factor of what goes through at once.")
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
     heard = Output("1", "What comes in.")
 
     def law(p, value, state):
@@ -63,7 +63,7 @@ class TransferFunction(Composite):
     value = Input("1", "What comes in.", signed=True)
     b0, b1, b2, b3, b4 = (power("b", k, 1.0 if k == 0 else 0.0) for k in range(MOST + 1))
     a0, a1, a2, a3, a4 = (power("a", k, 1.0 if k == 0 else 0.0) for k in range(MOST + 1))
-    signal = Output("1", "What goes out.")
+    signal = Output("1", "Output signal.")
 
     def check(p):
         """A denominator, of at least the order of the numerator."""

@@ -56,14 +56,14 @@ class Turned(Component, abstract=True):
 
 
 class PositionActuator(Guided):
-    """Moves its flange to the position that a signal says:  lag^2 x'' + 2 lag x' + x = wanted.
+    """Moves its flange to the position of a signal:  lag^2 x'' + 2 lag x' + x = wanted.
 
     It takes whatever force that takes: an ideal drive. A steady wish is reached without overshoot, a growing one
     followed 2 lag behind. It begins at rest at `origin`.
     """
 
     wanted = Input("m", "Position to go to.", signed=True)
-    lag = Parameter("s", "Of each of the two lags.", default=1e-3, above=0)
+    lag = Parameter("s", "Time constant of each of the two lags.", default=1e-3, above=0)
     moving = State("m/s", "Velocity.")
 
     def law(p, flange, wanted, place, moving):
@@ -73,7 +73,7 @@ class PositionActuator(Guided):
 
 
 class VelocityActuator(Guided):
-    """Moves its flange with the velocity that a signal says, lag behind it:  lag v' = wanted - v.
+    """Moves its flange with the velocity of a signal, with a lag:  lag v' = wanted - v.
 
     It takes whatever force that takes: an ideal drive.
     """
@@ -90,7 +90,7 @@ class VelocityActuator(Guided):
 
 
 class AccelerationActuator(Guided):
-    """Moves its flange with the acceleration that a signal says, whatever force that takes:  v' = wanted."""
+    """Moves its flange with the acceleration of a signal, at any force:  v' = wanted."""
 
     wanted = Input("m/s^2", "Acceleration.", signed=True)
     start = Parameter("m/s", "Velocity at the start.", default=0.0, physics=False)
@@ -102,13 +102,13 @@ class AccelerationActuator(Guided):
 
 
 class AngleActuator(Turned):
-    """Turns its shaft to the angle that a signal says:  lag^2 angle'' + 2 lag angle' + angle = wanted.
+    """Turns its shaft to the angle of a signal:  lag^2 angle'' + 2 lag angle' + angle = wanted.
 
     It takes whatever torque that takes: an ideal drive, as a PositionActuator is along a line.
     """
 
     wanted = Input("rad", "Angle to turn to.", signed=True)
-    lag = Parameter("s", "Of each of the two lags.", default=1e-3, above=0)
+    lag = Parameter("s", "Time constant of each of the two lags.", default=1e-3, above=0)
     moving = State("rad/s", "Angular speed.")
 
     def law(p, shaft, wanted, place, moving):
@@ -118,7 +118,7 @@ class AngleActuator(Turned):
 
 
 class SpeedActuator(Turned):
-    """Turns its shaft with the speed that a signal says, lag behind it:  lag speed' = wanted - speed.
+    """Turns its shaft with the speed of a signal, with a lag:  lag speed' = wanted - speed.
 
     It takes whatever torque that takes: an ideal drive. A PositionServo or a motor with a PiController is a real one.
     """

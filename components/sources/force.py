@@ -17,7 +17,7 @@ class ForceSource(Component):
 
 
 class ForceActuator(Component):
-    """Pulls its flange in the direction of +x with the force that a signal says: an ideal drive."""
+    """An ideal drive: pulls its flange in the direction of +x with the force of a signal."""
 
     flange = Translational("where the force acts")
     force = Input("N", "Force, positive towards +x.", signed=True)

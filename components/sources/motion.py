@@ -18,7 +18,7 @@ def integrated(rate, origin):
 
 
 class MotionSource(Component):
-    """Moves its flange as prescribed, whatever force that takes.
+    """Moves its flange as prescribed, at any force.
 
     Give either `velocity` (the position follows by integration from `origin`) or `position`.
     """
@@ -68,7 +68,7 @@ class MotionSource(Component):
 
 
 class SpeedSource(Component):
-    """Turns its shaft as prescribed, whatever torque that takes: an ideal drive of given speed.
+    """An ideal drive of given speed: turns its shaft as prescribed, at any torque.
 
     Give either `speed` (the angle follows by integration from `origin`) or `angle`.
     """

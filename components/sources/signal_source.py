@@ -4,7 +4,7 @@ from fairlead.component import Component, Law, Output, Waveform
 
 
 class SignalSource(Component):
-    """Tells a plain number in time; it may feed any input, whose unit is SI."""
+    """A plain number that varies with time; it may feed any input, and counts there in SI."""
 
     value = Waveform("1", "Value in time.")
     signal = Output("1", "The value.")

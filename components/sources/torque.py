@@ -17,7 +17,7 @@ class TorqueSource(Component):
 
 
 class TorqueActuator(Component):
-    """Turns its shaft forward with the torque that a signal says: an ideal drive."""
+    """An ideal drive: turns its shaft forward with the torque of a signal."""
 
     shaft = Rotational("where the torque acts")
     torque = Input("N*m", "Torque, positive forward.", signed=True)

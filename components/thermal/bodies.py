@@ -33,7 +33,7 @@ class HeatCapacity(Component):
 
 
 class FixedTemperature(Component):
-    """Keeps its port at a temperature, whatever heat that takes: the air, the sea."""
+    """Keeps its port at a temperature, at any heat flow: the air, the sea."""
 
     port = Thermal("the surroundings")
     temperature = Parameter("K", "Temperature.", default=ROOM, above=0)
@@ -87,7 +87,7 @@ class HeatConvection(Component):
 
 
 class HeatActuator(Component):
-    """Gives its port the heat that a signal says: the `power` of a Resistor, a loss that a formula tells."""
+    """Gives its port the heat of a signal: the `power` of a Resistor, a loss computed by a formula."""
 
     port = Thermal("what is warmed")
     heat = Input("W", "Heat.", signed=True)
@@ -99,7 +99,7 @@ class HeatActuator(Component):
 
 
 class FrictionLoss(Component):
-    """Leads what a contact loses to two bodies:  heat = friction slip,  `share` of it to b, the rest to a.
+    """Gives the heat of a contact to two bodies:  heat = friction slip,  `share` of it to b, the rest to a.
 
     Join `friction` and `slip` with those of a Contact, or `torque` and `speed` with those of what turns. The shares of
     two halves in contact are as their effusivities, sqrt(conductivity density specific heat). Source: Blok 1937;
@@ -121,7 +121,7 @@ class FrictionLoss(Component):
 
 
 class OrificeLoss(Component):
-    """Leads what a flow loses in a valve, a leak or a motor to a body:  heat = flow drop."""
+    """Gives the loss of a flow in a valve, a leak or a motor to a body as heat:  heat = flow drop."""
 
     port = Thermal("what is warmed")
     flow = Input("m^3/s", "Flow.", signed=True)

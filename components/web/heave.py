@@ -39,11 +39,11 @@ class MovingSheave(Composite):
     b = Translational("rim of the roller ahead")
     place = Translational("the axle, which lengthens the loop as x grows")
     share = Parameter("1", "Way of either side for the way of the place.", default=1.0, above=0, most=1)
-    length = Parameter("m", "Of either side, with place.x = 0.", above=0)
+    length = Parameter("m", "Length of either side, with place.x = 0.", above=0)
     stiffness = Parameter("N", "EA of the rope.", above=0, usual=(10, 1e9))
     damping = Parameter("N*s", "Tension per rate of strain; none when not given.", default=None, above=0)
     tension = Parameter("N", "Tension at the start.", default=0.0, least=0, physics=False)
-    radius = Parameter("m", "Of the sheave, to the middle of the rope.", above=0, usual=(1e-3, 5))
+    radius = Parameter("m", "Radius of the sheave, to the middle of the rope.", above=0, usual=(1e-3, 5))
     moment = Parameter("kg*m^2", "Moment of inertia of the sheave.", above=0)
     rubbing = Parameter("N*m", "Dry torque of the bearing.", default=None, above=0)
     mu = Parameter("1", "Coefficient of friction of rope on sheave, with traction on.", default=0.3, above=0)
@@ -95,7 +95,7 @@ class ActiveForce(Component):
 
 
 class HeaveCompensator(Composite):
-    """A cylinder on a gas-loaded accumulator, which pushes its rod out with a force that hardly depends on its place.
+    """A cylinder on a gas-loaded accumulator; the force on its rod hardly depends on the position.
 
     force = area (pressure - air) + command,   pressure (gas)^n = constant,   gas grows by area travel
 
@@ -111,15 +111,15 @@ class HeaveCompensator(Composite):
 
     body = Translational("the barrel, on the ship")
     rod = Translational("the rod")
-    bore_diameter = Parameter("m", "Of the passive cylinder.", above=0, usual=(0.01, 2))
-    stroke = Parameter("m", "From in to out.", above=0)
-    pressure = Parameter("Pa", "Of oil and gas at the start.", above=0, physics=False)
-    gas_volume = Parameter("m^3", "Of the gas at its precharge.", above=0)
+    bore_diameter = Parameter("m", "Bore of the passive cylinder.", above=0, usual=(0.01, 2))
+    stroke = Parameter("m", "Travel of the rod from in to out.", above=0)
+    pressure = Parameter("Pa", "Pressure of oil and gas at the start.", above=0, physics=False)
+    gas_volume = Parameter("m^3", "Volume of the gas at its precharge.", above=0)
     precharge = Parameter("Pa", "Pressure of the gas without oil.", above=0)
     exponent = Parameter("1", "n, polytropic exponent.", default=1.2, above=1, most=2)
     neck = Parameter("m", "Diameter of the way between oil and gas.", default=0.06, above=0)
-    mass = Parameter("kg", "Of rod and piston.", above=0)
-    position = Parameter("m", "Of the rod at the start.", default=None, physics=False)
+    mass = Parameter("kg", "Mass of rod and piston.", above=0)
+    position = Parameter("m", "Position of the rod at the start.", default=None, physics=False)
     most = Parameter("N", "Largest active force.", default=1e5, above=0)
     active = Effect("A second cylinder that follows a signal.", "off")
     command = Input("N", "Active force asked for, positive outwards.", default=0.0, signed=True)

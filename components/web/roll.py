@@ -27,10 +27,10 @@ class OnRoll(Component, abstract=True):
     """Half-model of web on a roll: what it tells of its radius, its length and its inertia."""
 
     shaft = Rotational("the roll")
-    radius = Parameter("m", "At angle zero.", above=0)
-    growth = Parameter("m/rad", "Of the radius, per angle; negative while web comes off.")
-    core_radius = Parameter("m", "Of the core.", above=0)
-    thickness = Parameter("m", "Of the web.", above=0)
+    radius = Parameter("m", "Radius at angle zero.", above=0)
+    growth = Parameter("m/rad", "Growth of the radius per angle; negative while web comes off.")
+    core_radius = Parameter("m", "Radius of the core.", above=0)
+    thickness = Parameter("m", "Thickness of the web.", above=0)
     strain = Parameter("1", "Strain of the web on the roll.", default=0.0)
     outside = Output("m", "Radius at which the web comes off or on.", name="radius")
     wound = Output("m", "Web on the roll.")
@@ -64,8 +64,8 @@ class Spiral(Component):
 
     shaft = Rotational("the roll")
     rim = Translational("where the web comes off or on")
-    radius = Parameter("m", "At angle zero.", above=0)
-    growth = Parameter("m/rad", "Of the radius, per angle; negative while web comes off.")
+    radius = Parameter("m", "Radius at angle zero.", above=0)
+    growth = Parameter("m/rad", "Growth of the radius per angle; negative while web comes off.")
     drawn = Unknown("N", "Force at the rim.")
 
     def law(p, shaft, rim, drawn):
@@ -82,8 +82,8 @@ class Growing(Component):
 
     shaft = Rotational("the roll")
     layers = Translational("the body")
-    radius = Parameter("m", "At angle zero.", above=0)
-    growth = Parameter("m/rad", "Of the radius, per angle; negative while web comes off.")
+    radius = Parameter("m", "Radius at angle zero.", above=0)
+    growth = Parameter("m/rad", "Growth of the radius per angle; negative while web comes off.")
     reach = Parameter("m", "Radius at which the body moves as the rim does, but for the offset.", above=0)
     offset = Parameter("m", "What it moves less per angle.", default=0.0, least=0)
     moved = Unknown("N", "Force on the body.")
@@ -120,11 +120,11 @@ class WebRoll(Composite, abstract=True):
     shaft = Rotational("the roll, forward with the web")
     rim = Translational("where the web comes off or on, forward with it")
     radius = Parameter("m", "Outer radius at angle zero of the shaft.", above=0, usual=(1e-3, 5))
-    core_radius = Parameter("m", "Of the core.", above=0, usual=(1e-3, 5))
-    width = Parameter("m", "Of the web.", above=0, usual=(1e-3, 20))
-    thickness = Parameter("m", "Of the web.", above=0, usual=(1e-6, 0.05))
-    density = Parameter("kg/m^3", "Of the web as it lies on the roll.", above=0, usual=(100, 1e4))
-    moment = Parameter("kg*m^2", "Of core, shaft, chucks and what of a drive is no part of its own.", above=0)
+    core_radius = Parameter("m", "Radius of the core.", above=0, usual=(1e-3, 5))
+    width = Parameter("m", "Width of the web.", above=0, usual=(1e-3, 20))
+    thickness = Parameter("m", "Thickness of the web.", above=0, usual=(1e-6, 0.05))
+    density = Parameter("kg/m^3", "Density of the web as it lies on the roll.", above=0, usual=(100, 1e4))
+    moment = Parameter("kg*m^2", "Inertia of core, shaft and chucks, and of a drive that is not modelled.", above=0)
     strain = Parameter("1", "Strain of the web as it lies on the roll.", default=0.0, usual=(0, 0.1))
     speed = Parameter("rad/s", "Angular speed at the start.", default=None, physics=False)
     layers = Effect("Radius and inertia follow what is on the roll.")

@@ -53,7 +53,7 @@ class WebRoller(Composite, abstract=True):
 
     web = Translational("the web on the roller")
     shaft = Rotational("the roller", optional=True)
-    radius = Parameter("m", "Of the roller, to the middle of the web.", above=0, usual=(1e-3, 5))
+    radius = Parameter("m", "Radius of the roller, to the middle of the web.", above=0, usual=(1e-3, 5))
     moment = Parameter("kg*m^2", "Moment of inertia of all that turns.", above=0)
     drag = Parameter("N*m*s/rad", "Viscous torque of the bearings.", default=None, above=0)
     rubbing = Parameter("N*m", "Dry torque of the bearings.", default=None, above=0)
@@ -130,7 +130,7 @@ class NipRoller(WebRoller):
     nothing, so that one face holds.
     """
 
-    force = Parameter("N", "With which the rollers are pressed together.", least=0)
+    force = Parameter("N", "Force that presses the rollers together.", least=0)
     rolling = Parameter(
         "1", "Rolling resistance of the cover, as a share of the force.", default=0.0, least=0, most=0.5
     )

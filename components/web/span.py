@@ -46,7 +46,7 @@ class Web(Component, abstract=True):
 
     a = Translational("rim of the roller behind, from which the web comes")
     b = Translational("rim of the roller ahead")
-    length = Parameter("m", "Of the web between the rollers.", above=0)
+    length = Parameter("m", "Length of the web between the rollers.", above=0)
     stiffness = Parameter("N", "Young's modulus times width times thickness.", above=0, usual=(10, 1e9))
     tension = Parameter("N", "Tension at the start.", default=0.0, least=0, physics=False)
     damping = Parameter("N*s", "Tension per rate of strain, beside the elastic one; none when not given.", default=None,
@@ -154,7 +154,7 @@ class WholeSpan(FixedSpan):
 
 
 class WebSpan(FixedSpan):
-    """A web between two rollers that stand:  length d(strain)/dt = b.v (1 + strain) - a.v (1 + strain)^2/(1 + before).
+    """A web between two fixed rollers:  length d(strain)/dt = b.v (1 + strain) - a.v (1 + strain)^2/(1 + before).
 
     For small strain that is  length d(tension)/dt = stiffness (b.v - a.v) + a.v tension_before - b.v tension, the
     equation of Shelton and Brandenburg. `a` and `b` are the rims of the rollers (an Idler, an Unwinder, a Rack).
@@ -214,7 +214,7 @@ class WebSpan(FixedSpan):
 
 
 class WebAccumulator(Web):
-    """A web in `strands` between fixed rollers and those of a carriage, whose way keeps web in store.
+    """Stores web in `strands` between fixed rollers and the rollers of a moving carriage.
 
     The free length is  length + strands carriage.x,  and the carriage is drawn back by  strands tension. With the mass
     balance of a span the tension follows

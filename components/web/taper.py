@@ -6,7 +6,7 @@ NOTHING = 1e-6  # of the core: so small a roll there is not, and its radius may 
 
 
 class TaperTension(Component):
-    """Tension that is wanted at a roll, over its radius, and the torque for it:  torque = wanted radius.
+    """Demanded tension at a roll over its radius, and the torque for it:  torque = wanted radius.
 
     hyperbolic    wanted = tension (1 - taper (1 - core_radius/radius))
     linear        wanted = tension (1 - taper (radius - core_radius)/(full_radius - core_radius))
@@ -16,10 +16,10 @@ class TaperTension(Component):
     """
 
     asked_with = {"core_radius": 0.1, "full_radius": 0.9}
-    tension = Parameter("N", "At the core.", least=0)
+    tension = Parameter("N", "Tension at the core.", least=0)
     taper = Parameter("1", "Share by which the tension falls.", default=0.0, least=0, most=1)
     core_radius = Parameter("m", "Radius at which it begins to fall.", above=0)
-    full_radius = Parameter("m", "Of a full roll, for a linear taper.", default=None, above=0)
+    full_radius = Parameter("m", "Radius of a full roll, for a linear taper.", default=None, above=0)
     shape = Choice(("hyperbolic", "linear"), "How it falls.", default="hyperbolic")
     radius = Input("m", "Radius of the roll.")
     wanted = Output("N", "Tension wanted.")
