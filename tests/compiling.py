@@ -1,12 +1,15 @@
-"""The loops that all tests share, compiled side by side by the workers that run them.
+"""What all workers need, made by one of them each: the loops that tests share, and the files of the tests.
 
 With cold caches every worker would otherwise wait for the first loop, and again for the second: whoever comes later
-waits until the entry is there (native.py).
+waits until the entry is there (native.py). And each would have pytest rewrite the assertions of all files.
 """
 
 from __future__ import annotations
 
+import contextlib
+import importlib
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -30,3 +33,16 @@ def compile_share(session: pytest.Session) -> None:
     number = int(worker["workerid"].removeprefix("gw"))
     for compiled in SHARES[number] if number < len(SHARES) else ():
         compiled()
+
+
+def read_share(config: pytest.Config) -> None:
+    """Import the tests from the share of this worker on; what comes before, the others have left behind for it."""
+    worker = getattr(config, "workerinput", None)
+    tests = Path(__file__).parent
+    if worker is None or [Path(given).resolve() for given in config.args] != [tests]:
+        return
+    files = sorted(tests.rglob("test_*.py"))
+    begin = len(files) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]
+    for file in files[begin:] if begin else ():
+        with contextlib.suppress(Exception, pytest.skip.Exception):  # told when it is collected
+            importlib.import_module(".".join(file.relative_to(tests.parent).with_suffix("").parts))

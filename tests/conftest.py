@@ -20,8 +20,8 @@ import hypothesis
 import pytest
 
 import fairlead
-from tests.compiling import compile_share
-from tests.slow import is_left
+from tests.compiling import compile_share, read_share
+from tests.slow import is_left, repeats
 
 Scene = Callable[..., Any]
 
@@ -41,6 +41,8 @@ if providers := sys.modules.get("hypothesis.internal.conjecture.providers"):
     vars(providers)["is_local_module_file"] = lambda path: False
 
 
+COLLECTED = pytest.StashKey[list[str]]()
+"""Names of all tests that were collected, whether they are run or not."""
 YOUNG = 1_000_000
 """Objects that are made before Python looks for circles among them. What tests trace and compile is large and goes by
 itself; by default Python would look through all of it every 700 objects, a sixth of the time of the contract suite."""
@@ -51,6 +53,7 @@ def pytest_collection(session: pytest.Session) -> Generator[None, object, object
     """Do not look for garbage among what collecting makes, twelve thousand tests and their modules: it stays."""
     gc.disable()
     try:
+        read_share(session.config)
         return (yield)
     finally:
         gc.freeze()  # nor later: each look would take half a second
@@ -58,11 +61,14 @@ def pytest_collection(session: pytest.Session) -> Generator[None, object, object
         gc.enable()
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark as slow what `tests/slow.py` leaves to `make test-all`."""
+    config.stash[COLLECTED] = [item.nodeid for item in items]
     for item in items:
         if is_left(item.nodeid):
             item.add_marker(pytest.mark.slow)
+    for item in repeats(items):
+        item.add_marker(pytest.mark.slow)
 
 
 @pytest.fixture(scope="session", autouse=True)

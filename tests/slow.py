@@ -5,7 +5,11 @@ Patterns of test names as pytest prints them (`*` stands for anything), beside t
 
 from __future__ import annotations
 
+import functools
 import re
+from collections import Counter, defaultdict
+from collections.abc import Hashable, Iterable, Iterator
+from typing import Any
 
 LEFT_TO_TEST_ALL = (
     # hard cases: other treatments than `hold` on ida and the method of order three; rodas and stepping play them
@@ -279,12 +283,121 @@ LEFT_TO_TEST_ALL = (
     "tests/unit/test_gone_with_effects.py::test_a_route_is_set_and_recorded_*[hose_core_slip]",
     "tests/models/test_long_runs.py::test_a_block_goes_on_*[100-10-0.2-1e-4-ida]",
     "tests/models/test_long_runs.py::test_a_block_goes_on_*[1000000.0-100000.0-20-1e-6-ida]",
+    # what others of the file or of a smaller scene show: routes in a unit test, one more variant or pair of engines
+    "tests/unit/test_shown_rates.py::test_some_laws_*[guidance_route]",
+    "tests/unit/test_shown_rates.py::test_some_laws_*[long_deployment]",
+    "tests/unit/test_friction_verbs.py::test_friction_tells_the_creep_*[saturation-*",
+    "tests/unit/test_friction_verbs.py::test_friction_tells_the_creep_*[root-*",
+    "tests/unit/test_derivatives.py::test_so_have_those_of_laws_*[PositionServo]",
+    "tests/unit/test_derivatives.py::test_so_have_those_of_laws_*[LoopedCore]",
+    "tests/unit/test_docs.py::test_a_component_in_a_users_file_*[bungee.py]",
+    "tests/unit/test_drawing.py::test_svg_*[guidance_route]",
+    "tests/unit/test_drawing.py::test_svg_*[guidance_route_ideal]",
+    "tests/unit/test_drawing.py::test_svg_*[long_*",
+    "tests/unit/test_drawing.py::test_svg_*[slack_start]",
+    "tests/unit/test_drawing.py::test_svg_*[weak_clamp]",
+    "tests/unit/test_statics.py::test_every_bundled_route_*[long_deployment]",
+    "tests/unit/test_reference_engines.py::test_both_bend_engines_*",
+    "tests/models/test_bend_variants.py::test_the_hose_*[element 0.125 m]",
+    "tests/models/test_bend_variants.py::test_the_hose_*[mu 0.51, *",
+    "tests/models/test_bend_variants.py::test_the_hose_*[T_out 200 N]",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[torsion-stepping-ida]",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[power_unit-*stepping*",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[winch_drive-*ida]",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[block_and_spring-*stepping*",
+    "tests/models/test_engines_agree.py::test_two_engines_agree_*[friction_anchor-*ida]",
+    "tests/models/test_coupled_route.py::test_electronics_called_at_every_sample_*",
+    "tests/models/test_guidance_route.py::test_more_friction_*",
+    "tests/models/test_effects_advice.py::test_every_effect_of_a_bundled_model_*[single_bend]",
+    "tests/models/test_effects_advice.py::test_every_effect_of_a_bundled_model_*[friction_anchor]",
+    "tests/models/test_effects_advice.py::test_every_effect_of_a_bundled_model_*[torsion]",
+    "tests/models/test_jenkins.py::test_contacts_that_creep_or_bend_*[dahl]",
+    "tests/models/test_jenkins.py::test_contacts_that_creep_or_bend_*[arctan]",
+    "tests/models/test_jenkins.py::test_where_friction_falls_*[binding]",
+    "tests/models/test_contact_pairs.py::test_*_in_machine_code[NaiveZone *",
+    "tests/models/test_contact_pairs.py::test_*_in_machine_code[Arctan *",
+    "tests/models/test_contact_pairs.py::test_*_in_machine_code[Root *",
+    "tests/models/test_contact_pairs.py::test_*_in_machine_code[Saturation *",
+    "tests/models/test_narrowing.py::test_what_was_left_out_wakes_*[rodas]",
+    "tests/models/test_positions.py::test_pistons_that_pass_*[6]",
+    "tests/models/test_positions.py::test_a_thousand_revolutions_*[1e-06]",
+    "tests/models/test_rebound.py::test_no_impact_of_a_random_scene_*[2]",
+    "tests/models/test_lightly_pressed.py::test_every_treatment_*[maxwell_slip]",
+    "tests/models/test_narrowing_at_random.py::test_what_moves_alone_*[1*]",
+    "tests/components/test_assembly.py::test_the_jacobian_*[guidance_route_torsion]",
+    "tests/components/test_assembly.py::test_the_jacobian_*[machines/web_line]",
+    "tests/components/test_assembly.py::test_the_jacobian_*[machines/lowering_winch]",
+    "tests/hard/*[unit_rescaled,_lengths_*_/_ida_/_*",
+    "tests/hard/*[time_shifted,_1e4_s_/_ida_/_*",
+    "tests/hard/*[steep_falling_curve,_stribeck_over_1e-07_m/s_/_ida_/_*",
+    "tests/hard/*[mirrored_blocks_stay_mirrored,_jump_/_ida_/_*",
+    "tests/hard/*[shaken_to_and_fro_*_/_ida_/_*",
+    "tests/hard/*[block_on_a_shaken_table,_slipping_/_ida_/_*",
+    "tests/hard/*[node_without_mass_*_/_rodas_/_lugre",
+    "tests/hard/*[normal_force_to_zero_and_back,_in_ramps_/_rodas_/_lugre",
+    "tests/hard/*[steep_falling_curve,_tustin_*_/_rodas_/_lugre",
 )
 
 
-_PATTERN = re.compile("|".join(".*".join(map(re.escape, one.split("*"))) for one in LEFT_TO_TEST_ALL))
+EACH_VALUE_ONCE = (
+    "tests/models/*",
+    "tests/components/test_contacts_that_part.py::*",
+    "tests/components/test_jamming_screws.py::*",
+    "tests/components/test_shaft_friction.py::*",
+    "tests/components/test_hydraulics.py::*",
+    "tests/components/test_choosing_creep.py::*",
+    "tests/integrate/test_published.py::test_the_error_falls_*",
+    "tests/integrate/test_tuning.py::*",
+    "tests/unit/test_plot_verb.py::test_every_figure_*",
+)
+"""Of tests of these names that have several parameters, such as a scene, an engine and an accuracy, `make test` plays
+every value of each, but not each with all values of the others."""
+
+
+@functools.cache
+def _of(patterns: tuple[str, ...]) -> re.Pattern[str]:
+    return re.compile("|".join(".*".join(map(re.escape, one.split("*"))) for one in patterns))
+
+
+def fits(pattern: str, name: str) -> bool:
+    """True for a name that a pattern stands for."""
+    return _of((pattern,)).fullmatch(name) is not None
+
+
+_LEFT, _ONCE = _of(LEFT_TO_TEST_ALL), _of(EACH_VALUE_ONCE)
 
 
 def is_left(name: str) -> bool:
     """True for a test that is on the list, by the name that pytest prints."""
-    return _PATTERN.fullmatch(name) is not None
+    return _LEFT.fullmatch(name) is not None
+
+
+def repeats(tests: Iterable[Any]) -> Iterator[Any]:
+    """Of the quick tests in EACH_VALUE_ONCE those whose values all stand in others of the same function."""
+    products = defaultdict(list)
+    for test in tests:
+        quick = _ONCE.fullmatch(test.nodeid) and not test.get_closest_marker("slow")
+        if quick and len(list(test.iter_markers("parametrize"))) > 1:
+            products[test.nodeid.partition("[")[0]].append(test)
+    for product in products.values():
+        played = each_value_once([_values(test) for test in product])
+        yield from (test for k, test in enumerate(product) if k not in played)
+
+
+def _values(test: Any) -> list[Hashable]:
+    """What a test is given for each of its parameters, or for those that are given together."""
+    names = [mark.args[0] for mark in test.iter_markers("parametrize")]
+    axes = [one.replace(" ", "").split(",") if isinstance(one, str) else one for one in names]
+    return [(*axis, *(id(test.callspec.params[name]) for name in axis)) for axis in axes]
+
+
+def each_value_once(product: list[list[Hashable]]) -> set[int]:
+    """Places of few members that have all values: always the one with most that are new, then with those met least."""
+    values, met, played = [set(member) for member in product], Counter[Hashable](), set[int]()
+    wanted: set[Hashable] = set().union(*values)
+    while wanted:
+        k = min(range(len(values)), key=lambda k: (-len(values[k] & wanted), sum(met[value] for value in values[k])))
+        played.add(k)
+        wanted -= values[k]
+        met.update(values[k])
+    return played

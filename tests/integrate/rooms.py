@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import ctypes
+import functools
+import hashlib
+import importlib.metadata
+import os
 from collections.abc import Callable
-from typing import Any
+from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 
+import fairlead.integrate
+from fairlead import native
 from fairlead.integrate.memory.arena import Memory
-from fairlead.integrate.memory.layout import INDICES, VECTORS
-from fairlead.native import target_machine
+from fairlead.integrate.memory.layout import CHECK, INDICES, VECTORS
 from fairlead.processor import tell_numba
 
 
@@ -29,18 +35,18 @@ def entry(function: Callable[..., Any], owners: tuple[str, ...], kinds: str = ""
 
     An owner without a name is the memory with all of them. An array among the arguments is passed by its address.
     """
-    import numba
-
-    from fairlead.integrate.memory.foreign import memory_at
-
     names = [f"a{k}" for k in range(len(kinds))]
     given = ", ".join([*(f"m.{owner}" if owner else "m" for owner in owners), *names])
     text = f"def call({', '.join(['address', *names])}):\n    m = memory_at(address)\n    return function({given})\n"
-    scope: dict[str, Any] = {"memory_at": memory_at, "function": function}
-    exec(text, scope)
-    types = {"i": numba.int64, "d": numba.float64, "v": numba.void, "b": numba.boolean}
-    signature = types[result](numba.int64, *(types[kind] for kind in kinds))
-    made = machine_code(signature, scope["call"])
+
+    def written() -> Callable[..., Any]:
+        from fairlead.integrate.memory.foreign import memory_at
+
+        scope: dict[str, Any] = {"memory_at": memory_at, "function": function}
+        exec(text, scope)
+        return cast(Callable[..., Any], scope["call"])
+
+    made = machine_code(f"{function.__module__}.{function.__qualname__} {text}", f"i{kinds}", result, written)
 
     def call(at: Memory, *arguments: Any) -> Any:
         return made(at.address, *(a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments))
@@ -48,29 +54,41 @@ def entry(function: Callable[..., Any], owners: tuple[str, ...], kinds: str = ""
     return call
 
 
-def machine_code(signature: Any, function: Callable[..., Any]) -> Any:
-    """A function with all that it calls, made native as the loop is: linked and optimised once, in a third of the time.
+def machine_code(name: str, kinds: str, result: str, function: Callable[[], Callable[..., Any]]) -> Any:
+    """What `function()` gives with all that it calls, made native as the loop is, and kept in the cache as the loop is.
 
-    `signature` is one of numba; its whole numbers may be addresses, and are passed as such.
+    So of the workers of a test one compiles it. `name` tells it from others of these tests; the whole numbers among
+    its arguments may be addresses, and are passed as such.
     """
-    import llvmlite.binding as llvm
-    import numba
 
-    from fairlead.integrate.link_once import linked_once
+    def build() -> native.Build:
+        import numba
 
-    tell_numba()
-    with linked_once():
-        made = numba.cfunc(signature, error_model="numpy", _nrt=False)(function)
-        module = llvm.parse_assembly(made.inspect_llvm())
-    engine = llvm.create_mcjit_compiler(module, target_machine())
-    engine.finalize_object()
-    kinds = {numba.int64: ctypes.c_int64, numba.float64: ctypes.c_double}
-    kinds |= {numba.boolean: ctypes.c_bool, numba.void: None}
-    call = ctypes.CFUNCTYPE(kinds[signature.return_type], *(kinds[kind] for kind in signature.args))(
-        engine.get_function_address(made.native_name)
-    )
-    call.keep_alive = engine  # type: ignore[attr-defined]
+        from fairlead.integrate.link_once import linked_once
+
+        tell_numba()
+        types = {"i": numba.int64, "d": numba.float64, "v": numba.void, "b": numba.boolean}
+        signature = types[result](*(types[kind] for kind in kinds))
+        with linked_once():
+            made = numba.cfunc(signature, error_model="numpy", _nrt=False)(function())
+        return native.Build(meta={}, functions={"call": made})
+
+    key = native.digest("tests", sources(), os.environ.get(CHECK, ""), name, kinds, result)
+    code = native.load_or_compile(key, build)
+    types = {"i": ctypes.c_int64, "d": ctypes.c_double, "v": None, "b": ctypes.c_bool}
+    call = ctypes.CFUNCTYPE(types[result], *(types[kind] for kind in kinds))(code.address["call"])
+    call.keep_alive = code  # type: ignore[attr-defined]
     return call
+
+
+@functools.cache
+def sources() -> str:
+    """All that these functions may be made of: the version of numba, the integrator and the tests beside this."""
+    state = hashlib.sha256(importlib.metadata.version("numba").encode())
+    for folder in (Path(fairlead.integrate.__file__).parent, Path(__file__).parent):
+        for file in sorted(folder.rglob("*.py")):
+            state.update(hashlib.sha256(file.read_bytes()).digest())
+    return state.hexdigest()
 
 
 def fields(at: Memory, n: int, **functions: tuple[Callable[..., Any], int]) -> list[Any]:

@@ -26,8 +26,6 @@ FACTORED, INACCURATE = 0, 2
 @functools.cache
 def solver():
     """(address of the struct, scale, address of b) -> status: assemble, factorise, solve with the check."""
-    import numba
-
     from fairlead.integrate.linear.systems import factorise_consistent, factorise_step, solve_watched
     from fairlead.integrate.memory.foreign import memory_at
 
@@ -36,7 +34,7 @@ def solver():
         status = factorise_step(linear, scale) if scale > 0.0 else factorise_consistent(linear)
         return status if status != 0 else solve_watched(linear, at_x)
 
-    return machine_code(numba.int64(numba.int64, numba.float64, numba.int64), run)
+    return machine_code("assemble, factorise, solve", "idi", "i", lambda: run)
 
 
 def pattern_of(mask):

@@ -1,23 +1,62 @@
 """What `make test` leaves to `make test-all` stands for tests that there are."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from tests.slow import LEFT_TO_TEST_ALL, is_left
+from tests.conftest import COLLECTED
+from tests.slow import EACH_VALUE_ONCE, LEFT_TO_TEST_ALL, each_value_once, fits, is_left, repeats
 
+PATTERNS = (*LEFT_TO_TEST_ALL, *EACH_VALUE_ONCE)
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("pattern", [one for one in LEFT_TO_TEST_ALL if "::" in one])
-def test_each_pattern_names_a_test(pattern):
-    file, _, name = pattern.partition("::")
-    text = (ROOT / file).read_text(encoding="utf-8")
-    if name.startswith("test_"):
-        assert f"def {name.partition('*')[0].partition('[')[0]}" in text
+def test_each_pattern_names_a_test():
+    for pattern in PATTERNS:
+        file, _, name = pattern.partition("::")
+        if name.startswith("test_"):
+            function = name.partition("*")[0].partition("[")[0]
+            assert f"def {function}" in (ROOT / file).read_text(encoding="utf-8"), pattern
+
+
+def test_each_pattern_fits_a_test_of_the_folders_that_are_collected(request):
+    if not all(Path(given).is_dir() for given in request.config.args):
+        pytest.skip("whole folders are not collected here")
+    names = request.config.stash[COLLECTED]
+    for pattern in PATTERNS:
+        file = pattern.partition("::")[0]
+        place = file.partition("*")[0].rpartition("/")[0] if "*" in file else file
+        there = [name for name in names if name.startswith(place)]
+        assert not there or any(fits(pattern, name) for name in there), pattern
 
 
 def test_brackets_are_letters_and_stars_are_anything():
     assert is_left("tests/hard/test_hard_cases.py::test_hard_case[a_block_/_ida_/_lugre]")
     assert not is_left("tests/hard/test_hard_cases.py::test_hard_case[a_block_/_ida_/_hold]")
     assert is_left("tests/integrate/test_linear.py::test_one_plan_serves_every_zone[0-dense]")
+
+
+@pytest.mark.parametrize("sizes", [(3, 3, 3), (2, 4), (4, 2, 2), (5,), (2, 3, 4)])
+def test_of_a_product_each_value_is_played_by_no_more_than_the_longest_parameter_asks(sizes):
+    product = [[]]
+    for axis, size in enumerate(sizes):
+        product = [[*member, (axis, value)] for member in product for value in range(size)]
+    played = each_value_once(product)
+    every = {(axis, value) for axis, size in enumerate(sizes) for value in range(size)}
+    assert set().union(*(product[k] for k in played)) == every
+    assert len(played) == max(sizes)
+
+
+def test_what_is_slow_already_plays_no_value_and_one_parameter_is_no_product():
+    def test(name, slow=False, **given):
+        marks = [pytest.mark.parametrize(parameter, []).mark for parameter in given]
+        return SimpleNamespace(
+            nodeid=f"tests/models/test_x.py::{name}", callspec=SimpleNamespace(params=given),
+            iter_markers=lambda _kind: iter(marks), get_closest_marker=lambda _kind: slow or None,
+        )  # fmt: skip
+
+    single = [test("test_a[1]", x=1), test("test_a[2]", x=2)]
+    product = [test("test_b[1-1]", slow=True, x=1, y=1), test("test_b[1-2]", x=1, y=2), test("test_b[2-1]", x=2, y=1),
+               test("test_b[2-2]", x=2, y=2)]  # fmt: skip
+    assert list(repeats([*single, *product])) == [product[3]]
