@@ -24,33 +24,52 @@ from tests.scenes.networks import network
 
 FEW = [one for one in bundled() if one.name in ("belt", "weak_clamp")] + random_plays((1, 2, 3, 5, 6, 18, 60), (4, 8))
 """Among them contacts in circles (network 18), stiff turns on a drum (route 4), fronts from two sides (weak_clamp)."""
+QUICK = {"belt", "weak_clamp", "network 3", "network 18", "route 4"}
+IN_TWO_PARTS = pytest.mark.parametrize(
+    "scenes",
+    [
+        pytest.param([one for one in FEW if one.name in QUICK], id="quick"),
+        pytest.param([one for one in FEW if one.name not in QUICK], id="others", marks=pytest.mark.slow),
+    ],
+)
 AT_ONCE = ("PYTHONHASHSEED", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES")
 """Settings that are tried together here: code for another processor would have to be compiled first."""
 
 
 @pytest.fixture(scope="module")
 def plain(tmp_path_factory):
-    found, said = play(PLAIN, FEW, tmp_path_factory.mktemp("plain"))
-    print(said)
-    return found
+    """plain(scenes) -> what comes out of each of them, played once."""
+    done = {}
+
+    def played(scenes):
+        missing = [one for one in scenes if one.name not in done]
+        if missing:
+            found, said = play(PLAIN, missing, tmp_path_factory.mktemp("plain"))
+            print(said)
+            done.update(found)
+        return done
+
+    return played
 
 
-def test_other_names_and_settings_and_runs_before_change_no_bit(plain, tmp_path):
+@IN_TWO_PARTS
+def test_other_names_and_settings_and_runs_before_change_no_bit(plain, scenes, tmp_path):
     """All at once: names, hash seed, BLAS, instructions of numpy; each scene run twice, after others."""
     named = next(trial for trial in trials() if trial.change and trial.equal)
     environment = {key: value for setting in settings().values() for key, value in setting.items() if key in AT_ONCE}
     environment["OPENBLAS_CORETYPE"] = "Prescott"
     everything = Trial("all at once", environment=environment, change=named.change, job={"times": 2}, backwards=True)
-    other, said = play(everything, FEW, tmp_path)
+    other, said = play(everything, scenes, tmp_path)
     print(said)
-    assert differences(everything, FEW, plain, other) == {}
+    assert differences(everything, scenes, plain(scenes), other) == {}
 
 
-def test_the_order_of_instances_and_unknowns_changes_no_more_than_rounding(plain, tmp_path):
+@IN_TWO_PARTS
+def test_the_order_of_instances_and_unknowns_changes_no_more_than_rounding(plain, scenes, tmp_path):
     trial = next(trial for trial in trials() if "order" in trial.job)
-    plays = [one for one in FEW if one.name not in KNOWN.get(trial.name, ())]
+    plays = [one for one in scenes if one.name not in KNOWN.get(trial.name, ())]
     other, _ = play(trial, plays, tmp_path)
-    assert differences(trial, plays, plain, other) == {}
+    assert differences(trial, plays, plain(scenes), other) == {}
 
 
 @pytest.mark.parametrize("seed", [2, 3])
@@ -71,7 +90,7 @@ def test_no_single_change_matters(plain, trial, tmp_path):
     plays = [one for one in FEW if one.name not in KNOWN.get(trial.name, ())]
     other, said = play(trial, plays, tmp_path)
     print(said)
-    assert differences(trial, plays, plain, other) == {}
+    assert differences(trial, plays, plain(FEW), other) == {}
 
 
 def test_steps_whose_errors_differ_in_the_last_digits_are_the_same():
