@@ -42,8 +42,8 @@ test: engine  ## install with what the tests need, run the tests (WORKERS=0 in o
 test-all: engine  ## the rest of the tests, those that take long
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
 
-# A worker would wait for the loop that another one compiles; here every core has one of its own to compile. That of
-# rodas is exported by tests as well: it is made of the bitcode they need.
+# A worker would wait for the loop that another one compiles. That of rodas is exported by tests as well: all is made of
+# such bitcode, so that one process types what the loops have in common, once.
 .PHONY: engine
 engine: $(VENV)/test.done
 	$(RUN) -m fairlead.integrate.compile_all rodas

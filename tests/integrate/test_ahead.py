@@ -3,6 +3,7 @@
 import ctypes
 import dataclasses
 import importlib.util
+from types import SimpleNamespace
 
 import llvmlite.binding as llvm
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from fairlead import native, sealed
 from fairlead.errors import UsageError
 from fairlead.integrate import ahead, machine_code
-from fairlead.integrate.bitcode import kept_with_native
+from fairlead.integrate.bitcode import APART, _told, keep, kept_with_native, make_here
 from fairlead.integrate.engine import Engine
 from fairlead.kernels.lowering import lower
 
@@ -127,3 +128,32 @@ def test_a_loop_that_asks_for_its_indices_is_not_made_of_what_was_kept_for_expor
     monkeypatch.setenv("FAIRLEAD_CHECK_INDICES", "1")
     with pytest.raises(ModuleNotFoundError, match="nowhere"):  # numba is asked to compile it
         kept_with_native(LOOP)
+
+
+def test_what_is_made_together_is_a_file_each(tmp_path):
+    made = native.Build({}, {"f": lower(SQUARES, "f", ("int", "I8", "F8", "F8"))})
+    codes = [SimpleNamespace(build=lambda: made, fingerprint=lambda name=name: name) for name in ("one", "two")]
+    make_here([(code, tmp_path / code.fingerprint()) for code in codes])
+    for name in ("one", "two"):
+        assert ahead.read(tmp_path / name) == bitcode(name)
+    with pytest.raises(OSError, match=r"could not be made|No such file"):
+        make_here([(codes[0], tmp_path / "nowhere" / "one")])
+
+
+def test_what_is_missing_is_made_by_one_process_that_is_told_all_of_it(installed, monkeypatch):
+    other = machine_code.Compiled("other.method", ("a", "b"))
+    asked = []
+
+    def make(targets):
+        asked.append([code for code, _ in targets])
+        words = [word for code, path in targets for word in (APART, str(path), code.module, *code.sources)]
+        assert _told(words) == targets
+        for code, path in targets:
+            ahead.write(path, bitcode(code.fingerprint()))
+
+    monkeypatch.setattr(machine_code.Compiled, "fingerprint", lambda self: self.module)
+    monkeypatch.setattr("fairlead.integrate.bitcode._make_together", make)
+    keep([LOOP])
+    keep([LOOP, other])
+    keep([LOOP, other])
+    assert asked == [[LOOP], [other]]

@@ -1,21 +1,26 @@
-"""Bitcode of the loops for any processor of this architecture, made with numba in processes of their own.
+"""Bitcode of the loops for any processor of this architecture, made with numba in a process of its own.
 
     loop_bitcode(engine) -> bytes                   of one engine: from the installed package, the cache, or made now
+    keep(codes)                                     of all these into the cache, made together
     python -m fairlead.integrate.bitcode FOLDER     all of them as files, for a wheel
 
 numba has chosen its processor once it has compiled anything in a process, so this takes another one. It leaves the
 vectors to the processor that the code is made native on.
+
+The loops share most of their functions, and to type those takes most of the time. What is made together is typed in
+one process, once; LLVM then optimises each module in a copy of that process, where processes can be copied (fork).
 """
 
 from __future__ import annotations
 
 import gc
+import multiprocessing
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterable, Sequence
 
 import fairlead.integrate.ahead as ahead
 import fairlead.native as native
@@ -54,13 +59,26 @@ def _kept(code: Compiled, reason: str) -> ahead.Bitcode:
     """Bitcode from the cache, or made now and put there."""
     numba_or_reason(code.module, reason)
     with tempfile.TemporaryDirectory() as scratch:
-        folder = native.cache_folder() or pathlib.Path(scratch)
-        path = folder / f"{native.digest('bitcode', code.fingerprint())}.bitcode"
+        path = _place(code, native.cache_folder() or pathlib.Path(scratch))
         try:
             return ahead.read(path)
         except (OSError, sealed.BrokenSealError):
             _make(code, path)
         return ahead.read(path)
+
+
+def _place(code: Compiled, folder: pathlib.Path) -> pathlib.Path:
+    return folder / f"{native.digest('bitcode', code.fingerprint())}.bitcode"
+
+
+def keep(codes: Iterable[Compiled]) -> None:
+    """Have bitcode of all these in the cache, if it can be used; what is missing is made together."""
+    folder = native.cache_folder()
+    if folder is not None:
+        wanted = [code for code in codes if ahead.find(code.module, code.fingerprint())[0] is None]
+        missing = [(code, path) for code in wanted if not (path := _place(code, folder)).exists()]
+        if missing:
+            _make_together(missing)
 
 
 def kept_with_native(code: Compiled) -> None:
@@ -71,17 +89,43 @@ def kept_with_native(code: Compiled) -> None:
 
 def _make(code: Compiled, path: pathlib.Path) -> None:
     """Have another process compile it. Raises CalledProcessError; what it said is on the standard error."""
-    command = [sys.executable, "-m", "fairlead.integrate.bitcode", str(path), code.module, *code.sources]
-    subprocess.run(command, env=os.environ | SETTINGS, check=True)
+    _make_together([(code, path)])
 
 
-def make_here(code: Compiled, path: pathlib.Path) -> None:
-    """Compile in this process, which was started with SETTINGS, and write the file."""
+APART = "--"
+"""Between what is made together, on the command line of the process that makes it."""
+
+
+def _make_together(targets: Sequence[tuple[Compiled, pathlib.Path]]) -> None:
+    """The same for several, in one process."""
+    told = [word for code, path in targets for word in (APART, str(path), code.module, *code.sources)]
+    subprocess.run([sys.executable, "-m", "fairlead.integrate.bitcode", *told], env=os.environ | SETTINGS, check=True)
+
+
+def make_here(targets: Iterable[tuple[Compiled, pathlib.Path]]) -> None:
+    """Compile in this process, which was started with SETTINGS, and write the files. Raises OSError."""
+    copied = multiprocessing.get_context("fork") if "fork" in multiprocessing.get_all_start_methods() else None
+    begun = []
+    for code, path in targets:
+        made = code.build()  # typed and lowered
+        if copied is None:
+            _optimise(code, made, path)
+        else:
+            begun.append(copied.Process(target=_optimise, args=(code, made, path)))
+            begun[-1].start()
+    for process in begun:
+        process.join()
+    if any(process.exitcode for process in begun):
+        raise OSError("bitcode could not be made; what went wrong is told above")
+
+
+def _optimise(code: Compiled, made: native.Build, path: pathlib.Path) -> None:
+    """Link and optimise the functions that numba lowered, and write the file."""
     import llvmlite.binding as llvm
 
     functions = {
-        name: (made.native_name, llvm.parse_assembly(made.inspect_llvm()).as_bitcode())
-        for name, made in code.build().functions.items()
+        name: (one.native_name, llvm.parse_assembly(one.inspect_llvm()).as_bitcode())
+        for name, one in made.functions.items()
     }
     system, version = ahead.this_system(), llvm.llvm_version_info[0]
     ahead.write(path, ahead.Bitcode(code.fingerprint(), system, version, functions))
@@ -89,15 +133,20 @@ def make_here(code: Compiled, path: pathlib.Path) -> None:
 
 
 def make_all(folder: pathlib.Path) -> None:
-    """Bitcode of everything that fairlead compiles for its own engines, a process each, as many as there are cores."""
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda code: _make(code, folder / f"{code.module}.bitcode"), all_compiled()))
+    """Bitcode of everything that fairlead compiles for its own engines."""
+    _make_together([(code, folder / f"{code.module}.bitcode") for code in all_compiled()])
+
+
+def _told(words: Sequence[str]) -> list[tuple[Compiled, pathlib.Path]]:
+    """What `_make_together` asks for."""
+    starts = [k for k, word in enumerate(words) if word == APART]
+    groups = [words[k + 1 : end] for k, end in zip(starts, [*starts[1:], len(words)], strict=True)]
+    return [(Compiled(module, tuple(sources)), pathlib.Path(path)) for path, module, *sources in groups]
 
 
 if __name__ == "__main__":
     gc.disable()  # what numba makes stays till the end
-    target, *which = sys.argv[1:]
-    if which:
-        make_here(Compiled(which[0], tuple(which[1:])), pathlib.Path(target))
+    if sys.argv[1] == APART:
+        make_here(_told(sys.argv[1:]))
     else:
-        make_all(pathlib.Path(target))
+        make_all(pathlib.Path(sys.argv[1]))
