@@ -37,7 +37,7 @@ LEFT_TO_TEST_ALL = (
     "tests/hard/*[normal_force_to_zero_and_back,_at_once_/_ida_/_*",
     "tests/hard/*[normal_force_to_zero_and_back,_at_once_/_rodas_/_lugre*",
     "tests/hard/*[normal_force_to_zero_and_back,_four_times_/_rodas_/_lugre*",
-    # random scenes: sixty of a hundred are played
+    # random scenes: about forty of a hundred are played
     "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[networks-92]",
     "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[networks-161]",
     "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[networks-184]",
@@ -332,6 +332,11 @@ LEFT_TO_TEST_ALL = (
     "tests/models/test_lightly_pressed.py::test_every_treatment_*[maxwell_slip]",
     "tests/models/test_narrowing_at_random.py::test_what_moves_alone_*[1*]",
     "tests/models/test_hazards.py::test_h1_*",
+    "tests/hard/*_/_ida_/_hold]",
+    "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[*-92]",
+    "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[*-207]",
+    "tests/models/test_with_values.py::*[crustacean*",
+    "tests/fmu/test_export.py::test_what_is_set_acts_*[2]",
     "tests/invariance/test_invariance.py::test_the_order_in_which_a_hundred_parts_*[2]",
     "tests/scenes/test_verdicts.py::test_a_random_scene_is_right[networks-46]",
     "tests/models/test_thrown_from_a_stop.py::test_a_block_stopped_*[elastoplastic-*",
