@@ -33,7 +33,7 @@ def test_each_pattern_fits_a_test_of_the_folders_that_are_collected(request):
 
 def test_brackets_are_letters_and_stars_are_anything():
     assert is_left("tests/hard/test_hard_cases.py::test_hard_case[a_block_/_ida_/_lugre]")
-    assert not is_left("tests/hard/test_hard_cases.py::test_hard_case[a_block_/_ida_/_hold]")
+    assert not is_left("tests/hard/test_hard_cases.py::test_hard_case[a_block_/_stepping_/_hold]")
     assert is_left("tests/integrate/test_linear.py::test_one_plan_serves_every_zone[0-dense]")
 
 
