@@ -105,9 +105,9 @@ def stays_in_place(p):
         )  # fmt: skip
 
 
-def points_make_sense(name, table):
-    """Speeds from zero on, no negative coefficient: what is wrong, as `check` says it."""
+def points_make_sense(name, table, what="coefficient"):
+    """Speeds from zero on, no negative coefficient or force: what is wrong, as `check` says it."""
     if table.rows[0, 1] != 0.0:
         yield name, f"the first speed is {table.rows[0, 1]:g} m/s", "Begin the table at 0 m/s."
     if (table.rows[:, 3] < 0).any():
-        yield name, "a coefficient is negative", "A negative coefficient would drive the slip."
+        yield name, f"a {what} is negative", f"A negative {what} would drive the slip."

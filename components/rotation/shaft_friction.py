@@ -1,6 +1,7 @@
 """Friction of a shaft as its torque over its speed: what a bearing, a seal or a gear motor's data sheet gives."""
 
 from fairlead.components.friction.contact import Contact
+from fairlead.components.mechanics.slide_friction import PRESSED, contradictions, curve_of
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.rotation.rubbing import METHODS, LeverArm
 
@@ -18,7 +19,6 @@ from fairlead.component import (
 )  # fmt: skip
 
 ARM = 1.0  # m; a torque is the force there, and an angular speed the speed: numbers stay as they are
-PRESSED = 1.0  # N; a coefficient times it is the force
 
 
 class Turning(Component):
@@ -53,15 +53,7 @@ class ShaftFriction(Composite):
 
     def check(p):
         """One of the two ways, and a decay from something to something."""
-        if (p.sliding is None) == (p.points is None):
-            yield "", "give either sliding or points", "One torque, or torques over speed."
-        if p.sliding is not None and p.breakaway is not None and p.breakaway < p.sliding:
-            what = f"breakaway {p.breakaway:g} N*m is below sliding = {p.sliding:g} N*m"
-            yield "breakaway", what, "Beginning takes at least as much as turning on."
-        if p.speed is not None and p.breakaway is None:
-            yield "speed", "speed is given without breakaway", "Give the torque from which friction falls."
-        if p.points is not None and (p.breakaway is not None or p.speed is not None):
-            yield "points", "points are given beside breakaway or speed", "The first point is the torque to begin."
+        yield from contradictions(p, "torque", "N*m", "turning on")
 
     def expand(p, scene):
         """A contact at a lever arm of one metre, pressed with one newton."""
@@ -80,13 +72,3 @@ class ShaftFriction(Composite):
         ]  # fmt: skip
         shown = {"torque": "lever.torque", "slip": "turning.speed"}
         return Expansion(children, joins, {"a": "rim_a.pinion", "b": "rim_b.pinion"}, shown)
-
-
-def curve_of(p):
-    """The curve whose coefficient is the torque in N m at the slip in rad/s."""
-    if p.points is not None:
-        return {"curve": "table", "points": p.points}
-    if p.speed is not None:
-        return {"curve": "stribeck", "stiction": p.breakaway, "coulomb": p.sliding, "velocity": p.speed}
-    begin = {} if p.breakaway is None else {"stiction": p.breakaway}
-    return {"curve": "coulomb", "coulomb": p.sliding, **begin}

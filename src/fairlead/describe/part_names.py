@@ -126,6 +126,7 @@ NAMES = {
     "SignalLag": "first-order lag, filter of a sensor",
     "SignalTable": "characteristic, look-up table",
     "SingleActingCylinder": "single-acting cylinder, plunger, jack with a return spring",
+    "SlideFriction": "friction of a slide, guide or seal (force over speed)",
     "SpeedSource": "ideal motor, diesel at constant speed",
     "Spring": "spring",
     "SpringDamper": "spring and damper, rubber mount, elastic coupling",
@@ -155,8 +156,6 @@ NAMES = {
 COMBINED = {
     "cylinder whose seals stick": "a `Cylinder`, and a `Contact` with `normal_force: 1 N` and the forces as its curve "
     "(`{curve: stribeck, stiction: 900, coulomb: 600, velocity: 10 mm/s}`) between its `body` and its `rod`",
-    "friction given as a force over speed": "a `Contact` with `normal_force: 1 N`; its coefficients are then forces, "
-    "in N",
     "hydrostatic transmission": "`VariablePump`, `HydraulicMotor`, a `Volume` on either side, a `CheckValve` each for "
     "the charge and a `ReliefValve` each",
     "feed axis": "`LeadScrew`, a `Mass` at its nut, a `SpringDamper` to the table, a `Contact` for its guide",
