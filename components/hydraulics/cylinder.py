@@ -5,6 +5,7 @@ from fairlead.components.hydraulics.chamber import Chamber
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.leak import Leak
 from fairlead.components.hydraulics.return_spring import ReturnSpring
+from fairlead.components.mechanics.damper import Damper
 from fairlead.components.mechanics.end_stop import EndStop
 
 from fairlead.component import (
@@ -33,6 +34,9 @@ CYLINDER = {
     "port_diameter": Parameter("m", "Diameter of the bores that fill the chambers.", default=0.02, above=0),
     "internal_leakage": Parameter("m^3/s/Pa", "Leakage across the piston.", default=0.0, least=0),
     "seal_force": Parameter("N", "Sliding friction of the seals.", default=0.0, least=0),
+    "seal_breakaway": Parameter("N", "Force to begin; that of sliding when not given.", default=None, least=0),
+    "seal_speed": Parameter("m/s", "Speed over which breakaway falls to sliding.", default=None, above=0),
+    "seal_viscous": Parameter("N*s/m", "Seal friction that grows with speed.", default=None, least=0),
     "stop_stiffness": Parameter("N/m", "Stiffness of the end stops.", default=1e8, above=0),
     "stop_damping": Parameter("s/m", "Share of their force that is added per speed.", default=5.0, least=0),
 }
@@ -44,6 +48,13 @@ class Cylinder(Composite):
     m dv/dt = A_a p_a - A_b p_b - (A_a - A_b) air - seal friction - load. Pressures are absolute, so the air presses
     on the rod; `air` of 0 leaves it out. The mass is that of the bodies at `rod` and `body`.
     Small oscillations with the valve closed have  w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m.
+
+    seal friction = seal_force + (seal_breakaway - seal_force) exp(-(v/seal_speed)^2) + seal_viscous v    for v > 0
+
+    and the same backward; without `seal_speed` it falls at once. At rest seals hold up to seal_breakaway, as the
+    friction treatment of the scene does; with `seal_friction` off the rod slides freely.
+    Source: Jelali, Kroll, Hydraulic Servo-systems, 2003 (Stribeck curve of a cylinder).
+    Limits: seal friction does not depend on pressure; put a Contact beside the cylinder for that.
     """
 
     a, b = Hydraulic("cap side"), Hydraulic("rod side")
@@ -52,7 +63,8 @@ class Cylinder(Composite):
     stroke, air = CYLINDER["stroke"], CYLINDER["air"]
     cap_dead_volume, rod_dead_volume = CYLINDER["cap_dead_volume"], CYLINDER["rod_dead_volume"]
     port_diameter, internal_leakage = CYLINDER["port_diameter"], CYLINDER["internal_leakage"]
-    seal_force = CYLINDER["seal_force"]
+    seal_force, seal_breakaway = CYLINDER["seal_force"], CYLINDER["seal_breakaway"]
+    seal_speed, seal_viscous = CYLINDER["seal_speed"], CYLINDER["seal_viscous"]
     stop_stiffness, stop_damping = CYLINDER["stop_stiffness"], CYLINDER["stop_damping"]
     pressure_a = Parameter("Pa", "Pressure at the cap side at the start; 1 bar when not given.", default=None, least=0,
                            physics=False)  # fmt: skip
@@ -65,6 +77,7 @@ class Cylinder(Composite):
     level_a = Output("Pa", "Pressure at the cap side.", name="pressure_a")
     level_b = Output("Pa", "Pressure at the rod side.", name="pressure_b")
     travel = Output("m", "rod.x - body.x, 0 when retracted.")
+    friction = Output("N", "Dry friction of the seals, positive when it holds back a rod that goes out.")
 
     @derived
     def cap_area(p):
@@ -77,7 +90,8 @@ class Cylinder(Composite):
         return pi * (p.bore_diameter**2 - p.rod_diameter**2) / 4
 
     def check(p):
-        """The rod is thinner than the piston."""
+        """The rod is thinner than the piston, and seals do not begin below sliding."""
+        yield from seals_make_sense(p)
         if p.rod_diameter >= p.bore_diameter:
             what = f"rod_diameter {p.rod_diameter:g} m is not below bore_diameter {p.bore_diameter:g} m"
             yield "rod_diameter", what, "Lower it."
@@ -100,7 +114,33 @@ class Cylinder(Composite):
             joins += [("cap.port", "leak.a"), ("rod_side.port", "leak.b")]
         ports = {"a": "cap.port", "b": "rod_side.port", "body": "cap.body", "rod": "cap.rod"}
         shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel"}
+        if p.seal_friction == "on":
+            shown["friction"] = "seal.friction"
         return Expansion(children, joins, ports, shown)
+
+
+def seals_make_sense(size, at=""):
+    """What is wrong with the seals, as `check` says it; `at` leads to the parameters `size` of CYLINDER."""
+    begin, slide = size.seal_breakaway, size.seal_force
+    if begin is not None and slide == 0:
+        what = "seal_breakaway is given without seal_force"
+        yield f"{at}seal_breakaway", what, "Give the force of sliding seals as well."
+    elif begin is not None and begin < slide:
+        what = f"seal_breakaway {begin:g} N is below seal_force = {slide:g} N"
+        yield f"{at}seal_breakaway", what, "Beginning takes at least as much as sliding on."
+    if size.seal_speed is not None and begin is None:
+        what = "seal_speed is given without seal_breakaway"
+        yield f"{at}seal_speed", what, "Give the force from which friction falls."
+
+
+def seal_curve(size):
+    """The curve of the seals, over the force while they slide."""
+    if size.seal_breakaway is None:
+        return 1.0
+    ratio = size.seal_breakaway / size.seal_force
+    if size.seal_speed is None:
+        return {"curve": "coulomb", "coulomb": 1.0, "stiction": ratio}
+    return {"curve": "stribeck", "coulomb": 1.0, "stiction": ratio, "velocity": size.seal_speed}
 
 
 def air_on_rod(size, scene, children, bodies, rods):
@@ -134,10 +174,14 @@ def mechanics(size, seals, scene, children, joins, bodies, rods, loose=""):
     bodies.append("stops.a")
     rods.append("stops.b")
     if seals == "on":
-        children["seal"] = scene.make(Contact, curve=1.0, normal_force=size.seal_force)
+        children["seal"] = scene.make(Contact, curve=seal_curve(size), normal_force=size.seal_force)
         if loose:
             children["seals"] = scene.make(SealForce, force=size.seal_force)
             joins += [(loose, "seals.loose"), ("seals.normal", "seal.normal")]
         bodies.append("seal.a")
         rods.append("seal.b")
+    if seals == "on" and size.seal_viscous is not None:
+        children["film"] = scene.make(Damper, damping=size.seal_viscous)
+        bodies.append("film.a")
+        rods.append("film.b")
     joins += [tuple(bodies), tuple(rods)]

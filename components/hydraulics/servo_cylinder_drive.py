@@ -1,7 +1,7 @@
 """A linear electrohydraulic drive: servo valve and cylinder."""
 
 from fairlead.components.hydraulics.chamber import RigidChamber
-from fairlead.components.hydraulics.cylinder import CYLINDER, Cylinder, air_on_rod, mechanics
+from fairlead.components.hydraulics.cylinder import CYLINDER, Cylinder, air_on_rod, mechanics, seals_make_sense
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.leak import Leak
 from fairlead.components.hydraulics.servo_motor_drive import undetermined
@@ -69,6 +69,7 @@ class ServoCylinderDrive(Composite):
         """The rod is thinner than the piston; algebraic pressures are determined."""
         if p.rod_area <= 0:
             yield "cylinder.rod_diameter", "the rod is as thick as the piston", "Lower rod_diameter."
+        yield from seals_make_sense(p.cylinder, "cylinder.")
         if p.compressibility == "off" and p.leakage == "on":
             yield from undetermined(p.valve.leakage_conductance)
 

@@ -1,7 +1,7 @@
 """A hydraulic cylinder with oil on one side."""
 
 from fairlead.components.hydraulics.chamber import Chamber
-from fairlead.components.hydraulics.cylinder import CYLINDER, mechanics
+from fairlead.components.hydraulics.cylinder import CYLINDER, mechanics, seals_make_sense
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.return_spring import ReturnSpring
 
@@ -22,7 +22,7 @@ class SingleActingCylinder(Composite):
     """Pressure at a pushes the rod out; a spring, the air and the load bring it back. The travel ends at stops.
 
     m dv/dt = A (p_a - air) - preload - stiffness travel - seal friction - load. A plunger is one whose seal is at the
-    rod: its diameter is the `bore_diameter`.
+    rod: its diameter is the `bore_diameter`. Seal friction is that of a Cylinder.
     """
 
     a = Hydraulic("the bore")
@@ -33,6 +33,8 @@ class SingleActingCylinder(Composite):
     stiffness = Parameter("N/m", "Stiffness of the spring.", default=0.0, least=0)
     air = Parameter("Pa", "Pressure of the air on the other side.", default=1e5, least=0)
     port_diameter, seal_force = CYLINDER["port_diameter"], CYLINDER["seal_force"]
+    seal_breakaway = CYLINDER["seal_breakaway"]
+    seal_speed, seal_viscous = CYLINDER["seal_speed"], CYLINDER["seal_viscous"]
     stop_stiffness, stop_damping = CYLINDER["stop_stiffness"], CYLINDER["stop_damping"]
     pressure = Parameter("Pa", "Pressure at the start; 1 bar when not given.", default=None, least=0, physics=False)
     fluid = Part(Fluid, "What fills it.", default="oil")
@@ -40,6 +42,11 @@ class SingleActingCylinder(Composite):
     seal_friction = Effect("The seals stick and slide.")
     level = Output("Pa", "Pressure of the oil.", name="pressure")
     travel = Output("m", "rod.x - body.x, 0 when it is in.")
+    friction = Output("N", "Dry friction of the seals, positive when it holds back a rod that goes out.")
+
+    def check(p):
+        """Seals do not begin below sliding."""
+        yield from seals_make_sense(p)
 
     def expand(p, scene):
         """A chamber, a spring and a pair of stops; seals where wanted."""
@@ -53,4 +60,6 @@ class SingleActingCylinder(Composite):
         bodies, rods = ["chamber.body", "back.body"], ["chamber.rod", "back.rod"]
         mechanics(p, p.seal_friction, scene, children, joins, bodies, rods)
         shown = {"pressure": "chamber.pressure", "travel": "stops.travel"}
+        if p.seal_friction == "on":
+            shown["friction"] = "seal.friction"
         return Expansion(children, joins, {"a": "chamber.port", "body": "chamber.body", "rod": "chamber.rod"}, shown)

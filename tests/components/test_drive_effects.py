@@ -112,6 +112,20 @@ def test_a_cylinder_drive_with_an_effect_off_is_the_limit_of_on(simulate, effect
     assert difference(off, on, "mass.v") < tolerance
 
 
+STICKY = {"seal_breakaway": "800 N", "seal_speed": "20 mm/s", "seal_viscous": "30 kN*s/m"}
+
+
+def test_sticking_seals_beside_oil_that_is_not_compressed_are_those_of_the_limit(simulate):
+    """As in CYLINDER_LIMITS, "compressibility, tight"; and the seals matter: at 0.1 m/s they take 3 kN beside 8."""
+    besides, limit, tolerance = CYLINDER_LIMITS["compressibility, tight"]
+    sticky = {f"drive.cylinder.{name}": value for name, value in STICKY.items()}
+    on = simulate(CYLINDER, **besides, **sticky, **limit)
+    off = simulate(CYLINDER, **besides, **sticky, **{"drive.effects.compressibility": "off"})
+    assert difference(off, on, "mass.v") < tolerance
+    usual = simulate(CYLINDER, **besides, **{"drive.effects.compressibility": "off"})
+    assert difference(off, usual, "mass.v") > 10 * tolerance
+
+
 UNKNOWNS = {
     "valve_dynamics": {"drive.spool.position", "drive.spool.speed"},
     "compressibility": {f"drive.volume_{side}.{name}" for side in "ab" for name in ("pressure", "empty")},

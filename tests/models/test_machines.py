@@ -117,10 +117,10 @@ def test_a_servo_cylinder_hunts_as_its_equations_integrated_by_scipy_do(engine, 
     if engine == "ida":
         pytest.importorskip("sksundae")
     control = {"control.gain": str(gain), "control.integral_time": f"{integral_time} s"}
-    settings = {"run.engine": engine, "run.stop": "4 s", "seals.curve.coulomb": str(share)}
+    settings = {"run.engine": engine, "run.stop": "4 s", "cylinder.seal_force": f"{share * 1500} N"}
     result = run("servo_cylinder", **settings, **control)
     t, x, switches = servo_cylinder(4, gain, integral_time, share)
-    assert sum(event.component == "seals" for event in result.events) == switches >= 60
+    assert sum(event.component == "cylinder.seal" for event in result.events) == switches >= 60
     assert np.abs(np.interp(result.t, t, x) - result["load.x"]).max() < 1e-6
     late = result["load.x"][result.t > 2] - 0.15
     assert late.min() < -3e-5

@@ -43,7 +43,7 @@ NAMES = {
     "Contact": "dry friction, guide, pad, block on a belt, stick-slip",
     "CounterbalanceValve": "counterbalance valve, overcentre valve, load-holding valve",
     "Crank": "crank, crank-slider, connecting rod, eccentric press",
-    "Cylinder": "hydraulic cylinder, double-acting or differential cylinder, ram",
+    "Cylinder": "hydraulic cylinder (double-acting, differential), ram, seals that stick",
     "Damper": "dashpot, viscous damper, shock absorber",
     "DcDrive": "servo drive of a DC motor",
     "DcMotor": "DC motor, brushed motor",
@@ -154,8 +154,6 @@ NAMES = {
 }
 """Type -> what it is called, the usual word first; a type without a line goes by its own words."""
 COMBINED = {
-    "cylinder whose seals stick": "a `Cylinder`, and a `Contact` with `normal_force: 1 N` and the forces as its curve "
-    "(`{curve: stribeck, stiction: 900, coulomb: 600, velocity: 10 mm/s}`) between its `body` and its `rod`",
     "hydrostatic transmission": "`VariablePump`, `HydraulicMotor`, a `Volume` on either side, a `CheckValve` each for "
     "the charge and a `ReliefValve` each",
     "feed axis": "`LeadScrew`, a `Mass` at its nut, a `SpringDamper` to the table, a `Contact` for its guide",
