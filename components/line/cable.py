@@ -9,6 +9,7 @@ from fairlead.components.line.hose_element import Hose
 from fairlead.components.line.laid_line import LaidLine
 from fairlead.components.line.mesh import cut, too_fine
 from fairlead.components.line.meter import Meter
+from fairlead.components.line.rigid_core import RigidCore
 from fairlead.components.line.rucking_hose import RuckingHose, WatchedHose
 from fairlead.components.line.torsion import TORSION, twisting
 from fairlead.components.mechanics.mass import Mass
@@ -36,6 +37,9 @@ class Cable(Composite):
 
     `compression: none` is a rope, which cannot push; `carried` a stiff cable or a crustacean array, whose strength is
     in the hose and which has no bulkheads; it may be watched for rucking. Bending stiffness is left out.
+
+    line_stretch    off: the line is one body with one position and one speed, the limit of a stiff line. Its tensions
+                    are what the balance of each node leaves; they may push, and no element is watched for rucking
     """
 
     inboard = Translational("inboard end")
@@ -64,6 +68,7 @@ class Cable(Composite):
                            default=None, above=0)  # fmt: skip
     ruck_stiffness = Parameter("1", "Stiffness while it rucks, over that before.", default=1.0, above=0, most=1)
     torsion = Block(TORSION, "Torsion of the line; none when not given.", default=None)
+    line_stretch = Effect("The line stretches; off: it is one body, with one position and speed.")
     device_friction = Effect("Friction of the line on all devices; off: none.")
     centrifugal = Effect("A line that runs round a bend presses less by its mass times speed squared.", default="off")
     line_damping = Effect("Damping of the elements; off: none.")
@@ -106,6 +111,8 @@ class Cable(Composite):
 
 def _element(p, scene, each):
     """An element whose length under the starting tension is `each`."""
+    if p.line_stretch == "off":
+        return scene.make(RigidCore, length=each)
     damping = 2 * p.damping_ratio * math.sqrt(p.stiffness / each * p.mass * each)
     given = {"axial_stiffness": p.stiffness, "length": each / (1 + p.tension / p.stiffness), "damping": damping,
              "line_damping": p.line_damping}  # fmt: skip

@@ -34,8 +34,9 @@ def fits(assembly: Any, line: Any, laid: Any, route: Any) -> list[Fault]:
         found.append(Fault(_where(assembly, route, loops[1]), what, "Leave out the others."))
     if loops and line.rigid:
         place = f"{route.path}.{loops[0].name}"
-        what = f"{laid.path}.core_stretch is off, and a core that does not stretch cannot run through {place}."
-        found.append(Fault(laid.where, what, "Switch core_stretch on, or leave out the tensioner."))
+        rigid = f"a {'core' if line.stretch == 'core_stretch' else 'line'} that does not stretch"
+        what = f"{laid.path}.{line.stretch} is off, and {rigid} cannot run through {place}."
+        found.append(Fault(laid.where, what, f"Switch {line.stretch} on, or leave out the tensioner."))
     for name, which in (("ruck_force", "is watched for rucking"), ("hose_relaxation", "relaxes")):
         if loops and getattr(line.values, name, None) is not None:
             place = f"{route.path}.{loops[0].name}"

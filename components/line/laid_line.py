@@ -70,8 +70,13 @@ class LaidLine(OfLine):
 
     @property
     def rigid(self) -> bool:
-        """True when its core does not stretch: all that moves with the core is one body then."""
-        return getattr(self.values, "core_stretch", "on") == "off"
+        """True when it, or its core, does not stretch: all that moves with the core is one body then."""
+        return getattr(self.values, self.stretch, "on") == "off"
+
+    @property
+    def stretch(self) -> str:
+        """The effect that says whether it stretches."""
+        return "core_stretch" if "core" in self.layers else "line_stretch"
 
     @property
     def rubs(self) -> bool:
@@ -147,17 +152,21 @@ class LaidLine(OfLine):
         return parts if agree(self.values, now.values, parts) else None
 
     def untold(self, to: Laying, line: Any) -> list[Fault]:
-        """A core that does not stretch has its motion given, and connectors between its ends, on which friction acts.
+        """What does not stretch has its motion given, and friction acts on it between its ends.
 
-        What holds a body whose motion is given has no force that is determined.
+        What holds a body whose motion is given has no force that is determined. Where hose and core may part, friction
+        acts on that body at connectors alone.
         """
-        inner = sorted(self.mesh.connectors - {0, self.mesh.elements})
+        inner = [i for i in range(1, self.mesh.elements) if self.is_one_body(i)]
         given = [i for i in inner if PortRef(f"{line.path}.{self.outer}[{i}]", "flange") in to.prescribed]
         if not (self.rigid and given):
             return []
-        what = f"{line.path}.core_stretch is off, its motion is given, and its modules have connectors in between"
-        what += ", which no friction could hold back."
-        return [Fault(line.where, what, "Drive it over a Spring, take one module, or leave core_stretch on.")]
+        what = f"{line.path}.{self.stretch} is off and its motion is given"
+        if self.slips:
+            what += ", and its modules have connectors in between, which no friction could hold back."
+            return [Fault(line.where, what, "Drive it over a Spring, take one module, or leave core_stretch on.")]
+        what += ": it is one body, which no friction could hold back, nor change what its ends pull."
+        return [Fault(line.where, what, f"Drive it over a SpringDamper, or leave {self.stretch} on.")]
 
     def lay(self, assembly: Any, line: Any, route: Any) -> list[Fault]:
         """Add to the assembly all that acts on the nodes on this route; returns what does not fit."""

@@ -26,6 +26,7 @@ ON_A_ROUTE = {
     ("ArrayModule", "centrifugal"): ("single_bend", {"line.length": "4 m"}),
     ("ArrayModule", "meters"): ("single_bend", {"line.length": "4 m"}),
     ("Cable", "line_damping"): ("friction_anchor", {"element": "4 m"}),
+    ("Cable", "line_stretch"): ("friction_anchor", {"element": "4 m"}),
     ("Cable", "device_friction"): ("friction_anchor", {"element": "4 m"}),
     ("Cable", "gravity"): ("friction_anchor", {"element": "4 m"}),
     ("Cable", "centrifugal"): ("capstan", {"element": "0.5 m", "rope.length": "6 m"}),

@@ -161,6 +161,77 @@ def test_what_no_core_without_stretch_can_do_is_refused_by_name(scene, text, sai
         scene(text).system  # noqa: B018 - compiled here
 
 
+ROPE = """
+    components:
+      rope: {type: Cable, length: 8 m, element: 0.25 m, start: 1.5 m, tension: 800 N, mass: 2 kg/m, stiffness: 5 MN,
+             damping_ratio: 0.5, compression: PUSHES}
+      route: {type: Route, stations: [{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.3}]}
+      haul: {type: MotionSource, velocity: {ramp: {to: -0.05 m/s, over: 2 s}}}
+      sling: {type: SpringDamper, stiffness: 200 kN/m, damping: 2 kN*s/m, free_length: 1496 mm}  # 800 N
+      tow: {type: ForceSource, force: 800 N}
+    connections: [[haul.flange, sling.a], [sling.b, rope.inboard], [tow.flange, rope.outboard], [rope.path, route.path]]
+    run: {stop: 4 s, accuracy: 1e-6}
+    record: {every: 20 ms, signals: [haul.force, "rope.line[*].tension", "rope.node[*].x", "rope.node[*].v"]}
+"""
+UNSTRETCHED = {"effects.line_stretch": "off"}
+
+
+def rope(pushes="none"):
+    return ROPE.replace("PUSHES", pushes)
+
+
+@pytest.mark.parametrize("engine", ["rodas", "ida", "stepping"])
+@pytest.mark.parametrize("pushes", ["none", "carried"])
+def test_a_rope_that_does_not_stretch_pulls_by_the_capstan_law_and_keeps_its_length(simulate, pushes, engine):
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    result = simulate(rope(pushes), **UNSTRETCHED, **{"run.engine": engine})
+    inboard, outboard = mean(result, "rope.line[0].tension"), mean(result, f"rope.line[{ELEMENTS - 1}].tension")
+    assert outboard == pytest.approx(TOWED, rel=1e-6)
+    of_mesh, ripple = 6 * (0.3 * ANGLE / 6) ** 3 / 12, 2e-3  # as of the core above
+    assert inboard / TOWED == pytest.approx(math.exp(0.3 * ANGLE), rel=of_mesh + ripple)
+    assert np.ptp(result[f"rope.node[{ELEMENTS}].x"] - result["rope.node[0].x"]) < 1e-12
+    assert result.run["energy"]["closure"] < 1e-5
+
+
+def test_a_stiff_rope_goes_to_one_that_does_not_stretch_as_one_over_its_stiffness(simulate):
+    """By how much the rope is longer than at its start, in steady motion; and what the haul takes is the same."""
+    limit, longer = mean(simulate(rope(), **UNSTRETCHED, **{"run.engine": "stepping"}), "haul.force"), []
+    for times in (1, 10, 100):
+        near = simulate(rope(), **{"rope.stiffness": f"{5 * times} MN"})
+        longer.append(mean(near, f"rope.node[{ELEMENTS}].x") - mean(near, "rope.node[0].x") - 8.0)
+        assert mean(near, "haul.force") == pytest.approx(limit, rel=2e-3)  # ripple, as above
+    assert longer[0] / longer[1] == pytest.approx(10, rel=0.02)
+    assert longer[1] / longer[2] == pytest.approx(10, rel=0.02)
+
+
+def test_a_rope_that_does_not_stretch_has_one_motion(scene):
+    on, off = scene(rope()).system, scene(rope(), **UNSTRETCHED).system
+    kinds = ("rate", "position")
+    moving = [one.name for one in off.numbering.unknowns if "rope.node" in one.name and one.kind in kinds]
+    assert len(moving) <= 2
+    assert on.n - off.n >= ELEMENTS - 2  # of 2 * 33 places and speeds one each is left, 32 tensions and a rate come
+
+
+@pytest.mark.parametrize(
+    ("text", "effects"),
+    [(bend(), {"effects.core_stretch": "off", "effects.hose_core_slip": "off"}),
+     (rope().replace("[haul.flange, sling.a], [sling.b, rope.inboard]", "[haul.flange, rope.inboard]")
+      .replace("sling:", "# sling:"), UNSTRETCHED)],
+)  # fmt: skip
+def test_a_line_of_one_body_whose_motion_is_given_is_refused(scene, text, effects):
+    """Its friction was left out, and the haul pulled with what tows."""
+    said = r"_stretch is off and its motion is given: it is one body, which no friction could hold back"
+    with pytest.raises(ModelError, match=said):
+        scene(text, **effects).system  # noqa: B018 - compiled here
+
+
+def test_a_rope_that_does_not_stretch_does_not_run_through_a_tensioner(scene):
+    text = rope().replace("friction: 0.3}", "friction: 0.3}, {type: Tensioner, start: 6 m, force: 100 N}")
+    with pytest.raises(ModelError, match=r"line_stretch is off, and a line that does not stretch cannot run through"):
+        scene(text, **UNSTRETCHED).system  # noqa: B018 - compiled here
+
+
 def test_a_core_that_pushes_is_told(simulate):
     """Hauled from both ends, the one behind faster: between them it is pressed together by what rubs on it."""
     text = """

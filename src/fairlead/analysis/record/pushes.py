@@ -37,5 +37,5 @@ def remark(found: Mapping[str, Any] | None) -> str:
     others = f", and {found['count'] - 1} more" if found["count"] > 1 else ""
     what = f"{found['component']} pushes with {found['most']:.4g} {found['unit']} at t = {found['t']:.6g} s{others}"
     why = "a core pushes only where it cannot stretch, and a rope never does"
-    way_out = "Leave it its stretch (effects.core_stretch: on); for microseconds take run.engine: stepping."
+    way_out = "Leave it its stretch (core_stretch or line_stretch: on); for microseconds take run.engine: stepping."
     return f"{what}: {why}. {way_out}"
