@@ -25,12 +25,47 @@ def mean(result, y, begin, end):
     return np.trapezoid(np.asarray(y)[there], t[there]) / (t[there][-1] - t[there][0])
 
 
-@pytest.mark.parametrize("name", ["single_bend_sized", "guidance_route_sized"])
+NAMES = ["single_bend_sized", "guidance_route_sized", "long_route_sized", "long_deployment_sized"]
+
+
+def between(result, begin, end):
+    """Tension of the whole line between two places of the route, over time; nan where no node is there."""
+    tension = np.full(len(result.t), np.nan)
+    nodes = sorted(result.match("line.hose_node[*].x"), key=lambda name: int(name.split("[")[1].split("]")[0]))
+    for k, name in enumerate(nodes[:-1]):
+        here = (np.asarray(result[name]) > begin) & (np.asarray(result[name]) <= end)
+        if here.any():
+            both = np.asarray(result[f"line.core[{k}].tension"]) + np.asarray(result[f"line.hose[{k}].tension"])
+            tension[here] = both[here]
+    return tension
+
+
+def mean_where_seen(result, y, begin, end):
+    """Mean over time between two times, of what is known."""
+    t = np.asarray(result.t)
+    seen = (t >= begin) & (t <= end) & np.isfinite(y)
+    return np.trapezoid(y[seen], t[seen]) / (t[seen][-1] - t[seen][0])
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_the_core_is_two_ropes_of_aramid(name):
     line = fairlead.load(SIZED / f"{name}.yaml").netlist.components["line"].parameters
     given = float(line["core"].plain()["stiffness"].removesuffix(" MN")) * 1e6
     softest, stiffest = (ROPES * BREAKS / strain for strain in reversed(AT))
     assert 0.9 * softest < given < stiffest
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_modules_and_drums_have_sizes_of_their_sources(name):
+    """30 to 75 m a module, drums of 10 to 20 diameters: docs/physics.md, 7d."""
+    components = fairlead.load(SIZED / f"{name}.yaml").netlist.components
+    line = components["line"].parameters
+    long = float(line["length"].plain().removesuffix(" m")) / float(line["modules"].plain() if "modules" in line else 1)
+    assert 30 <= long <= 75
+    diameter = float(line["diameter"].plain().removesuffix(" mm")) * 1e-3
+    for one in components["route"].parameters["stations"].plain():
+        if one["type"] == "Winch":
+            assert 10 <= 2 * float(one["radius"].removesuffix(" m")) / diameter <= 20
 
 
 @pytest.mark.parametrize(
@@ -51,16 +86,34 @@ def test_the_haul_takes_what_the_capstan_does(mu, within, settings):
 def test_tensions_of_the_route_are_those_of_its_capstans(core):
     """Between bend A and the deployer 200 N times exp(+-mu 90 deg), also of a core that does not stretch."""
     result = run("guidance_route_sized", **{"effects.core_stretch": core})
-    t = np.asarray(result.t)
-    tension = np.full(len(t), np.nan)
-    nodes = sorted(result.match("line.hose_node[*].x"), key=lambda name: int(name.split("[")[1].split("]")[0]))
-    for k, name in enumerate(nodes[:-1]):
-        here = (np.asarray(result[name]) > 4.0) & (np.asarray(result[name]) <= 4.5)
-        if here.any():
-            both = np.asarray(result[f"line.core[{k}].tension"]) + np.asarray(result[f"line.hose[{k}].tension"])
-            tension[here] = both[here]
+    tension = between(result, 4.0, 4.5)
     for way, begin, end in ((1, 10, 24), (-1, 35, 47)):
-        seen = (t >= begin) & (t <= end) & np.isfinite(tension)
         wanted = 200 * math.exp(way * 0.35 * math.pi / 2)
-        assert np.trapezoid(tension[seen], t[seen]) / (t[seen][-1] - t[seen][0]) == pytest.approx(wanted, rel=0.01)
+        assert mean_where_seen(result, tension, begin, end) == pytest.approx(wanted, rel=0.01)
         assert mean(result, result["route.tensiometer.tension"], begin, end) == pytest.approx(200, rel=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("core", ["on", "off"])
+def test_before_the_deployer_of_the_long_route_only_the_sum_of_angles_counts(core):
+    """200 N times exp(+-mu 135 deg) after bends of 45 and 90 deg; a connector passes both."""
+    result = run("long_route_sized", **{"effects.core_stretch": core})
+    tension = between(result, 5.85, 6.2)
+    for way, begin, end in ((1, 10, 24), (-1, 35, 47)):
+        wanted = 200 * math.exp(way * 0.3 * math.radians(135))
+        assert mean_where_seen(result, tension, begin, end) == pytest.approx(wanted, rel=0.01)
+        assert mean(result, result["route.tensiometer.tension"], begin, end) == pytest.approx(200, rel=0.01)
+    connector = np.asarray(result["line.hose_node[78].x"])  # of 30 m that are coarse, then fine
+    assert result.run["energy"]["closure"] < 1e-4
+    assert connector.min() < 2.0 < 5.57 < connector.max()  # from before bend A to behind bend B
+
+
+@pytest.mark.slow
+def test_the_long_deployment_draws_its_line_round_bend_a_by_the_capstan_law():
+    """600 N exp(mu 90 deg) before the deployer, while 1 m/s are paid out."""
+    result = run("long_deployment_sized", **{"run.stop": "30 s"})
+    tension = between(result, 5.2, 5.8)
+    assert mean_where_seen(result, tension, 15, 29) == pytest.approx(600 * math.exp(0.3 * math.pi / 2), rel=0.01)
+    end, belts = result["line.hose_node[600].x"], result["belts.x"]
+    assert end[-1] - end[0] == pytest.approx(belts[-1] - belts[0], abs=0.05)
+    assert result.run["energy"]["closure"] < 1e-4
