@@ -1,6 +1,6 @@
 """Signals that end at limits, and that are not heard within a band."""
 
-from fairlead.component import Component, Input, Law, Output, Parameter, Zones, guard, zone
+from fairlead.component import Component, Input, Law, Output, Parameter, Zones, derived, guard, zone
 
 
 class Limiter(Component):
@@ -73,3 +73,48 @@ class DeadZone(Component):
     def comes_back(p, value, direction):
         """Within the band."""
         return p.band - direction * value
+
+
+class DeadBand(Component):
+    """signal = value once |value| has risen above `band`, and 0 once it has fallen below `inner` again.
+
+    Unlike in a DeadZone the whole value is heard, so the signal jumps where it is heard or lost; between `inner` and
+    `band` it stays what it was. Before an error of a control it lets the control rest while the error is small.
+    """
+
+    asked_with = {"inner": 0.2, "band": 0.5}
+    value = Input("1", "What comes in.", signed=True)
+    band = Parameter("1", "Size of the value from which on it is heard, in SI of what comes in.", above=0)
+    inner = Parameter("1", "Size below which it is lost again; half the band when not given.", default=None, above=0)
+    signal = Output("1", "What is heard.")
+    zones = Zones("silent", "above", "below", forward=["above"], backward=["below"])
+
+    def check(p):
+        """It is lost below where it is heard."""
+        if p.inner is not None and p.inner >= p.band:
+            yield "inner", f"inner {p.inner:g} is not below band = {p.band:g}", "Lower it."
+
+    @derived
+    def lost(p):
+        """Size below which the value is lost."""
+        return p.band / 2 if p.inner is None else p.inner
+
+    @zone("silent")
+    def unheard(p, value):
+        """Nothing."""
+        return Law(signal=0)
+
+    @zone("above", "below")
+    def heard(p, value):
+        """All of it."""
+        return Law(signal=value)
+
+    @guard("silent", to="above", unit="1", mirrored="leaves_below")
+    def leaves_above(p, value, direction):
+        """Beyond the band."""
+        return direction * value - p.band
+
+    @guard("above", to="silent", unit="1", mirrored="comes_back_from_below")
+    def comes_back(p, value, direction):
+        """Well within the band."""
+        return p.lost - direction * value

@@ -21,14 +21,15 @@ from fairlead.describe.specimen import families_of
 
 BUNDLED = "fairlead.components."
 INNARDS = frozenset((
-    "ActiveForce", "BearingLoad", "BeltSpans", "CavitatingVolume", "ChainStrands", "Chamber", "Clamp", "ClampLoad",
-    "Core", "CurrentLimit", "Dancer", "Drum", "ElementaryFunction", "FarNode", "Flank", "FlankLoad", "Growing",
-    "Hose", "Jaws", "LaidOn", "LateralLoad", "LeverArm", "LineWeight", "LoadLoss", "LoopedCore", "LoopedHose",
-    "Meter", "MotorFriction", "OilColumn", "PilotedRelief", "PlanarContact", "PressedLoad", "Pressing",
-    "Registration", "RelaxingHose", "ReturnSpring", "RigidCore", "RoundLoad", "RuckingHose", "SeaDrag", "SealForce",
-    "SpaceState", "Spiral", "SteadyRoll", "StoredNode", "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told",
-    "ToothLoad", "ToothLoss", "Tow", "TransferStage", "TransferThrough", "Turning", "TwistElement", "Untouched",
-    "WatchedHose", "WoundNode", "WoundWeb", "WrapGrip",
+    "ActiveForce", "BearingLoad", "BeltSpans", "CavitatingVolume", "ChainStrands", "Chamber", "Clamp",
+    "ClampLoad", "Core", "CurrentLimit", "Dancer", "Drum", "ElementaryFunction", "ErrorSeen", "FarNode",
+    "Flank", "FlankLoad", "Growing", "Hose", "Jaws", "LaidOn", "LateralLoad", "LeverArm", "LineWeight",
+    "LoadLoss", "LoopedCore", "LoopedHose", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
+    "PlanarContact", "PressedLoad", "Pressing", "Registration", "RelaxingHose", "ReturnSpring", "RigidCore",
+    "RoundLoad", "RuckingHose", "SeaDrag", "SealForce", "SpaceState", "Spiral", "SteadyRoll", "StoredNode",
+    "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "ToothLoad", "ToothLoss", "Tow", "TransferStage",
+    "TransferThrough", "Turning", "TwistElement", "Untouched", "WatchedHose", "WoundNode", "WoundWeb",
+    "WrapGrip",
 ))  # fmt: skip
 """Bundled types that other types are made of, and that a netlist hardly names; limits of effects are so anyway."""
 

@@ -47,6 +47,8 @@ NAMES = {
     "Damper": "dashpot, viscous damper, shock absorber",
     "DcDrive": "servo drive of a DC motor",
     "DcMotor": "DC motor, brushed motor",
+    "DeadBand": "band with hysteresis, beyond which a signal is heard whole",
+    "DeadBandPid": "controller with a dead band, control that rests",
     "DeadZone": "dead band, dead zone",
     "Differential": "differential gear, axle differential",
     "DogClutch": "dog clutch, claw clutch, synchroniser",

@@ -1,0 +1,81 @@
+"""A controller that rests while its error is small."""
+
+from fairlead.components.control.pid import Pid
+from fairlead.components.control.sum import Sum
+from fairlead.components.signals.limits import DeadBand
+
+from fairlead.component import Component, Composite, Effect, Expansion, Input, Law, Output, Parameter
+
+HANDED_ON = (
+    "gain", "integral_time", "derivative_time", "filter_time", "ahead_gain", "low", "high", "tracking_time", "initial",
+    "period",
+)  # fmt: skip
+OF_PID = Pid.declaration.parameters
+
+
+class ErrorSeen(Component):
+    """error = reference - measured, and the value measured, for what hears part of the error alone."""
+
+    reference = Input("1", "Value wanted.", signed=True)
+    measured = Input("1", "Value measured.", signed=True)
+    error = Output("1", "Reference less measured value.")
+    seen = Output("1", "Value measured.")
+
+    def law(p, reference, measured):
+        """A difference."""
+        return Law(error=reference - measured, seen=measured)
+
+
+class DeadBandPid(Composite):
+    """A PID controller (see `Pid`) that rests while the error is small: it hears no error of a size within a band.
+
+    The error e = reference - measured is heard, whole, once |e| is above `band`, until |e| is below `inner`, so that a
+    control whose integral would hunt behind stiction may rest. While it rests P is zero, I stays and D acts on.
+
+    Source: Astrom, Hagglund, Advanced PID Control, 2006 (dead zone on the error against stiction).
+    Limits: the place reached is within `inner` to `band` of the reference, not on it; the command jumps by K_p e. As I
+    stays, leave the integral out where what is controlled integrates the command itself, as a valve and a cylinder do.
+    """
+
+    reference = Input("1", "Value wanted.", signed=True)
+    measured = Input("1", "Value measured.", signed=True)
+    ahead = Input("1", "What else is fed forward.", 0.0, signed=True)
+    band = Parameter("1", "Size of the error from which on it is heard, in SI of both.", above=0)
+    inner = Parameter("1", "Size below which it rests again; half the band when not given.", default=None, above=0)
+    gain, integral_time = OF_PID["gain"], OF_PID["integral_time"]
+    derivative_time, filter_time = OF_PID["derivative_time"], OF_PID["filter_time"]
+    ahead_gain, low, high = OF_PID["ahead_gain"], OF_PID["low"], OF_PID["high"]
+    tracking_time, initial, period = OF_PID["tracking_time"], OF_PID["initial"], OF_PID["period"]
+    sampling = Effect("The controller works in samples; off: continuously and at once.")
+    command = Output("1", "Command.")
+    error = Output("1", "Reference less measured value.")
+    heard = Output("1", "What is heard of it.")
+    integral = Output("1", "I, what the integral has gathered.")
+
+    def check(p):
+        """As its parts."""
+        yield from DeadBand.check(p)
+        if p.low is not None and p.high is not None and p.high <= p.low:
+            yield "high", f"high {p.high:g} is not above low {p.low:g}", "Raise it."
+        if p.filter_time is not None and p.derivative_time is None:
+            yield "filter_time", "filter_time is given without derivative_time", "Give both, or neither."
+
+    def expand(p, scene):
+        """The error, the band, and a PID that is given what is left."""
+        given = {name: getattr(p, name) for name in HANDED_ON if getattr(p, name) is not None}
+        edge = {} if p.inner is None else {"inner": p.inner}
+        children = {
+            "whole": scene.make(ErrorSeen),
+            "rest": scene.make(DeadBand, band=p.band, **edge),
+            "left": scene.make(Sum),
+            "pid": scene.make(Pid, sampling=p.sampling, **given),
+        }
+        joins = [
+            ("whole.error", "rest.value"), ("rest.signal", "left.a"), ("whole.seen", "left.b"),
+            ("left.signal", "pid.reference"), ("whole.seen", "pid.measured"),
+        ]  # fmt: skip
+        shown = {
+            "reference": "whole.reference", "measured": "whole.measured", "ahead": "pid.ahead",
+            "command": "pid.command", "error": "whole.error", "heard": "rest.signal", "integral": "pid.integral",
+        }  # fmt: skip
+        return Expansion(children, joins, {}, shown)
