@@ -185,6 +185,7 @@ LEFT_TO_TEST_ALL = (
     "tests/models/test_bend_sweep.py::test_every_treatment_finds_*[0.5-LuGre]",
     "tests/components/test_assembly.py::test_the_jacobian_*[machines/traction_winch]",
     "tests/components/test_assembly.py::test_the_jacobian_*[machines/servo_cylinder]",
+    "tests/components/test_assembly.py::test_the_jacobian_*[machines/hydrostatic_drive]",
     "tests/components/test_assembly.py::test_the_jacobian_*[guidance_route_electric]",
     "tests/components/test_assembly.py::test_the_mass_matrix_*[guidance_route_electric]",
     "tests/components/test_friction_treatments.py::test_the_reset_integrator_has_the_period_*",

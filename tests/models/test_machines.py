@@ -127,6 +127,57 @@ def test_a_servo_cylinder_hunts_as_its_equations_integrated_by_scipy_do(engine, 
     assert late.max() > 3e-5  # past the place wanted, both ways
 
 
+ENGINE, PUMP, MOTOR, WHEEL = 200.0, 7e-6, 14e-6, 0.4 / 20  # rad/s, m^3/rad twice, m a rad of the motor
+LEAKS, OUT, ROLLING = 2 * 5e-13, 3e-13, 800.0  # across pump and motor, out of either side of the motor, m^3/s/Pa; N
+
+
+@pytest.mark.parametrize("setting", [0.6, 0.4])
+def test_a_closed_hydrostatic_circuit_keeps_its_balances_of_oil_and_force(setting):
+    """Means over a stretch with the swash plate at rest; what a litre of oil takes by compression is in all of them."""
+    result = run("hydrostatic_drive", **{"setting": setting, "run.accuracy": "1e-6"})
+    assert result.run["energy"]["closure"] < 1e-5
+    t, high, low = result.t, result["forward.pressure"], result["backward.pressure"]
+    for way, begin, end in ((1, 3.0, 6.0), (-1, 9.0, 12.0)):
+        there = (t >= begin) & (t <= end)
+        v = result["vehicle.v"][there]
+
+        def mean(y, there=there):
+            return np.trapezoid(y[there], t[there]) / (t[there][-1] - t[there][0])
+
+        load = MOTOR * mean(high - low) / WHEEL
+        assert load == pytest.approx(way * ROLLING + 4000 * (v[-1] - v[0]) / (end - begin), rel=1e-3)
+        a, b = (high, low) if way > 0 else (low, high)
+        stored = 1e-3 / 1e9 * (a[there][-1] - a[there][0]) / (end - begin)
+        carried = setting * PUMP * ENGINE - LEAKS * mean(a - b) - OUT * mean(a) - stored  # what leaves the high side
+        assert way * mean(result["vehicle.v"]) / WHEEL * MOTOR == pytest.approx(carried, rel=2e-3)
+        charged = 10e-3 / 60 - mean(result["charge_relief.flow"])  # made up for what leaks out, and is compressed
+        stored += 1e-3 / 1e9 * (b[there][-1] - b[there][0]) / (end - begin)
+        assert charged == pytest.approx(OUT * mean(a + b) + stored, rel=0.1)
+
+
+def test_a_closed_hydrostatic_circuit_brakes_by_driving_its_engine():
+    result = run("hydrostatic_drive")
+    slows = (result.t > 6.2) & (result.t < 6.9)  # while the swash plate turns back
+    assert (result["vehicle.v"][slows] > 0).all()
+    assert (result["backward.pressure"] > result["forward.pressure"])[slows].all()
+    assert (result["pump.torque"][slows] < 0).all()
+    lowest = np.minimum(result["forward.pressure"], result["backward.pressure"])
+    assert lowest.min() > 19e5  # the charge pump keeps the low side up: 20 bar less what its check valve takes
+
+
+def test_a_heavy_vehicle_speeds_up_as_its_relief_valves_let_it():
+    """60 t: the pressure stays at what the valve passes at most, 300 bar and the pump's flow over its slope."""
+    result = run("hydrostatic_drive", **{"vehicle.mass": "60 t", "run.stop": "3 s"})
+    drop = result["forward.pressure"] - result["backward.pressure"]
+    assert result["forward_relief.flow"].max() > 1e-4
+    assert 300e5 < drop.max() < 300e5 + 0.6 * PUMP * ENGINE / 2e-10
+    opens = result.t[np.argmax(result["forward_relief.flow"] > 1e-6)]
+    t = np.arange(opens, opens + 0.5, 0.01)
+    force = MOTOR * (result.at("forward.pressure", t) - result.at("backward.pressure", t)) / WHEEL - ROLLING
+    gained = result.at("vehicle.v", t[-1]) - result.at("vehicle.v", t[0])
+    assert gained == pytest.approx(np.trapezoid(force, t) / 60e3, rel=1e-3)
+
+
 @pytest.mark.parametrize(("taper", "gain", "damping"), [(0.3, 300, 100), (0.8, 200, 200)])
 def test_a_web_line_runs_as_its_balances_integrated_by_scipy_do(taper, gain, damping):
     """Inertias that move are written as J w' = torque there, and as bodies on relations of positions here."""

@@ -157,7 +157,7 @@ NAMES = {
 """Type -> what it is called, the usual word first; a type without a line goes by its own words."""
 COMBINED = {
     "hydrostatic transmission": "`VariablePump`, `HydraulicMotor`, a `Volume` on either side, a `CheckValve` each for "
-    "the charge and a `ReliefValve` each",
+    "the charge and a `ReliefValve` each: `fairlead run machines/hydrostatic_drive`",
     "feed axis": "`LeadScrew`, a `Mass` at its nut, a `SpringDamper` to the table, a `Contact` for its guide",
     "drill string": "`Inertia` and `TorsionSpring` in turn, a `ShaftFriction` with a falling curve at the bit",
     "hoist": "`Worm` or `LossyGear`, an `Inertia` for the drum, a `Rack` for its rope, a `Mass` and a `ForceSource`",
