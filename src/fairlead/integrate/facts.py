@@ -106,6 +106,10 @@ class Facts(Protocol):
         """Rows, none of them a contact's, that say how contacts in circles share what they hold."""
 
     @property
+    def circle(self) -> Integers:
+        """[n]: the circles of contacts that share what they hold have numbers from 1; that of the row, 0 for none."""
+
+    @property
     def falls(self) -> Integers:
         """[nz]: 1 for a contact whose friction falls with a jump as it lets go: the order may matter (release.py)."""
 
@@ -234,6 +238,11 @@ class Plain:
     def share_rows(self) -> Integers:
         """None."""
         return np.zeros(0, dtype=np.int64)
+
+    @property
+    def circle(self) -> Integers:
+        """None lies in one."""
+        return np.zeros(self.n, dtype=np.int64)
 
     @property
     def falls(self) -> Integers:

@@ -88,7 +88,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "may_hold": _of_contacts(problem), "met_guard": np.asarray(problem.met_guard, np.int64),
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
-        "holder": np.asarray(problem.holder, np.int64), "in_circle": _in_circles(problem),
+        "holder": np.asarray(problem.holder, np.int64), "circle": np.asarray(problem.circle, np.int64),
         "is_speed": moved_at_once(problem),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
@@ -163,13 +163,6 @@ def speed_of(problem: Problem) -> Integers:
     _, speeds, accelerations = problem.moves[problem.moves[:, 2] >= 0].T
     found[accelerations] = speeds
     return found
-
-
-def _in_circles(problem: Problem) -> Integers:
-    """1 for rows whose meaning may change with a contact that may close a circle with others."""
-    made = np.isin(problem.holder, problem.beyond_row).astype(np.int64)
-    made[problem.share_rows] = 1
-    return made
 
 
 OF_STEPPING = ("hold_mass", "hold_slope", "hold_share", "body_speed", "neighbours", "own_slopes", "own_masses")

@@ -16,6 +16,11 @@ nobody does. Then the speeds change by dV: momentum is conserved, and every row 
 What was let go slips, and is caught later as any contact is. Where stops rebound the speeds change by
 (1 + e) dV, and those that part again open (rebound.py).
 
+Contacts that close a circle share an impulse as they share a force, by one number a body (redundancy.py). Where
+friction in a circle takes an impulse, its limit is mu P_n, and its guard compares shares of impulses with it. Where
+none does, its limit is a force, of which shares of impulses say nothing: the guard sees the shares of forces. Circles
+that have no body in common are judged apart.
+
 A slip whose dV is below the error weights is no impact but rounding, and so is one that a contact says it may take
 (`within`): `project` takes these away.
 
@@ -140,8 +145,7 @@ def solve_under_load(m):
     """Solve again with the slopes that laws have under the impulse, until it is that under which they are taken.
 
     A loss that follows a load has a corner at no load, where it is rounded off: there it has no slope, and under an
-    impulse that of one side. Sets u = dV as well. Not where contacts may close circles: how these share a load is
-    asked of the slopes too, and would be another under one that no time passes under.
+    impulse that of one side. Sets u = dV as well.
     """
     problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
@@ -194,16 +198,15 @@ def load(m):
 
 @compiled
 def load_forces(problem, run, point):
-    """Put the impulses in b into `y_probe` as forces, and so what bodies in circles share; not those of rounding.
-
-    Shares only where friction in a circle takes one: a finite force beside a share without bounds compares nothing.
-    """
+    """Put the impulses in b into `y_probe` as forces, and the shares of circles whose friction takes one."""
     n = problem.n
     b, loaded, differential = reals(point.at_b, n), reals(point.at_y_probe, n), indices(problem.at_differential, n)
+    circle, of_circle = indices(problem.at_circle, n), reals(problem.at_least_share, n)
     force = least_impulse(problem, point)
-    share = least_share(problem, point, force)
+    find_least_shares(problem, point, force)
     for k in range(n):
-        if differential[k] == 0 and abs(b[k]) > (force if takes_any(problem, k) else share):
+        least = force if takes_any(problem, k) else (of_circle[circle[k] - 1] if circle[k] > 0 else inf)
+        if differential[k] == 0 and abs(b[k]) > least:
             loaded[k] = b[k] / (SHORT * (run.stop - run.start))
 
 
@@ -218,20 +221,22 @@ def least_impulse(problem, point):
 
 
 @compiled
-def least_share(problem, point, least):
-    """What is rounding of the numbers by which bodies in circles share impulses; of other rows all is.
+def find_least_shares(problem, point, least):
+    """Set `least_share`: by circle, below what its shares are rounding; all are, where no friction takes an impulse.
 
     `least` is the impulse below which one is rounding.
     """
     n = problem.n
-    b, of_circle, takes = reals(point.at_b, n), indices(problem.at_in_circle, n), indices(problem.at_takes_impulse, n)
-    largest, rubs = 0.0, False
+    b, circle, takes = reals(point.at_b, n), indices(problem.at_circle, n), indices(problem.at_takes_impulse, n)
+    of_circle = reals(problem.at_least_share, n)
     for k in range(n):
-        if of_circle[k] == 1 and takes[k] == LIMITED:
-            rubs = rubs or abs(b[k]) > least
-        elif of_circle[k] == 1 and takes[k] == 0:
-            largest = max(largest, abs(b[k]))
-    return LEAST_IMPULSE * largest if rubs else inf
+        of_circle[k] = inf
+    for k in range(n):
+        if circle[k] > 0 and takes[k] == LIMITED and abs(b[k]) > least:
+            of_circle[circle[k] - 1] = 0.0
+    for k in range(n):
+        if circle[k] > 0 and takes[k] == 0 and of_circle[circle[k] - 1] < inf:
+            of_circle[circle[k] - 1] = max(of_circle[circle[k] - 1], LEAST_IMPULSE * abs(b[k]))
 
 
 @compiled

@@ -228,15 +228,17 @@ def open_level(problem, point, matrices, events):
     slips = reals(loads.at_fast_slip, problem.n_guards)
     residual_here(problem, point, matrices, point.at_x)
     r = reals(point.at_x, n)
-    in_circle, circle_changed = indices(problem.at_in_circle, n), False
+    circle, circle_changed = indices(problem.at_circle, n), indices(loads.at_circle_changed, n)
     for k in range(n):
-        if holder[k] >= 0 and in_circle[k] == 1:
-            circle_changed = circle_changed or zones[holder[k]] != before[holder[k]]
+        circle_changed[k] = 0
+    for k in range(n):
+        if holder[k] >= 0 and circle[k] > 0 and zones[holder[k]] != before[holder[k]]:
+            circle_changed[circle[k] - 1] = 1
     for level in range(loads.levels):
         out = reals(loads.at_out + 8 * level * n, n)
         for k in range(n):
             own_changed = holder[k] >= 0 and zones[holder[k]] != before[holder[k]]
-            if own_changed or (circle_changed and in_circle[k] == 1):
+            if own_changed or (circle[k] > 0 and circle_changed[circle[k] - 1] == 1):
                 out[k] = 0.0
             r[k] -= out[k]
     for i in range(problem.n_guards):

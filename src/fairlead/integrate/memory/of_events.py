@@ -63,6 +63,8 @@ LOADS = Struct(
     indices={
         # the level in which a slip began, guards that it has brought back to zero
         "born": "n_guards", "came_back": "n_guards", "zones_just_before": "n_zones",
+        # by circle: 1 if one of its contacts has changed its zone since the last level
+        "circle_changed": "n",
     },
 )  # fmt: skip
 """The order of release at a jump of load (release.py)."""

@@ -33,6 +33,8 @@ PROBLEM = Struct(
     ),
     reals={
         "rebound": "n",
+        # by circle: below it, what bodies share of an impulse is none (impulse.py)
+        "least_share": "n",
         # the angles of `n_swings` at both ends of a trial step
         "swing": "n_swings", "swing_end": "n_swings",
     },
@@ -49,8 +51,8 @@ PROBLEM = Struct(
         # the position of each speed (-1: none)
         "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
         "limit_guard": "n_guards", "bounded_row": "n_guards",
-        # by row who decides whether it holds
-        "holder": "n", "in_circle": "n", "falls": "n_zones", "is_speed": "n", "zones": "n_zones",
+        # by row who decides whether it holds, and the number of the circle in which forces are shared (0: none)
+        "holder": "n", "circle": "n", "falls": "n_zones", "is_speed": "n", "zones": "n_zones",
         "guard_machine": "n_guards",
     },
 )  # fmt: skip

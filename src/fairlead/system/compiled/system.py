@@ -27,6 +27,7 @@ from fairlead.system.arrays.timing import PlacedTable
 from fairlead.system.arrays.working import Bytes, Working, addressed, discrete, offsets
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.assembly.program import Pattern
+from fairlead.system.numbering.contact_cycles import numbers
 from fairlead.system.numbering.tolerances import Scales, Weights
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -123,6 +124,17 @@ class System:
     def share_rows(self) -> Integers:
         """Rows that say how contacts in circles share what they hold."""
         return np.array(list(self.numbering.share.values()), dtype=np.int64)
+
+    @property
+    def circle(self) -> Integers:
+        """By row: the number of the circle it lies in, 0 for none (`contact_cycles.numbers`)."""
+        numbering, made = self.numbering, np.zeros(self.numbering.n, dtype=np.int64)
+        of_pairs, of_bodies = numbers(numbering.circles, numbering.share)
+        for pair, number in zip(numbering.circles, of_pairs, strict=True):
+            made[numbering.own[pair.path, pair.unknown]] = number
+        for body, row in numbering.share.items():
+            made[row] = of_bodies[body]
+        return made
 
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine."""

@@ -46,6 +46,22 @@ def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPa
     return [pair for pair, edge in zip(pairs, edges, strict=True) if parallel[edge] > 1 or edge not in bridges]
 
 
+def numbers(circles: Sequence[HeldPair], bodies: Collection[int]) -> tuple[list[int], dict[int, int]]:
+    """The circles that have one of `bodies` in common are one. Their numbers, from 1, by pair and by body.
+
+    Bodies are those that move freely: no share of a force passes one whose motion is given.
+    """
+    above: dict[int, int] = {}
+    through = [[index for index, _ in pair.ends if index in bodies] for pair in circles]
+    for joined in through:
+        if len(joined) == 2 and _root(above, joined[0]) != _root(above, joined[1]):
+            above[_root(above, joined[0])] = _root(above, joined[1])
+    number: dict[int, int] = {}
+    of_bodies = {body: number.setdefault(_root(above, body), len(number) + 1) for body in bodies}
+    alone = iter(range(len(number) + 1, len(number) + len(circles) + 1))  # between two whose motions are given
+    return [of_bodies[joined[0]] if joined else next(alone) for joined in through], of_bodies
+
+
 def _standing(flat: FlatModel, structures: Mapping[str, Structure]) -> frozenset[int]:
     """Groups whose motion is given, by a law whose speed is nothing else than zero: fixed points."""
     found = set()
