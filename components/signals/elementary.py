@@ -1,6 +1,21 @@
-"""What is reckoned with signals beside sums and products: quotients and elementary functions."""
+"""What is reckoned with signals beside sums and products: quotients, elementary functions, places not to be missed."""
 
-from fairlead.component import Choice, Component, Input, Law, Output, Parameter, cos, exp, log, sin, sqrt
+from fairlead.component import (
+    Choice,
+    Component,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Zones,
+    cos,
+    exp,
+    guard,
+    log,
+    sin,
+    sqrt,
+    zone,
+)  # fmt: skip
 
 CURVES = {"sin": sin, "cos": cos, "exp": exp, "log": log, "sqrt": sqrt}
 
@@ -35,3 +50,25 @@ class ElementaryFunction(Component):
     def law(p, value):
         """At once."""
         return Law(signal=CURVES[p.curve](value))
+
+
+class SignalMark(Component):
+    """signal = value, and a step ends where the value goes through zero.
+
+    What is made of the value may be narrow there, as exp(-value^2) is: a step that begins and ends beside it sees
+    nothing of it. Or it is one of several conditions, and for a short time all of them hold.
+    """
+
+    value = Input("1", "What comes in.", signed=True)
+    signal = Output("1", "The same.")
+    zones = Zones("above", "below", forward=["above"], backward=["below"])
+
+    @zone("above", "below")
+    def told(p, value):
+        """The value, on either side."""
+        return Law(signal=value)
+
+    @guard("above", to="below", unit="1", mirrored="rises_through_zero")
+    def falls_through_zero(p, value, direction):
+        """It goes through zero."""
+        return -direction * value

@@ -5,7 +5,7 @@ import functools
 from fairlead.components.control.signal_gain import SignalGain
 from fairlead.components.control.sum import Sum
 from fairlead.components.signals.arithmetic import SignalProduct, SignalSelect, SignalSize
-from fairlead.components.signals.elementary import CURVES, ElementaryFunction, SignalQuotient
+from fairlead.components.signals.elementary import CURVES, ElementaryFunction, SignalMark, SignalQuotient
 from fairlead.components.sources.signal_source import SignalSource
 
 from fairlead.component import Component, Composite, Entries, Expansion, Input, Law, Output, Text
@@ -36,8 +36,10 @@ class SignalFunction(Composite):
     follows; quantities stand in parentheses, `(2 N)`. `constants: {k: 3 N/m}` are numbers by name. An exponent is a
     number.
 
-    It is made of a block an operation. abs, min and max have zones, so a run locates their corners. Limits: what it
-    divides by must not come to zero; what a root or a logarithm is taken of stays above zero.
+    It is made of a block an operation. abs, min and max have zones, so a run locates their corners. A step also ends
+    where an even power is taken of zero, so that a peak like `exp(-((x - 5)/0.01)**2)` or `1/(1 + x**4)` is not stepped
+    over, however narrow (docs/integrator.md). Limits: what it divides by must not come to zero; what a root or a
+    logarithm is taken of stays above zero.
     """
 
     asked_with = {"expression": "a*sin(b) + 2"}
@@ -61,7 +63,7 @@ class SignalFunction(Composite):
         """A block for every operation; what occurs twice is made once."""
         step, unit = read(p)
         blocks = Blocks(scene, dict(p.inputs or ()))
-        end = blocks.end(blocks.made(step))
+        end = blocks.end(blocks.whole(step))
         if unit != "1":
             blocks.children["out"] = scene.make(passing("1", unit))
             blocks.joins.append((end, "out.value"))
@@ -80,6 +82,11 @@ def read(p):
     return formula(p.expression, units, dict(p.constants), output="signal")
 
 
+def unsigned(step):
+    """The same without the signs before it."""
+    return unsigned(step.inner[0]) if step.operation in ("neg", "pos") else step
+
+
 class Blocks:
     """The blocks of an expression, step by step."""
 
@@ -87,9 +94,15 @@ class Blocks:
         """Nothing is made yet."""
         self.scene, self.units = scene, units
         self.children, self.joins, self.inputs, self.known = {}, [], [], {}
+        self.marks, self.narrowed = {}, set()
+
+    def whole(self, step):
+        """What an expression gives."""
+        self.narrowed.update(step.narrowed())
+        return self.made(step)
 
     def made(self, step):
-        """What a step gives: a number, or the end that tells it."""
+        """What a step of it gives: a number, or the end that tells it."""
         if step.number is not None:
             return step.number
         if step not in self.known:
@@ -117,6 +130,7 @@ class Blocks:
     def operation(self, step):
         """The block of an operation or of a function."""
         values = [self.made(one) for one in step.inner]
+        self.mark_extreme(step, values)
         if step.operation in CURVES:
             return self.block(ElementaryFunction, {"value": values[0]}, curve=step.operation)
         if step.operation in ("min", "max"):
@@ -124,6 +138,27 @@ class Blocks:
             ends = map(self.end, values)
             return functools.reduce(lambda a, b: self.block(SignalSelect, {"a": a, "b": b}, pick=pick), ends)
         return getattr(self, NAMES[step.operation])(*values)
+
+    def mark_extreme(self, step, values):
+        """Mark where a function that is even has its extreme, and where an exponential outgrows a 1 beside it.
+
+        Of sines only in what may be narrow: else all steps are short against them (docs/integrator.md).
+        """
+        of, value, narrow = step.operation, values[0], step in self.narrowed
+        if isinstance(value, float):
+            return
+        even = (of == "**" and values[1] % 2 == 0) or (of == "*" and unsigned(step.inner[0]) == unsigned(step.inner[1]))
+        of_sines = any(one.operation in EXTREME for one in step.parts())
+        if narrow and of in EXTREME:
+            self.mark(self.block(ElementaryFunction, {"value": value}, curve=EXTREME[of]))
+        elif (narrow and of == "exp") or (even and (narrow or not of_sines)):
+            self.mark(value)
+
+    def mark(self, end):
+        """What an end tells, with a mark where it goes through zero; one for all."""
+        if end not in self.marks:
+            self.marks[end] = self.block(SignalMark, {"value": end})
+        return self.marks[end]
 
     def size(self, a):
         """|a|."""
@@ -183,5 +218,7 @@ class Blocks:
         return result
 
 
+EXTREME = {"sin": "cos", "cos": "sin"}
+"""By function: what is zero where it has an extreme."""
 NAMES = {"+": "sum", "-": "difference", "*": "product", "/": "quotient", "**": "power", "abs": "size",
          "neg": "opposite", "pos": "same"}  # fmt: skip

@@ -10,20 +10,40 @@ from fairlead.component import (
     Parameter,
     Zones,
     exceeds,
-    greatest,
     guard,
-    least,
     sampled,
     zone,
 )  # fmt: skip
 
 HALF = 0.5  # above it a signal counts as on
+HOLDS = {"and": ("both",), "or": ("a_alone", "b_alone", "both"), "xor": ("a_alone", "b_alone")}  # by gate: the zones
+
+
+def a_is_on(p, a):
+    """The signal a is above the level."""
+    return a - p.level
+
+
+def a_is_off(p, a):
+    """The signal a is below the level."""
+    return p.level - a
+
+
+def b_is_on(p, b):
+    """The signal b is above the level."""
+    return b - p.level
+
+
+def b_is_off(p, b):
+    """The signal b is below the level."""
+    return p.level - b
 
 
 class LogicGate(Component):
     """signal = 1 while `gate` holds of a and b, else 0; a signal is on above `level`, and `inverse` is 1 - signal.
 
-    and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of a signal joined to both.
+    and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of a signal joined to both. Its zone
+    says which of the two are on, so what is on for a short time together is not missed.
     """
 
     exempt = {"odd": "On and off are not symmetric."}
@@ -34,30 +54,22 @@ class LogicGate(Component):
     level = Parameter("1", "Above it a signal is on.", default=0.5)
     signal = Output("1", "1 while it holds.")
     inverse = Output("1", "1 while it does not.")
-    zones = Zones("off", "on")
+    zones = Zones("neither", "a_alone", "b_alone", "both")
 
-    @zone("off", "on")
+    @zone("neither", "a_alone", "b_alone", "both")
     def told(p, zone):
-        """One of the two."""
-        return Law(signal=1.0 if zone == "on" else 0.0, inverse=0.0 if zone == "on" else 1.0)
+        """Which of the two are on, and whether that is what the gate asks."""
+        on = 1.0 if zone in HOLDS[p.gate] else 0.0
+        return Law(signal=on, inverse=1.0 - on)
 
-    @guard("off", to="on", unit="1")
-    def comes_to_hold(p, a, b):
-        """It holds."""
-        return holding(p, a, b)
-
-    @guard("on", to="off", unit="1")
-    def ceases(p, a, b):
-        """It does not."""
-        return -holding(p, a, b)
-
-
-def holding(p, a, b):
-    """By how much the gate holds of two signals."""
-    if p.gate == "and":
-        return least(a, b) - p.level
-    either = greatest(a, b) - p.level
-    return either if p.gate == "or" else least(either, p.level - least(a, b))
+    a_comes_on = guard("neither", to="a_alone", unit="1")(a_is_on)
+    a_comes_on_too = guard("b_alone", to="both", unit="1")(a_is_on)
+    a_goes_off = guard("a_alone", to="neither", unit="1")(a_is_off)
+    a_leaves_b = guard("both", to="b_alone", unit="1")(a_is_off)
+    b_comes_on = guard("neither", to="b_alone", unit="1")(b_is_on)
+    b_comes_on_too = guard("a_alone", to="both", unit="1")(b_is_on)
+    b_goes_off = guard("b_alone", to="neither", unit="1")(b_is_off)
+    b_leaves_a = guard("both", to="a_alone", unit="1")(b_is_off)
 
 
 class SignalEdge(Component):

@@ -52,7 +52,9 @@ class StateMachine(Composite):
         blocks = Blocks(scene, dict(p.inputs or ()))
         joins, ways, place = {}, [], 0
         for left, entered, parts in found:
-            ends = [blocks.end(blocks.made(step)) for step, _ in parts]
+            ends = [blocks.end(blocks.whole(step)) for step, _ in parts]
+            if len(parts) > 1:  # none of them may come and go within a step
+                ends = [blocks.mark(end) for end in ends]
             names = tuple(f"condition_{place + k}" for k in range(len(ends)))
             place += len(ends)
             units = {unit for _, unit in parts}

@@ -47,6 +47,22 @@ class Step:
         for one in self.inner:
             yield from one.names()
 
+    def parts(self) -> Iterator[Step]:
+        """It and all it is made of."""
+        yield self
+        for one in self.inner:
+            yield from one.parts()
+
+    def narrowed(self) -> Iterator[Step]:
+        """What stands in an exponential or is divided by: what is wide there may be narrow outside."""
+        for one in self.parts():
+            if one.operation == "exp":
+                yield from one.inner[0].parts()
+            elif one.operation == "/":
+                yield from one.inner[1].parts()
+            elif one.operation == "**" and (one.inner[1].number or 0.0) < 0:
+                yield from one.inner[0].parts()
+
 
 class FormulaError(ExpressionError):
     """An expression that is no function of its signals; `of` names the parameter that is wrong."""
