@@ -36,7 +36,7 @@ def test_what_has_no_memory_is_a_formula_of_the_sine():
     clear = np.abs(np.abs(wave) - 1) > 1e-3  # of the jumps of the relay, and of the switch at zero
     expected = {
         "limited": np.clip(wave, -1, 1.5), "dead": 2 * np.sign(wave) * np.maximum(np.abs(wave) - 0.5, 0),
-        "larger": np.maximum(wave, wave / 2), "size": np.abs(wave), "square": wave**2,
+        "larger": np.maximum(wave, wave / 2), "size": np.abs(wave), "square": wave**2, "mark": wave,
         "shape": np.interp(wave, [-2, 0, 2], [4, 0, 1]),
     }  # fmt: skip
     for name, values in expected.items():

@@ -126,6 +126,7 @@ NAMES = {
     "SignalDelay": "dead time of a bus",
     "SignalFunction": "formula",
     "SignalLag": "first-order lag, filter of a sensor",
+    "SignalMark": "event, zero crossing, place where a step ends",
     "SignalTable": "characteristic, look-up table",
     "SingleActingCylinder": "single-acting cylinder, plunger, jack with a return spring",
     "SlideFriction": "friction of a slide, guide or seal (force over speed)",

@@ -242,7 +242,7 @@ class Plain:
     @property
     def circle(self) -> Integers:
         """None lies in one."""
-        return np.zeros(self.n, dtype=np.int64)
+        return np.zeros(len(self.initial), dtype=np.int64)
 
     @property
     def falls(self) -> Integers:
