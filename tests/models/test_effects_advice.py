@@ -285,16 +285,26 @@ ALIKE = {"long_deployment", "long_route", "slack_start", "weak_clamp", "guidance
 BUNDLED = {path.stem for path in pathlib.Path(next(iter(fairlead.models.__path__))).glob("*.yaml")} - ALIKE
 
 
+NEEDED = {("capstan", "line_stretch"), ("crustacean", "line_stretch")}
+
+
 @pytest.mark.parametrize("name", sorted(BUNDLED))
 def test_every_effect_of_a_bundled_model_can_be_switched_off_and_all_together(name):
+    """Or it is refused by its name: a rope whose motion is given must stretch."""
     def load(more):
         return fairlead.load(name, set=more)
 
     found = switches(load({}))
     off = [one for one in found if one.kind == "effect" and one.then == "off"]
-    for one in [*off, all_off(load, found)]:
-        assert one is not None
-        assert load(one.settings).flat.instances
+    for one in off:
+        if (name, one.name) in NEEDED:
+            with pytest.raises(fairlead.ModelError, match=f"{one.name} is off and its motion is given"):
+                load(one.settings).flat  # noqa: B018
+        else:
+            assert load(one.settings).flat.instances
+    together = all_off(load, found)
+    assert together is not None
+    assert load(together.settings).flat.instances
 
 
 def test_the_command_prints_a_sentence_for_each(tmp_path):

@@ -51,7 +51,8 @@ def switches(model: Any) -> list[Switch]:
 def all_off(load: Load, found: list[Switch]) -> Switch | None:
     """Every effect that is on switched off together; None when there are fewer than two.
 
-    A component that goes with one effect takes its own effects with it: the netlist is then not to name them.
+    A component that goes with one effect takes its own effects with it: the netlist is then not to name them. What the
+    scene is refused without, as the last stretch of a line whose motion is given, stays on.
     """
     on = [one for one in found if one.kind == "effect" and one.then == "off"]
     together = {name: word for one in on for name, word in one.settings.items()}
@@ -61,10 +62,23 @@ def all_off(load: Load, found: list[Switch]) -> Switch | None:
         load(together).check()
     except ModelError as error:
         gone = {name for name in together for fault in error.faults if fault.what.startswith(f"{name}:")}
-        together = {name: word for name, word in together.items() if name not in gone}
+        kept = {name: word for name, word in together.items() if name not in gone}
+        together = kept if gone else _as_many_as_load(load, on)
     except FairleadError:
         pass  # it is told by the run
     return Switch("all effects", "on", "off", together)
+
+
+def _as_many_as_load(load: Load, on: list[Switch]) -> dict[str, str]:
+    """The settings of those that the scene can do without, taken one after the other."""
+    together: dict[str, str] = {}
+    for one in on:
+        try:
+            load(together | dict(one.settings)).check()
+        except ModelError:
+            continue
+        together |= one.settings
+    return together
 
 
 def _effects(model: Any) -> Iterator[Switch]:
