@@ -67,6 +67,7 @@ class Impact:
             at.point(name, values, np.float64)
         at.point("guard_machine", np.full(n, -1), np.int64)
         at.point("may_hold", np.array([*may_hold, 0]), np.int64)
+        at.point("blow_guard", np.zeros(len(may_hold) + 1), np.int64)
         at.array["takes_impulse"][:] = 0
         at.array["takes_impulse"][forces] = takes
         at.array["is_speed"][speeds] = 1

@@ -45,6 +45,13 @@ class Facts(Protocol):
         """
 
     @property
+    def blow_guard(self) -> Integers:
+        """[ng]: 1 for guards that an impulse asks with the speeds before (impulse_zones.py), 0 for others.
+
+        Of parts that only tell signals.
+        """
+
+    @property
     def met_guard(self) -> Integers:
         """Guards of places at which a stop is met that takes any impulse: known to rounding (settling.py)."""
 
@@ -187,6 +194,11 @@ class Plain:
     @property
     def kink_guard(self) -> Integers:
         """None is."""
+        return np.zeros(len(self.guard_machine), dtype=np.int64)
+
+    @property
+    def blow_guard(self) -> Integers:
+        """None is of such."""
         return np.zeros(len(self.guard_machine), dtype=np.int64)
 
     @property

@@ -85,6 +85,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
     given: dict[str, np.ndarray] = {
         "guard_machine": problem.guard_machine,
         "kink_guard": np.asarray(problem.kink_guard, np.int64),
+        "blow_guard": np.asarray(problem.blow_guard, np.int64),
         "may_hold": _of_contacts(problem), "met_guard": np.asarray(problem.met_guard, np.int64),
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),

@@ -34,32 +34,22 @@ Unilateral Contacts, 1996, chapter 8.
 
 from __future__ import annotations
 
-from math import inf
-
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.events.least_index import keep_first
+from fairlead.integrate.events.impulse_changes import any_support_moves, change_of_speed, change_speeds
+from fairlead.integrate.events.impulse_load import LIMITED, SHORT, UNLIMITED, least_impulse, load, takes_any
+from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
 from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, rebound
 from fairlead.integrate.linear.systems import DONE, factorise_consistent, solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals, slip_at
-from fairlead.integrate.point.controller import weigh, weighted_norm
+from fairlead.integrate.point.controller import weigh
 
 RELEASED, RUBBED = 6, 7
 CONTRADICTS = 3
 """No impulse is that under which the laws have the slopes it follows from: as where no values are consistent."""
-LIMITED, UNLIMITED = 1, 2
-"""What a row that may hold takes: an impulse as small as rounding leaves it, or any."""
-SHORT = 1e-12
-"""Share of the span during which an impulse acts as a force: less than time can resolve in a run."""
 ROUNDED = 1.0
 """Change of speed, in error weights, below which a slip is no impact."""
-LEAST_IMPULSE = 1e-10
-"""Share of the largest impulse below which one is rounding: that row keeps the force it has."""
 SOLVES, SAME = 12, 1e-9
 """How often it is solved with the slopes under the load at most, and the change of impulses that ends it."""
-LATER = 1e-6
-"""Share of the span after which it is asked which stops come nearer: long enough to be more than rounding of places."""
-LEAST_APPROACH = 1e-8
-"""Share of the largest change of speed at which stops that touch must approach to take part: less is rounding."""
 
 
 @compiled
@@ -87,30 +77,9 @@ def impact(m):
     if back == REBOUND:
         throw_back(problem, m.run, point, guards)
     change_speeds(problem, point, matrices, back, supports)
+    m.events.settling.stage_from = m.events.settling.passes  # with other speeds, zones of before are no circle
     turn_round(problem, m.run, point, guards)
     return RELEASED if guards.n_fired > 0 else factors_at(problem, point, m.linear, point.at_y, point.at_ft)
-
-
-@compiled
-def turn_round(problem, run, point, guards):
-    """Fire the guards of contacts that slide against the direction of their zones now, before a law is asked there.
-
-    What friction is behind rest means nothing, and need not be finite: some laws are exponential in the speed. One that
-    slides in name, as others hold its sides, is judged by what it shares of the impulses.
-    """
-    g, inertia = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_inertia, guards.n_guards)
-    tolerance, fired = reals(guards.at_guard_tolerance, guards.n_guards), indices(guards.at_fired, guards.n_guards)
-    copy(reals(point.at_y, problem.n), reals(point.at_y_probe, problem.n))
-    load_forces(problem, run, point)
-    evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    before = guards.n_fired
-    for i in range(guards.n_guards):
-        new = inertia[i] > 0.0 and g[i] > tolerance[i]
-        for k in range(before):
-            new = new and fired[k] != i
-        if new:
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
 
 
 @compiled
@@ -181,65 +150,6 @@ def factors_at(problem, point, linear, at_y, at_drift):
 
 
 @compiled
-def takes_any(problem, k):
-    """True if row k may take an impulse."""
-    return indices(problem.at_takes_impulse, problem.n)[k] > 0
-
-
-@compiled
-def load(m):
-    """Set `y_probe` to the point under the impulses in b, as forces that act for no time; speeds are those before."""
-    n = m.problem.n
-    y, loaded = reals(m.point.at_y, n), reals(m.point.at_y_probe, n)
-    for k in range(n):
-        loaded[k] = y[k]
-    load_forces(m.problem, m.run, m.point)
-
-
-@compiled
-def load_forces(problem, run, point):
-    """Put the impulses in b into `y_probe` as forces, and the shares of circles whose friction takes one."""
-    n = problem.n
-    b, loaded, differential = reals(point.at_b, n), reals(point.at_y_probe, n), indices(problem.at_differential, n)
-    circle, of_circle = indices(problem.at_circle, n), reals(problem.at_least_share, n)
-    force = least_impulse(problem, point)
-    find_least_shares(problem, point, force)
-    for k in range(n):
-        least = force if takes_any(problem, k) else (of_circle[circle[k] - 1] if circle[k] > 0 else inf)
-        if differential[k] == 0 and abs(b[k]) > least:
-            loaded[k] = b[k] / (SHORT * (run.stop - run.start))
-
-
-@compiled
-def least_impulse(problem, point):
-    """The impulse below which one is rounding."""
-    b, takes, largest = reals(point.at_b, problem.n), indices(problem.at_takes_impulse, problem.n), 0.0
-    for k in range(problem.n):
-        if takes[k] > 0:
-            largest = max(largest, abs(b[k]))
-    return LEAST_IMPULSE * largest
-
-
-@compiled
-def find_least_shares(problem, point, least):
-    """Set `least_share`: by circle, below what its shares are rounding; all are, where no friction takes an impulse.
-
-    `least` is the impulse below which one is rounding.
-    """
-    n = problem.n
-    b, circle, takes = reals(point.at_b, n), indices(problem.at_circle, n), indices(problem.at_takes_impulse, n)
-    of_circle = reals(problem.at_least_share, n)
-    for k in range(n):
-        of_circle[k] = inf
-    for k in range(n):
-        if circle[k] > 0 and takes[k] == LIMITED and abs(b[k]) > least:
-            of_circle[circle[k] - 1] = 0.0
-    for k in range(n):
-        if circle[k] > 0 and takes[k] == 0 and of_circle[circle[k] - 1] < inf:
-            of_circle[circle[k] - 1] = max(of_circle[circle[k] - 1], LEAST_IMPULSE * abs(b[k]))
-
-
-@compiled
 def throw_back(problem, run, point, guards):
     """Set u = (1 + e) dV, and fill `fired` with the guards of the stops that part again."""
     n, ng = problem.n, problem.n_guards
@@ -277,118 +187,3 @@ def slip_to_stop(problem, point):
             r[k] = 0.0
     copy(r, reals(point.at_v, n))
     return True
-
-
-@compiled
-def change_of_speed(problem, point):
-    """Set u = dV and tell its weighted norm; the ledger has its own account of an impact, and positions stand still."""
-    b, u, is_speed = reals(point.at_b, problem.n), reals(point.at_u, problem.n), indices(problem.at_is_speed, problem.n)
-    for k in range(problem.n):
-        u[k] = b[k] if is_speed[k] == 1 else 0.0
-    return weighted_norm(point, point.at_u)
-
-
-@compiled
-def change_zones_for(m):
-    """Fill `fired` with the guards of contacts and stops that the impulse sends into another zone.
-
-    All at once; once a pattern of zones has recurred in this settlement, the one of least index.
-    """
-    problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
-    n, ng = problem.n, problem.n_guards
-    y, b, loaded = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_y_probe, n)
-    is_speed = indices(problem.at_is_speed, n)
-    for k in range(n):
-        loaded[k] = y[k] + (b[k] if is_speed[k] == 1 else 0.0)
-    load_forces(problem, run, point)
-    evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
-    evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    least = LEAST_APPROACH * move_on(m)
-    g, under, tolerance = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
-    ahead = reals(settling.at_wrong, ng)
-    may_hold, fired = indices(problem.at_may_hold, ng), indices(guards.at_fired, ng)
-    guards.n_fired = 0
-    for i in range(ng):
-        changes = may_hold[i] > 0 and under[i] > tolerance[i] and under[i] != g[i]
-        touches = may_hold[i] == UNLIMITED and abs(under[i]) <= tolerance[i]
-        if changes or (touches and ahead[i] - under[i] > least):
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
-    if settling.stage > 0 and guards.n_fired > 1:
-        keep_first(m.events)
-
-
-@compiled
-def move_on(m):
-    """Guards a little later than at `y_probe`, into `wrong`; the largest way of what dV (in u) moves till then."""
-    problem, run, point, matrices = m.problem, m.run, m.point, m.linear.matrices
-    n = problem.n
-    loaded, dv, moved, f = reals(point.at_y_probe, n), reals(point.at_u, n), reals(point.at_x, n), reals(point.at_f, n)
-    differential, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
-    values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
-    columns = indices(matrices.at_mass_columns, matrices.n_mass)
-    later, most = LATER * (run.stop - run.start), 0.0
-    for k in range(n):
-        moved[k] = loaded[k]
-        most = max(most, abs(dv[k]))
-    field_at(problem.call_rhs, (problem.context, point.t, point.at_x, point.at_f))
-    for e in range(matrices.n_mass):
-        k = rows[e]
-        if k == columns[e] and differential[k] == 1 and quadrature[k] == 0 and dv[k] == 0.0 and values[e] != 0.0:
-            moved[k] += later * f[k] / values[e]
-    evaluate_guards(problem, run, m.events.guards, point.t + later, point.at_x, m.events.settling.at_wrong)
-    return later * most
-
-
-@compiled
-def change_speeds(problem, point, matrices, back, supports):
-    """Add the change in u to the speeds and book what is lost, and what supports that move have given."""
-    n = problem.n
-    y, b, r, e = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
-    dv, lost = reals(point.at_u, n), reals(point.at_lost, n)
-    for k in range(n if back == NO_REBOUND else 0):
-        e[k] = 0.0
-    gained, loss = energies(point, matrices)
-    weight = 0.0
-    for k in range(n):
-        weight += abs(b[k] * r[k]) * (1.0 - e[k] ** 2)
-    if not supports:
-        loss = -gained
-    for k in range(n):
-        y[k] += dv[k]
-        if weight > 0.0:
-            lost[k] += loss * abs(b[k] * r[k]) * (1.0 - e[k] ** 2) / weight
-    if problem.dissipated_at >= 0:
-        y[problem.dissipated_at] += loss
-        y[problem.supplied_at] += gained + loss
-
-
-@compiled
-def energies(point, matrices):
-    """The change of kinetic energy that u makes, and what is lost: (1 - e^2) dV M dV / 2 with u = (1 + e) dV."""
-    y, dv = reals(point.at_y, point.n), reals(point.at_u, point.n)
-    differential = indices(point.at_differential, point.n)
-    values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
-    columns, e = indices(matrices.at_mass_columns, matrices.n_mass), reals(point.at_y_probe, point.n)
-    gained = loss = 0.0
-    for p in range(matrices.n_mass):
-        i, j = rows[p], columns[p]
-        if differential[i] == 1:
-            loss += 0.5 * values[p] * dv[i] * dv[j] * (1.0 - e[i]) / (1.0 + e[i])
-            gained += 0.5 * values[p] * (dv[i] * y[j] + y[i] * dv[j] + dv[i] * dv[j])
-    return gained, loss
-
-
-@compiled
-def any_support_moves(problem, point):
-    """True if a rigid row slips though all that the impulse moves is at rest: what it leans on moves."""
-    n = problem.n
-    y, dv, still = reals(point.at_y, n), reals(point.at_u, n), reals(point.at_y_probe, n)
-    for k in range(n):
-        still[k] = 0.0 if dv[k] != 0.0 else y[k]
-    slip_at(problem.call_slip, (problem.context, point.t, point.at_y_probe, point.at_x))
-    r, takes = reals(point.at_x, n), indices(problem.at_takes_impulse, n)
-    moves = False
-    for k in range(n):
-        moves = moves or (takes[k] >= UNLIMITED and r[k] != 0.0)
-    return moves

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.component.instantiate import PortRef
+from fairlead.component.keys import PORT, key
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.kernels.structure import Structure
@@ -157,6 +158,18 @@ def kinks(blocks: Sequence[Block]) -> Integers:
         slots = [{(g["to"] < 0, g["machine"]) for g in of_slot} for of_slot in _sharing(block)]
         for row in block.machines:
             found += [all(leads and row[machine] in smooth for leads, machine in slot) for slot in slots]
+    return np.array(found, dtype=np.int64)
+
+
+def asked_of_blows(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard in a class without a port that takes in anything.
+
+    Impulses ask them with the speeds before, see `Facts.blow_guard`.
+    """
+    found: list[int] = []
+    for block in blocks:
+        tells = not any(key(target).kind == PORT for target in block.kernel.structure.targets)
+        found += [int(tells)] * block.kernel.structure.slots * block.count
     return np.array(found, dtype=np.int64)
 
 

@@ -15,6 +15,7 @@ from fairlead.system.arrays.blocks import Block, Floats, Tables
 from fairlead.system.arrays.outputs import signals, stored
 from fairlead.system.arrays.shares import rows, shares
 from fairlead.system.arrays.switching import (
+    asked_of_blows,
     guards,
     holders,
     kinks,
@@ -96,6 +97,7 @@ def build(
         takes_impulse=takes_impulse(blocks, numbering.n),
         met_guard=met(blocks),
         limit_guard=limits(blocks),
+        blow_guard=asked_of_blows(blocks),
         kink_guard=kinks(blocks),
         linear=all(_is_linear(block, numbering) for block in blocks),
         machine_names=list(machines),

@@ -1,0 +1,124 @@
+"""Forces of impacts that go through signals: a slide is rubbed by what the blow of a stop on a block presses.
+
+    P = mass of the block * 2 m/s        slide: speed loses mu g P/m, where g is what the signals leave of the blow
+
+What signals leave is the limit of a short stiff blow: nothing beyond a limiter, all beyond a dead zone.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import pytest
+
+ENGINES = pytest.mark.parametrize("engine", ["rodas", "ida"])
+ACCURACIES = pytest.mark.parametrize("accuracy", [1e-3, 1e-6])
+MASS, MU, SPEED, PUSH = 2.0, 0.3, 3.0, 10.0
+NAMES = [
+    {"slide": "slide", "block": "block", "stop": "stop", "pad": "pad", "s1": "s1", "s2": "s2", "s3": "s3"},
+    {"slide": "a", "block": "z", "stop": "m", "pad": "b", "s1": "y", "s2": "x", "s3": "c"},
+    {"slide": "z", "block": "c", "stop": "b", "pad": "y", "s1": "a", "s2": "m", "s3": "x"},
+]  # that the order of names is none of the scene's
+
+PRESSED = """
+components:
+  floor: {{type: Ground}}
+  @slide: {{type: Mass, mass: {MASS} kg, position: 0 m, velocity: {SPEED} m/s}}
+  @block: {{type: Mass, mass: {MASS} kg, position: 1 m, velocity: -2 m/s}}
+  @stop: {{type: RigidStop}}
+  @pad: {{type: Contact, curve: {curve}}}
+{parts}
+connections:
+  - [floor.flange, @stop.a, @pad.a]
+  - [@stop.b, @block.flange]
+  - [@pad.b, @slide.flange]
+{joined}
+run: {{stop: {stop} s, engine: {engine}, accuracy: {accuracy}}}
+"""
+
+
+def pressed(parts="", joined="  - [@stop.force, @pad.normal]", curve=MU, stop=0.5001, names=NAMES[0], **given):
+    """The scene with its names."""
+    text = PRESSED.format(MASS=MASS, SPEED=SPEED, parts=parts, joined=joined, curve=curve, stop=stop, **given)
+    for name, other in names.items():
+        text = text.replace(f"@{name}", other)
+    return text
+
+
+ONE = "  - [@stop.force, @s1.{}]\n  - [@s1.signal, @pad.normal]"
+TWO = "  - [@stop.force, @s1.s]\n  - [@s1.signal, @s2.value]\n  - [@s2.signal, @pad.normal]"
+BLOW = MU * 2.0
+SCENES = {
+    "a limiter": ("  @s1: {type: Limiter, low: 0, high: 20}", ONE.format("value"), 0.0),
+    "a wide limiter": ("  @s1: {type: Limiter, low: 0, high: 2e9}", ONE.format("value"), 0.0),
+    "the lesser of two": ('  @s1: {type: SignalFunction, expression: "min(s, 20)"}', ONE.format("s"), 0.0),
+    "a dead zone": ("  @s1: {type: DeadZone, band: 5}", ONE.format("value"), BLOW),
+    "the greater of two": (
+        "  @s1: {type: SignalSelect, pick: greatest}\n  @s2: {type: SignalSource, value: 1e-3}",
+        "  - [@stop.force, @s1.a]\n  - [@s2.signal, @s1.b]\n  - [@s1.signal, @pad.normal]",
+        BLOW + MU * 1e-3 * 0.5 / MASS,
+    ),
+    "a switch": (
+        "  @s1: {type: SignalSwitch, level: 10}",
+        "  - [@stop.force, @s1.a, @s1.control]\n  - [@s1.signal, @pad.normal]",
+        BLOW,
+    ),
+    "the size of the opposite": (
+        '  @s1: {type: SignalFunction, expression: "-s"}\n  @s2: {type: SignalSize}', TWO, BLOW,
+    ),
+    "a size that turns round": ('  @s1: {type: SignalFunction, expression: "abs(2 - s)"}', ONE.format("s"),
+                                BLOW + MU * 2 * 0.5001 / MASS),
+    "a relay": ("  @s1: {type: Relay, upper: 10, on: 20}", ONE.format("value"), 0.0),
+    "a gate that lets it pass": (
+        "  @s1: {type: LogicGate, gate: and, level: 10}\n  @s2: {type: SignalSwitch}",
+        "  - [@stop.force, @s1.a, @s1.b, @s2.a]\n  - [@s1.signal, @s2.control]\n  - [@s2.signal, @pad.normal]",
+        BLOW,
+    ),
+    "three in a row": (
+        "  @s1: {type: DeadZone, band: 5}\n  @s2: {type: SignalSize}\n  @s3: {type: Limiter, low: -1, high: 1e6}",
+        "  - [@stop.force, @s1.value]\n  - [@s1.signal, @s2.value]\n  - [@s2.signal, @s3.value]\n"
+        "  - [@s3.signal, @pad.normal]",
+        0.0,
+    ),
+}  # fmt: skip
+
+
+@ENGINES
+@ACCURACIES
+@pytest.mark.parametrize("case", SCENES)
+def test_a_signal_leaves_of_a_blow_what_it_leaves_of_any_large_force(simulate, engine, accuracy, case):
+    """Beyond a limit nothing; in a dead zone, a switch or a size all."""
+    parts, joined, lost = SCENES[case]
+    result = simulate(pressed(parts, joined, engine=engine, accuracy=accuracy))
+    assert result.at("slide.v", 0.5001) == pytest.approx(SPEED - lost, abs=2e-6)
+
+
+@pytest.mark.parametrize("names", NAMES[1:], ids=["backwards", "mixed"])
+@pytest.mark.parametrize("case", ["a limiter", "a dead zone", "a size that turns round", "three in a row"])
+def test_names_do_not_decide_it(simulate, case, names):
+    """The same numbers, whatever order parts are stored in."""
+    parts, joined, lost = SCENES[case]
+    result = simulate(pressed(parts, joined, names=names, engine="rodas", accuracy=1e-4))
+    assert result.at(f"{names['slide']}.v", 0.5001) == pytest.approx(SPEED - lost, abs=2e-6)
+
+
+@ENGINES
+@ACCURACIES
+def test_a_limiter_hears_again_what_follows_the_blow(simulate, engine, accuracy):
+    """The block is pushed on with 10 N: after the blow, of which nothing passes, that presses."""
+    parts = f"  @s1: {{type: Limiter, low: 0, high: 20}}\n  @s2: {{type: ForceSource, force: -{PUSH} N}}"
+    joined = ONE.format("value") + "\n  - [@s2.flange, @block.flange]"
+    result = simulate(pressed(parts, joined, stop=1, engine=engine, accuracy=accuracy))
+    met = (sqrt(4 + 2 * PUSH / MASS) - 2) * MASS / PUSH
+    assert result.at("slide.v", 1.0) == pytest.approx(SPEED - MU * PUSH * (1 - met) / MASS, rel=20 * accuracy)
+    assert result.at("s1.signal", 1.0) == pytest.approx(PUSH, rel=1e-6)
+
+
+@ENGINES
+@ACCURACIES
+def test_a_relay_is_tripped_by_a_blow(simulate, engine, accuracy):
+    """It lets go again below a level of its own, to which the force after the blow does not fall."""
+    parts = "  @s1: {type: Relay, upper: 10, lower: -1, on: 20}"
+    result = simulate(pressed(parts, ONE.format("value"), stop=1, engine=engine, accuracy=accuracy))
+    assert result.at("s1.signal", 1.0) == 20
+    assert result.at("slide.v", 1.0) == pytest.approx(SPEED - MU * 20 * 0.5 / MASS, rel=20 * accuracy)
