@@ -122,3 +122,22 @@ def test_a_relay_is_tripped_by_a_blow(simulate, engine, accuracy):
     result = simulate(pressed(parts, ONE.format("value"), stop=1, engine=engine, accuracy=accuracy))
     assert result.at("s1.signal", 1.0) == 20
     assert result.at("slide.v", 1.0) == pytest.approx(SPEED - MU * 20 * 0.5 / MASS, rel=20 * accuracy)
+
+
+TABLES = {
+    "falls at once": ("[[0 m/s, 1.4], [0.4 m/s, 1.4], [0.5 m/s, 0.2]]", 2.6),
+    "is even from there on": ("[[0 m/s, 0.9], [0.1 m/s, 0.2], [2.0 m/s, 0.2], [9 m/s, 0.2]]", 2.6),
+    "of many pieces": ("[[0 m/s, 1.4], [0.1 m/s, 1.3], [0.2 m/s, 1.2], [0.3 m/s, 1.1], [0.5 m/s, 0.2]]", 2.6),
+}
+
+
+@ENGINES
+@ACCURACIES
+@pytest.mark.parametrize("case", TABLES)
+@pytest.mark.parametrize("sense", [1, -1], ids=["forward", "backward"])
+def test_a_contact_pressed_by_a_blow_rubs_as_its_table_says_at_its_speed(simulate, engine, accuracy, case, sense):
+    """It was off, and its table in no piece in particular."""
+    points, after = TABLES[case]
+    text = pressed(curve=f"{{curve: table, points: {points}}}", engine=engine, accuracy=accuracy)
+    result = simulate(text.replace(f"velocity: {SPEED}", f"velocity: {sense * SPEED}"))
+    assert result.at("slide.v", 0.5001) == pytest.approx(sense * after, abs=2e-6)

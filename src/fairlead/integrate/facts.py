@@ -48,7 +48,7 @@ class Facts(Protocol):
     def blow_guard(self) -> Integers:
         """[ng]: 1 for guards that an impulse asks with the speeds before (impulse_zones.py), 0 for others.
 
-        Of parts that only tell signals.
+        Of parts that only tell signals, and those that lead to the next piece of a table.
         """
 
     @property

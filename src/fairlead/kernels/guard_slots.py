@@ -1,8 +1,9 @@
-"""Which guards of a class share a slot: one that bounds a held force never shares one with others.
+"""Which guards of a class share a slot: those that bound a held force, those that lead on in a table, and others.
 
 A slot has one tolerance, one inertia and one role for all zones of its class. The force of a contact is looked ahead
 for by half the time that a slip is (settling.py) and taken from the equations at an instant (arrival.py); a slot that
-is a bound on a force in one zone and a slip in another would be read as a slip in both. So zones leave slots out.
+is a bound on a force in one zone and a slip in another would be read as a slip in both. A guard that leads to the next
+piece of a table is asked at other speeds in an impact (impulse_zones.py). So zones leave slots out.
 """
 
 from __future__ import annotations
@@ -14,6 +15,9 @@ import sympy
 from fairlead.component.trace import Traced, TracedGuard, TracedZone
 from fairlead.kernels import layout
 
+Role = tuple[bool, bool]
+"""Whether a guard bounds a force that holds, and whether it leads to the next piece of a table."""
+
 
 def bounds_what_holds(guard: TracedGuard, zone: TracedZone) -> bool:
     """True for a guard that reads a force which holds in this zone."""
@@ -23,16 +27,16 @@ def bounds_what_holds(guard: TracedGuard, zone: TracedZone) -> bool:
 
 def in_slots(traced: Traced) -> Traced:
     """The class with its guards in slots of one role each; where a zone leaves one out, a guard that never fires."""
-    roles: list[bool] = []
+    roles: list[Role] = []
     return replace(traced, zones={name: _placed(name, zone, roles) for name, zone in traced.zones.items()})
 
 
-def _placed(name: str, zone: TracedZone, roles: list[bool]) -> TracedZone:
+def _placed(name: str, zone: TracedZone, roles: list[Role]) -> TracedZone:
     placed: list[TracedGuard] = []
     for guard in zone.guards:
-        bounds = bounds_what_holds(guard, zone)
-        while len(placed) < len(roles) and roles[len(placed)] != bounds:
+        role = bounds_what_holds(guard, zone), guard.step != 0
+        while len(placed) < len(roles) and roles[len(placed)] != role:
             placed.append(TracedGuard("", name, guard.unit, [sympy.Float(layout.NOT_IN_FORCE)]))
-        roles += [bounds] * (len(placed) == len(roles))
+        roles += [role] * (len(placed) == len(roles))
         placed.append(guard)
     return replace(zone, guards=placed)

@@ -2,7 +2,7 @@
 
 Contacts and stops are asked with the speeds v + dV, for they hold if they come to rest or touch then. What only tells
 signals, as a limiter between the force of a stop and the brake that it presses, tells all through the impulse what it
-tells of the force P / SHORT. Such guards
+tells of the force P / SHORT. A law between the points of a table is followed from the speeds before. Such guards
 (`blow_guard`) are asked with the speeds before and the load, and zones go back in the settlement after the impulse.
 """
 

@@ -162,14 +162,15 @@ def kinks(blocks: Sequence[Block]) -> Integers:
 
 
 def asked_of_blows(blocks: Sequence[Block]) -> Integers:
-    """1 for every guard in a class without a port that takes in anything.
+    """1 for every guard in a class without a port that takes in anything, or to the next piece of a table.
 
     Impulses ask them with the speeds before, see `Facts.blow_guard`.
     """
     found: list[int] = []
     for block in blocks:
         tells = not any(key(target).kind == PORT for target in block.kernel.structure.targets)
-        found += [int(tells)] * block.kernel.structure.slots * block.count
+        pieces = [bool(slot) and all(g["to"] < 0 for g in slot) for slot in _sharing(block)]
+        found += [int(tells or piece) for piece in pieces] * block.count
     return np.array(found, dtype=np.int64)
 
 
