@@ -70,7 +70,7 @@ class Impact:
         at.point("blow_guard", np.zeros(len(may_hold) + 1), np.int64)
         at.array["takes_impulse"][:] = 0
         at.array["takes_impulse"][forces] = takes
-        at.array["is_speed"][speeds] = 1
+        at.array["struck"][speeds] = 1
         at.array["speed_of"][:] = np.arange(n)
         at.array["unweighed"][ledger] = 1
         rigid = np.broadcast_to(np.asarray(takes) == UNLIMITED, rows)

@@ -2,7 +2,8 @@
 
     P = mass of the block * 2 m/s        slide: speed loses mu g P/m, where g is what the signals leave of the blow
 
-What signals leave is the limit of a short stiff blow: nothing beyond a limiter, all beyond a dead zone.
+What signals leave is the limit of a short stiff blow: nothing beyond a limiter, all beyond a dead zone. And what is
+integrated of the force of a stop gets the impulse.
 """
 
 from __future__ import annotations
@@ -141,3 +142,120 @@ def test_a_contact_pressed_by_a_blow_rubs_as_its_table_says_at_its_speed(simulat
     text = pressed(curve=f"{{curve: table, points: {points}}}", engine=engine, accuracy=accuracy)
     result = simulate(text.replace(f"velocity: {SPEED}", f"velocity: {sense * SPEED}"))
     assert result.at("slide.v", 0.5001) == pytest.approx(sense * after, abs=2e-6)
+
+
+MET = """
+components:
+  floor: {{type: Ground}}
+  block: {{type: Mass, mass: 2 kg, position: 1 m, velocity: -2 m/s}}
+  stop: {{type: RigidStop, restitution: {restitution}}}
+{parts}
+connections:
+  - [floor.flange, stop.a]
+  - [stop.b, block.flange]
+{joined}
+run: {{stop: 0.6 s, engine: {engine}, accuracy: {accuracy}}}
+"""
+INTEGRATED = {
+    "itself": ("  sum: {type: Integrator}", "  - [stop.force, sum.value]", 1.0),
+    "twice": ("  sum: {type: Integrator, gain: 2}", "  - [stop.force, sum.value]", 2.0),
+    "less what is due": ("  sum: {type: Integrator}\n  fn: {type: SignalFunction, expression: '3*s - 1'}",
+                         "  - [stop.force, fn.s]\n  - [fn.signal, sum.value]", 3.0),
+    "limited": ("  sum: {type: Integrator}\n  fn: {type: Limiter, low: 0, high: 20}",
+                "  - [stop.force, fn.value]\n  - [fn.signal, sum.value]", 0.0),
+}  # fmt: skip
+
+
+@ENGINES
+@ACCURACIES
+@pytest.mark.parametrize("restitution", [0, 0.5, 1])
+@pytest.mark.parametrize("case", INTEGRATED)
+def test_the_integral_of_a_force_gets_its_impulse(simulate, engine, accuracy, restitution, case):
+    """Of 2 kg at 2 m/s, and what is thrown back."""
+    parts, joined, share = INTEGRATED[case]
+    result = simulate(MET.format(
+        restitution=restitution, parts=parts, joined=joined, engine=engine, accuracy=accuracy
+    ))  # fmt: skip
+    due = -0.6 if case == "less what is due" else 0.0
+    assert result.at("sum.signal", 0.6) == pytest.approx(share * 4 * (1 + restitution) + due, abs=1e-5)
+    assert result.at("block.v", 0.6) == pytest.approx(2 * restitution, abs=1e-6)
+
+
+WORK = """
+components:
+  first: {{type: Mass, mass: 1 kg, position: 0 m, velocity: 2 m/s}}
+  sensor: {{type: PowerSensor}}
+  between: {{type: Mass, mass: {between} kg}}
+  stop: {{type: RigidStop, restitution: {e}}}
+  second: {{type: Mass, mass: 1 kg, position: 1 m, velocity: 0 m/s}}
+  sum: {{type: Integrator}}
+connections:
+  - [first.flange, sensor.a]
+  - [sensor.b, between.flange, stop.a]
+  - [stop.b, second.flange]
+  - [sensor.power, sum.value]
+run: {{stop: 1 s, engine: {engine}, accuracy: {accuracy}}}
+"""
+
+
+@ENGINES
+@ACCURACIES
+@pytest.mark.parametrize("e", [0, 0.5])
+def test_the_integral_of_a_power_gets_the_work_of_an_impact(simulate, engine, accuracy, e):
+    """What the first body has lost."""
+    between = 0.25
+    result = simulate(WORK.format(e=e, between=between, engine=engine, accuracy=accuracy))
+    after = 2 - (1 + e) * 2 * 1 / (2 + between)
+    assert result.at("first.v", 1.0) == pytest.approx(after, rel=1e-6)
+    assert result.at("sum.signal", 1.0) == pytest.approx((2**2 - after**2) / 2, abs=1e-5)
+
+
+DOG = """
+components:
+  left: {{type: Inertia, moment: 1 kg*m^2, angle: 0 rad, speed: 0 rad/s}}
+  right: {{type: Inertia, moment: 1 kg*m^2, angle: 0 rad, speed: 0.5 rad/s}}
+  dog: {{type: DogClutch, synchronised: 1 rad/s}}
+  lever: {{type: SignalSource, value: {{step: {{to: 1, at: 0.5 s}}}}}}
+  sum: {{type: Integrator}}
+connections:
+  - [left.shaft, dog.a]
+  - [dog.b, right.shaft]
+  - [lever.signal, dog.engage]
+  - [dog.torque, sum.value]
+run: {{stop: 1 s, engine: {engine}, accuracy: {accuracy}}}
+"""
+
+
+@ENGINES
+@ACCURACIES
+def test_the_integral_of_the_torque_of_a_dog_clutch_gets_the_blow_of_its_engaging(simulate, engine, accuracy):
+    """Two equal rotors share what the one turned with."""
+    result = simulate(DOG.format(engine=engine, accuracy=accuracy))
+    assert result.at("sum.signal", 1.0) == pytest.approx(-0.25, abs=1e-5)
+
+
+@ENGINES
+@ACCURACIES
+def test_what_is_integrated_of_two_stops_joins_them_to_no_one_impact(simulate, engine, accuracy):
+    """Each gives back its own share, though both meet at one instant and their forces add up in one integral."""
+    result = simulate(f"""
+components:
+  floor: {{type: Ground}}
+  one: {{type: Mass, mass: 2 kg, position: 1 m, velocity: -2 m/s}}
+  other: {{type: Mass, mass: 3 kg, position: 1 m, velocity: -2 m/s}}
+  soft: {{type: RigidStop, restitution: 0}}
+  hard: {{type: RigidStop, restitution: 0.5}}
+  both: {{type: Sum}}
+  sum: {{type: Integrator}}
+connections:
+  - [floor.flange, soft.a, hard.a]
+  - [soft.b, one.flange]
+  - [hard.b, other.flange]
+  - [soft.force, both.a]
+  - [hard.force, both.b]
+  - [both.signal, sum.value]
+run: {{stop: 0.6 s, engine: {engine}, accuracy: {accuracy}}}
+""")
+    assert result.at("one.v", 0.6) == pytest.approx(0, abs=1e-6)
+    assert result.at("other.v", 0.6) == pytest.approx(1, rel=1e-6)
+    assert result.at("sum.signal", 0.6) == pytest.approx(4 + 9, abs=1e-5)

@@ -90,7 +90,8 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
         "holder": np.asarray(problem.holder, np.int64), "circle": np.asarray(problem.circle, np.int64),
-        "is_speed": moved_at_once(problem),
+        "is_speed": moved_at_once(problem), "struck": moved_at_once(problem) * (1 - integrals(problem)),
+        "integral": integrals(problem),
         "differential": np.asarray(problem.differential, np.int64),
         "quadrature": np.asarray(problem.quadrature, np.int64),
         "unweighed": (problem.quadrature | problem.gauge).astype(np.int64),
@@ -104,6 +105,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n),
         **plan.arrays,
     }  # fmt: skip
+    numbers["n_integrals"] = int(given["integral"].sum())
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
     if contacts:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
@@ -332,6 +334,16 @@ def moved_at_once(problem: Problem) -> Integers:
     chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
     chosen[[x for x, v in lay_out(problem).positions.items() if v >= 0]] = 0
     return chosen
+
+
+def integrals(problem: Problem) -> Integers:
+    """1 for states inside parts that no other row of M reads: of what is given as a rate, impulses change them."""
+    n, pattern = len(problem.initial), problem.mass_pattern
+    rows, columns = np.asarray(pattern.rows), columns_of(pattern)
+    alone = (np.bincount(rows, minlength=n) == 1) & (np.bincount(columns, minlength=n) == 1)
+    alone &= diagonal(pattern, n) >= 0
+    states = np.asarray(problem.stiff, dtype=bool) & np.asarray(problem.differential, dtype=bool)
+    return (states & alone & ~np.asarray(problem.quadrature, dtype=bool)).astype(np.int64)
 
 
 def write_numbers(memory: Memory, values: Mapping[str, float]) -> None:

@@ -35,7 +35,12 @@ Unilateral Contacts, 1996, chapter 8.
 from __future__ import annotations
 
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.events.impulse_changes import any_support_moves, change_of_speed, change_speeds
+from fairlead.integrate.events.impulse_changes import (
+    any_support_moves,
+    change_of_speed,
+    change_speeds,
+    integrate_impulses,
+)
 from fairlead.integrate.events.impulse_load import LIMITED, SHORT, UNLIMITED, least_impulse, load, takes_any
 from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
 from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, rebound
@@ -77,6 +82,8 @@ def impact(m):
     if back == REBOUND:
         throw_back(problem, m.run, point, guards)
     change_speeds(problem, point, matrices, back, supports)
+    if problem.n_integrals > 0:
+        integrate_impulses(m)
     m.events.settling.stage_from = m.events.settling.passes  # with other speeds, zones of before are no circle
     turn_round(problem, m.run, point, guards)
     return RELEASED if guards.n_fired > 0 else factors_at(problem, point, m.linear, point.at_y, point.at_ft)
@@ -93,12 +100,12 @@ def solve_to_rounding(problem, point, linear):
     n = problem.n
     y, b, r = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_v, n)
     after, missed = reals(point.at_y_probe, n), reals(point.at_f, n)
-    takes, is_speed = indices(problem.at_takes_impulse, n), indices(problem.at_is_speed, n)
+    takes, struck = indices(problem.at_takes_impulse, n), indices(problem.at_struck, n)
     status = solve_watched(linear, point.at_b)
     if status != DONE:
         return status
     for k in range(n):
-        after[k] = y[k] + (b[k] if is_speed[k] == 1 else 0.0)
+        after[k] = y[k] + (b[k] if struck[k] == 1 else 0.0)
     field_at(problem.call_drift, (problem.context, point.t, point.at_y_probe, point.at_f))
     for k in range(n):
         if takes[k] < UNLIMITED and r[k] == 0.0:

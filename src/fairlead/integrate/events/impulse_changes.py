@@ -1,19 +1,27 @@
-"""What an impulse changes: speeds, and the ledger of energy with what is lost."""
+"""What an impulse changes: speeds, the ledger of energy with what is lost, and what is integrated of forces.
+
+The integral z of what follows from a force, z' = f(force, speeds), takes in the impulse, as an impulse is the integral
+of its force:
+
+    change of z = (df/dforce) (1 + e) P        at the force P / SHORT and at the speeds halfway through their change
+
+Halfway, because the integral of a power is then the work: a speed changes evenly with the impulse.
+"""
 
 from __future__ import annotations
 
-from fairlead.integrate.events.impulse_load import UNLIMITED
+from fairlead.integrate.events.impulse_load import UNLIMITED, load_forces
 from fairlead.integrate.events.rebound import NO_REBOUND
-from fairlead.integrate.memory.foreign import compiled, indices, reals, slip_at
+from fairlead.integrate.memory.foreign import compiled, indices, jacobian_at, reals, slip_at
 from fairlead.integrate.point.controller import weighted_norm
 
 
 @compiled
 def change_of_speed(problem, point):
     """Set u = dV and tell its weighted norm; the ledger has its own account of an impact, and positions stand still."""
-    b, u, is_speed = reals(point.at_b, problem.n), reals(point.at_u, problem.n), indices(problem.at_is_speed, problem.n)
+    b, u, struck = reals(point.at_b, problem.n), reals(point.at_u, problem.n), indices(problem.at_struck, problem.n)
     for k in range(problem.n):
-        u[k] = b[k] if is_speed[k] == 1 else 0.0
+        u[k] = b[k] if struck[k] == 1 else 0.0
     return weighted_norm(point, point.at_u)
 
 
@@ -69,3 +77,29 @@ def any_support_moves(problem, point):
     for k in range(n):
         moves = moves or (takes[k] >= UNLIMITED and r[k] != 0.0)
     return moves
+
+
+@compiled
+def integrate_impulses(m):
+    """Add to integrals of forces what the impulses in b give them; u has the change of speed, `y_probe` e by row."""
+    problem, run, point, matrices = m.problem, m.run, m.point, m.linear.matrices
+    n = problem.n
+    y, b, dv, e = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_u, n), reals(point.at_y_probe, n)
+    speed_of, differential = indices(problem.at_speed_of, n), indices(problem.at_differential, n)
+    integral, halfway = indices(problem.at_integral, n), reals(point.at_y_probe, n)
+    for k in range(n):
+        if differential[k] == 0:
+            b[k] *= 1.0 + e[speed_of[k]]
+    for k in range(n):
+        halfway[k] = y[k] - 0.5 * dv[k]
+    load_forces(problem, run, point)
+    jacobian_at(problem.call_jacobian, (problem.context, point.t, point.at_y_probe, matrices.at_jacobian, point.at_x))
+    problem.jacobians += 1
+    starts, rows = indices(matrices.at_jacobian_starts, n + 1), indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    slopes, mass = reals(matrices.at_jacobian, matrices.n_jacobian), reals(matrices.at_mass, matrices.n_mass)
+    own_mass = indices(matrices.at_diagonal_mass, n)
+    for k in range(n):
+        if differential[k] == 0 and b[k] != 0.0:
+            for p in range(starts[k], starts[k + 1]):
+                if integral[rows[p]] == 1:
+                    y[rows[p]] += slopes[p] * b[k] / mass[own_mass[rows[p]]]

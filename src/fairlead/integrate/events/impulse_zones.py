@@ -28,9 +28,9 @@ def change_zones_for(m):
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
     n, ng = problem.n, problem.n_guards
     y, b, loaded = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_y_probe, n)
-    is_speed = indices(problem.at_is_speed, n)
+    struck = indices(problem.at_struck, n)
     for k in range(n):
-        loaded[k] = y[k] + (b[k] if is_speed[k] == 1 else 0.0)
+        loaded[k] = y[k] + (b[k] if struck[k] == 1 else 0.0)
     load_forces(problem, run, point)
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)

@@ -16,7 +16,7 @@ PROBLEM = Struct(
         # whether guards have inertias
         "weighs_guards",
         # impacts: whether any row takes impulses; unknowns of the energy ledger (-1: there is none)
-        "takes_impulses", "rebounds", "n_balanced", "n_light", "dissipated_at", "supplied_at",
+        "takes_impulses", "rebounds", "n_integrals", "n_balanced", "n_light", "dissipated_at", "supplied_at",
         # positions that move back to relations, and those of which the acceleration is an unknown, as of relations that
         # hold for ever
         "n_moves", "n_accelerated",
@@ -52,7 +52,8 @@ PROBLEM = Struct(
         "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
         "limit_guard": "n_guards", "bounded_row": "n_guards", "blow_guard": "n_guards",
         # by row who decides whether it holds, and the number of the circle in which forces are shared (0: none)
-        "holder": "n", "circle": "n", "falls": "n_zones", "is_speed": "n", "zones": "n_zones",
+        "holder": "n", "circle": "n", "falls": "n_zones", "is_speed": "n", "struck": "n", "integral": "n",
+        "zones": "n_zones",
         "guard_machine": "n_guards",
     },
 )  # fmt: skip
