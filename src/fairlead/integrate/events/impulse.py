@@ -84,7 +84,6 @@ def impact(m):
     change_speeds(problem, point, matrices, back, supports)
     if problem.n_integrals > 0:
         integrate_impulses(m)
-    m.events.settling.stage_from = m.events.settling.passes  # with other speeds, zones of before are no circle
     turn_round(problem, m.run, point, guards)
     return RELEASED if guards.n_fired > 0 else factors_at(problem, point, m.linear, point.at_y, point.at_ft)
 
