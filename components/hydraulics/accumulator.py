@@ -31,6 +31,9 @@ class Accumulator(Component):
 
     The gas is ideal. n = 1.4 is fast (adiabatic), n = 1 slow: write  heat: isothermal  for a gas that keeps its
     temperature and takes its heat from the air around. The state is ln(p/precharge).
+
+    Limits: when it is empty and a shut valve is all that its port is joined to, nothing says which pressure is there;
+    a Volume at the port does.
     """
 
     port = Hydraulic("the neck")

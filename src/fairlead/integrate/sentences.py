@@ -50,6 +50,15 @@ def last_patterns(memory: Memory) -> np.ndarray:
     return history[passes // 2 :]
 
 
+AT_START = "Give a better initial value, or check that the equations have a solution in these zones."
+LATER = (
+    "They were looked for from those just before. Check that the equations have a solution in these zones, and that no "
+    "law there jumps. If they have one, put something between that gives way, as a Mass or a Volume does, or let what "
+    "changes at once take a short time."
+)
+"""What to do where no consistent values are found: at the start, and at a switch."""
+
+
 def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culprits: tuple[str, ...]) -> str:
     """One paragraph about the end of the run."""
     t, names = float(memory.number["t"]), ", ".join(culprits)
@@ -74,8 +83,8 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
             "between them."
         ),
         Status.INCONSISTENT: (
-            f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. Give "
-            "a better initial value, or check that the equations have a solution in these zones."
+            f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. "
+            + (AT_START if t <= run.start else LATER)
         ),
         Status.SINGULAR: (
             f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or "

@@ -7,8 +7,8 @@ By Newton; linear problems take one iteration, and a second to know it. Impacts 
 project: at a capture C (dV, Lambda) = r with r = -v_rel on the rows that hold gives the impulse that brings them to
 rest and conserves momentum; dV is added to the differential unknowns, Lambda dropped. It is of the size of rounding.
 
-The start is staged: the same Newton from the user's guess, then damped (halving while the residual
-norm, in units of its first value by row, grows), then settling.
+Where Newton fails, it begins once more with damped updates (`damped_newton`). A flow through an orifice that stops at
+once needs them: of x/(x^2 + c^2)^(1/4) = 0 the full update leads from a large x to -x, and back.
 """
 
 from __future__ import annotations
@@ -42,6 +42,9 @@ REFRESHED = 3
 """Newton updates after which the weights are those of the forces found so far; most settle in two."""
 ROUNDED = 1e-3
 """An update below this that no longer halves is rounding: of a force of 3e5 N, 1e-11 N is."""
+DAMPED_UPDATES, LEAST_FRACTION = 50, 1e-4
+"""Most damped updates, and the least share of one that is tried: those of the code NLEQ1 for highly nonlinear problems
+(Nowak and Weimann 1991, ZIB TR 91-10)."""
 
 
 @compiled
@@ -223,6 +226,18 @@ def solve_point(m, iterations):
     if status != DONE:
         return status
     project(problem, point, linear)
+    keep(point)
+    status = newton(m, iterations)
+    if status in (NOT_CONSISTENT, SINGULAR):
+        give_back(point)
+        status = damped_newton(m)
+    return status
+
+
+@compiled
+def newton(m, iterations):
+    """Newton with full updates; DONE or why not."""
+    problem, point, linear, matrices = m.problem, m.point, m.linear, m.linear.matrices
     weigh(point, point.at_y)
     previous = 1e300
     for iteration in range(iterations):
@@ -251,6 +266,86 @@ def solve_point(m, iterations):
             size = damp(point, size)
         previous = size
     return NOT_CONSISTENT
+
+
+@compiled
+def damped_newton(m):
+    """Newton that takes the largest share s = 1, 1/2, 1/4, ... of an update x after which less is left to do.
+
+    Less by the natural test, which knows no units:  |x'| <= (1 - s/4) |x|  with the update x' that the same matrix asks
+    for at the new point; a share small enough always passes. Source: Deuflhard 2004, Newton Methods for Nonlinear
+    Problems, section 3.3.
+    """
+    problem, point, linear, matrices = m.problem, m.point, m.linear, m.linear.matrices
+    previous = 1e300
+    for iteration in range(DAMPED_UPDATES):
+        status = prepare_consistent(problem, point, linear)
+        if status != DONE:
+            return status
+        weigh(point, point.at_y)
+        residual_here(problem, point, matrices, point.at_x)
+        if iteration == 0:
+            status = solve_watched(linear, point.at_x)
+            if status != DONE:
+                return status
+        else:
+            solve(linear, point.at_x)
+        size = algebraic_size(point, point.at_x)
+        if not isfinite(size):
+            return NOT_CONSISTENT
+        if size > ROUNDED:
+            if not take_share(m, size):
+                return NOT_CONSISTENT
+        else:
+            update(point, 1.0)
+            if size <= SETTLED_UPDATE or size > 0.5 * previous:
+                slope_change(point, linear)
+                return DONE
+        previous = size
+    return NOT_CONSISTENT
+
+
+@compiled
+def take_share(m, size):
+    """Add the largest share of the update in x that passes the natural test; False where none does."""
+    problem, point, linear = m.problem, m.point, m.linear
+    keep(point)
+    share = 1.0
+    while share >= LEAST_FRACTION:
+        update(point, share)
+        residual_here(problem, point, linear.matrices, point.at_b)
+        solve(linear, point.at_b)
+        if algebraic_size(point, point.at_b) <= (1.0 - share / 4.0) * size:
+            return True
+        give_back(point)
+        share *= 0.5
+    return False
+
+
+@compiled
+def keep(point):
+    """Remember the point and its slopes."""
+    n = point.n
+    copy(reals(point.at_y, n), reals(point.at_y_kept, n))
+    copy(reals(point.at_slope, n), reals(point.at_slope_kept, n))
+
+
+@compiled
+def give_back(point):
+    """Go back to what was remembered."""
+    n = point.n
+    copy(reals(point.at_y_kept, n), reals(point.at_y, n))
+    copy(reals(point.at_slope_kept, n), reals(point.at_slope, n))
+
+
+@compiled
+def algebraic_size(point, at_update):
+    """The weighted size of the algebraic part of an update; not finite where any of it is not."""
+    n = point.n
+    x, u, differential = reals(at_update, n), reals(point.at_u, n), indices(point.at_differential, n)
+    for k in range(n):
+        u[k] = x[k] if differential[k] == 0 or not isfinite(x[k]) else 0.0
+    return weighted_norm(point, point.at_u)
 
 
 @compiled

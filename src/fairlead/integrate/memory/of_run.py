@@ -42,6 +42,8 @@ POINT = Struct(
         "y": "n", "slope": "n", "y_end": "n", "y_piece": "n", "y_probe": "n", "f": "n", "ft": "n", "b": "n", "x": "n",
         "u": "n", "v": "n", "residual": "n", "error_vector": "n", "weight": "n", "curvature": "n", "D": "three_n",
         "absolute": "n", "relative": "n", "cap": "n",
+        # the point and its slopes before updates that may be taken back
+        "y_kept": "n", "slope_kept": "n",
         # energy lost in impacts, by the row that held
         "lost": "n",
         # the fastest meeting that gave nothing back since it was slow, by the row; -1 where one did before
