@@ -1,12 +1,13 @@
 """Signals that choose: a relay with two levels, and a switch between two signals."""
 
-from fairlead.component import Component, Input, Law, Output, Parameter, Zones, guard, zone
+from fairlead.component import Choice, Component, Input, Law, Output, Parameter, Zones, guard, zone
 
 
 class Relay(Component):
     """signal = `on` once value has risen above `upper`, and `off` once it has fallen below `lower` again.
 
-    Both levels the same make a comparator. `begins_on` says which it is where the value starts between the levels.
+    Both levels the same make a comparator. Where the value starts between the levels, it is off, or on with
+    `begins_on: yes`.
     """
 
     exempt = {"odd": "A relay is not symmetric unless its levels are."}
@@ -16,6 +17,8 @@ class Relay(Component):
     lower = Parameter("1", "Value at which it switches off; that of `upper` when not given.", default=None)
     on = Parameter("1", "Signal while it is on.", default=1.0)
     off = Parameter("1", "Signal while it is off.", default=0.0)
+    begins_on = Choice(("no", "yes"), "Whether it is on at first, where the value starts between the levels.",
+                       default="no")  # fmt: skip
     signal = Output("1", "`on` or `off`.")
     zones = Zones("off", "on")
 
@@ -23,6 +26,10 @@ class Relay(Component):
         """It lets go below where it takes hold."""
         if p.lower is not None and p.lower > p.upper:
             yield "lower", f"lower {p.lower:g} is above upper {p.upper:g}", "Lower it."
+
+    def begins_in(p):
+        """On, if it is asked to be."""
+        return "on" if p.begins_on == "yes" else "off"
 
     @zone("off", "on")
     def told(p, zone):

@@ -318,3 +318,28 @@ run: {{stop: 1 s}}
     (tmp_path / "scene.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=says):
         fairlead.load(tmp_path / "scene.yaml").check()
+
+
+BETWEEN = """
+    components:
+      value: {{type: SignalSource, value: {value}}}
+      relay: {{type: Relay, lower: -1, upper: 1, on: 3, off: -3{begins}}}
+    connections: [[value.signal, relay.value]]
+    run: {{stop: 10 s}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("begins", "value", "first", "last"),
+    [
+        ("", "0", -3, -3),
+        (", begins_on: no", "0", -3, -3),
+        (", begins_on: yes", "0", 3, 3),
+        (", begins_on: yes", "-2", -3, -3),
+        (", begins_on: no", "2", 3, 3),
+        (", begins_on: yes", "{ramp: {to: -2, over: 4 s, start: 1 s}}", 3, -3),
+    ],
+)
+def test_a_relay_begins_as_asked_where_its_value_is_between_its_levels(simulate, begins, value, first, last):
+    result = simulate(BETWEEN.format(begins=begins, value=value))
+    assert (result["relay.signal"][0], result["relay.signal"][-1]) == (first, last)

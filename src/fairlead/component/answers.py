@@ -299,6 +299,9 @@ class Answers:
         SHARE, "with an output of role strain: the share of its length by which it may get shorter without a remark",
         default=0.5,
     )
+    begins_in: Callable[[Any], str] | None = _asked(
+        method("p"), "the zone in which it begins, unless a guard says otherwise; the first one where it is not said"
+    )
     saturates_in: tuple[str, ...] | Mapping[str, tuple[str, ...]] = _asked(
         SATURATION, "zones in which a larger input gives no larger output, of all inputs or by input; a run tells of a "
         "controller that winds up there", default=(),

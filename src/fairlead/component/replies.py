@@ -286,6 +286,12 @@ def _nothing(value: Any, has: Declaration) -> Any:
     return value
 
 
+def _zone(value: Any, has: Declaration) -> Any:
+    if value not in has.zones:
+        raise _gives(value)
+    return value
+
+
 REPLIES: dict[str, tuple[str, Callable[[Any, Declaration], Any]]] = {
     "inertia": (
         'It gives a map from ports to finite numbers from 0 on (in SI), such as {"flange": p.mass}; {} for none.',
@@ -309,6 +315,7 @@ REPLIES: dict[str, tuple[str, Callable[[Any, Declaration], Any]]] = {
     "check": ("It yields three texts: the parameter (or ''), what is wrong, and a way out.", _check),
     "prepare": ("It gives a map of all parameters by name: {**given, 'creep': 1e-4}.", _prepare),
     "fastest": ("It gives two numbers: speed without load [rad/s], and torque at rest [N*m].", _two_numbers),
+    "begins_in": ("It gives the name of one of its zones.", _zone),
     "breaks_away_at": ("It gives a number: friction over normal force.", _number),
     "narrowest": ("It gives a slip speed [m/s], or None.", _number_or_none),
     "changes_over": ("It gives a range of slip speeds [m/s], or None.", _number_or_none),

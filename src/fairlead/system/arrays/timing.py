@@ -42,8 +42,16 @@ def time_places(blocks: Sequence[Block]) -> Integers:
 
 
 def first_pieces(blocks: Sequence[Block], zones: Integers) -> list[PlacedTable]:
-    """Put tables of unknowns into a piece from which they settle; what is given in time waits for the start: those."""
+    """Put parts into the zones in which they begin, and tables of unknowns into a piece from which they settle.
+
+    What is given in time waits for the start: those.
+    """
     timed = []
+    for block in blocks:
+        if block.count and block.instances[0].type.answers.begins_in is not None:
+            for instance, machines in zip(block.instances, block.machines, strict=True):
+                zone = instance.type.answers.begins_in(instance.values)
+                zones[machines[0]] = block.kernel.structure.zones.index(zone)
     for table in tables(blocks):
         if table.timed:
             timed.append(table)
