@@ -61,3 +61,20 @@ def test_a_body_that_friction_warms_slips_more_easily(simulate):
     assert one.at("warm.temperature", 4.0) > ROOM + 20
     assert np.allclose(one.at("warm.temperature", times), other.at("warm.temperature", times), atol=1e-3)
     assert np.allclose(one.at("block.x", times), other.at("block.x", times), atol=1e-6)
+
+
+@pytest.mark.parametrize(("speed", "within"), [(0.0, 0.0), (2e-3, 1.5e-2), (-0.01, 1.1e-6), (1.0, 1e-9), (100.0, 1e-9)])
+def test_convection_grows_with_the_root_of_the_speed(simulate, speed, within):
+    """heat = (still + moved sqrt|v|) area difference: `moved` is what 1 m/s adds."""
+    result = simulate("""
+        parameters: {speed: 1}
+        components:
+          plate: {type: HeatCapacity, capacity: 1000 J/K, start_temperature: 400 K}
+          air: {type: FixedTemperature, temperature: 300 K}
+          draught: {type: SignalSource, value: "{speed}"}
+          cooled: {type: HeatConvection, area: 1 m^2, still: 5 W/K/m^2, moved: 20 W/K/m^2}
+        connections: [[plate.port, cooled.a], [cooled.b, air.port], [draught.signal, cooled.speed]]
+        run: {stop: 1 s}
+    """, speed=speed)  # fmt: skip
+    added = result["cooled.heat"][0] / 100 - 5
+    assert added == pytest.approx(20 * abs(speed) ** 0.5, rel=within, abs=1e-9)
