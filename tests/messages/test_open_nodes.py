@@ -77,3 +77,41 @@ def test_with_volumes_it_runs(scene):
         text = text.replace("rotor: {", f"{name}: {{type: Volume, volume: 0.1 L}}\n      rotor: {{")
         text = text.replace(f"[{port}, ", f"[{port}, {name}.port, ")
     assert scene(text).run(out=None).ok
+
+
+SERIES = {
+    "coils": ("""
+        components:
+          earth: {type: Earth}
+          source: {type: VoltageSource, voltage: 10 V}
+          one: {type: Inductor, inductance: 1 V*s/A}
+          two: {type: Inductor, inductance: 3 V*s/A, resistance: 1 ohm}
+        connections: [[earth.terminal, two.minus, source.minus], [source.plus, one.plus], [one.minus, two.plus]]
+        run: {stop: 1 s}
+    """, "{one.minus, two.plus} joins one and two in series"),
+    "a choke before a motor": ("""
+        components:
+          earth: {type: Earth}
+          source: {type: VoltageSource, voltage: 24 V}
+          choke: {type: Inductor, inductance: 5e-3 V*s/A}
+          motor: {type: DcMotor, resistance: 1 ohm, constant: 0.1 N*m/A}
+          rotor: {type: Inertia, moment: 1e-3 kg*m^2}
+        connections:
+          - [earth.terminal, source.minus, motor.minus]
+          - [source.plus, choke.plus]
+          - [choke.minus, motor.plus]
+          - [motor.shaft, rotor.shaft]
+        run: {stop: 1 s}
+    """, "{choke.minus, motor.plus} joins choke and motor in series"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SERIES)
+def test_inductances_in_series_are_to_be_added(scene, name):
+    """Their node is joined to an Earth through the circuit, so nobody is to be asked for one."""
+    text, what = SERIES[name]
+    with pytest.raises(ModelError) as told:
+        scene(text).check()
+    assert what in str(told.value)
+    assert "give one of them the sum" in str(told.value)
+    assert "Join the circuit to an Earth" not in str(told.value)

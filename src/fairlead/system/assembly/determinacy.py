@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from fairlead.component.base import Family
-from fairlead.component.declare import ROTATIONAL
+from fairlead.component.declare import ELECTRICAL, ROTATIONAL
 from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.component.replies import is_bundled
@@ -32,6 +32,10 @@ from fairlead.system.assembly.left_open import OPEN, as_written
 from fairlead.system.assembly.light_holds import held_entries, light_parts, relations
 from fairlead.system.numbering.unknowns import Numbering, part_rows
 
+IN_SERIES = (
+    "Write their inductances as one: give one of them the sum, and take the other out (or a Resistor in its place). A "
+    "Resistor or a Capacitor from the node to an Earth would do, too."
+)
 MOST_NAMED = 4  # nodes or components in one message
 THROUGH = {"translational": "force", "rotational": "torque", "hydraulic": "pressure", "electrical": "voltage",
            "thermal": "temperature"}  # fmt: skip
@@ -112,6 +116,10 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
     owners = dict.fromkeys(path for (path, _), at in numbering.own.items() if at in part)
     near = dict.fromkeys([*owners, *(port.instance for node in nodes for port in node.ports)])
     while_ = "" if always else _zones_at_start(blocks, set(near))
+    if coils := _in_series(nodes, blocks):
+        what = f"{_named(flat, nodes[:1])} joins {_and(coils)} in series, and each has a current of its own: no law "
+        what += f"determines the voltage between them{while_}."
+        return Fault(_written(flat, nodes[0]), what, IN_SERIES)
     if nodes:
         lacks = "has no mass and no" if nodes[0].domain.mechanical else "has nothing that gives way, and no"
         what = f"{_named(flat, nodes)} {lacks} law determines its {THROUGH[nodes[0].domain.name]}{while_}."
@@ -132,6 +140,24 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
         return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
     way_out = "Its law must say what is zero for it, or hold(slip), and that must depend on it or on a free motion."
     return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
+
+
+def _in_series(nodes: list[Node], blocks: list[Block]) -> list[str]:
+    """The parts at the first of these nodes, if they are electrical and the current of each is a state of its own."""
+    if not nodes or nodes[0].domain.name != ELECTRICAL.name:
+        return []
+    kept = {port for block in blocks for port in _kept_flows(block)}
+    found = [port.instance for port in nodes[0].ports]
+    return found if len(set(found)) > 1 and set(nodes[0].ports) <= kept else []
+
+
+def _kept_flows(block: Block) -> Iterator[PortRef]:
+    """Ports whose flow is a state of the part, and nothing else."""
+    uses = block.kernel.structure.flow_inputs[block.kernel.structure.zones[0]]
+    states = set(block.kernel.variant.type.declaration.states)
+    for target, keys in uses.items():
+        if key(target).kind == PORT and keys and all(key(k).kind == OWN and key(k).name in states for k in keys):
+            yield from (PortRef(instance.path, key(target).name) for instance in block.instances)
 
 
 def _index(block: Block, owners: Iterable[str]) -> int:
