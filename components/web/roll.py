@@ -16,15 +16,23 @@ from fairlead.component import (
     Rotational,
     Translational,
     Unknown,
+    Zones,
+    guard,
     hold_position,
     pi,
+    zone,
 )  # fmt: skip
 
 SHARE = 0.25  # of what does not change of the inertia, that stands in the  any share below 1 is exact
 
 
 class OnRoll(Component, abstract=True):
-    """Half-model of web on a roll: what it tells of its radius, its length and its inertia."""
+    """Half-model of web on a roll: what it tells of its radius, its length and its inertia.
+
+    on          some web is left
+    used_up     none is; the run ends, unless `left` is told to a span whose end comes off
+    gone        the radius is zero, where any run ends
+    """
 
     shaft = Rotational("the roll")
     radius = Parameter("m", "Radius at angle zero.", above=0)
@@ -32,10 +40,14 @@ class OnRoll(Component, abstract=True):
     core_radius = Parameter("m", "Radius of the core.", above=0)
     thickness = Parameter("m", "Thickness of the web.", above=0)
     strain = Parameter("1", "Strain of the web on the roll.", default=0.0)
+    back = Parameter("1", "Turns that an empty core may go back.", default=0.0, least=0)
     outside = Output("m", "Radius at which the web comes off or on.", name="radius")
     wound = Output("m", "Web on the roll.")
     inertia_now = Output("kg*m^2", "J, of all that turns.", name="moment")
     held = Output("1", "Strain of the web on the roll.", name="strain")
+    used_up = Output("1", "1 once no web is left, 2 where the radius is zero.", role="used_up",
+                     of="wound")  # fmt: skip
+    zones = Zones("on", "used_up", "gone")
 
 
 class WoundWeb(OnRoll):
@@ -50,13 +62,24 @@ class WoundWeb(OnRoll):
     bulk = Parameter("kg/m^2", "Pi times density times width over two.", above=0)
     steady = Parameter("kg*m^2", "Inertia at no radius.", least=0)
 
-    def law(p, shaft):
+    @zone("on", "used_up", "gone")
+    def carried(p, shaft, zone):
         """A torque along with the growing inertia."""
         outside = p.radius + p.growth * shaft.angle
         torque = 2 * p.bulk * outside**3 * p.growth * shaft.speed**2
         return Law(shaft=-torque, supplied=torque * shaft.speed, radius=outside, strain=p.strain,
                    wound=pi * (outside**2 - p.core_radius**2) / p.thickness,
-                   moment=p.steady + p.bulk * outside**4)  # fmt: skip
+                   moment=p.steady + p.bulk * outside**4, used_up={"on": 0, "used_up": 1, "gone": 2}[zone])  # fmt: skip
+
+    @guard("on", to="used_up", unit="m")
+    def ends(p, shaft):
+        """The radius is that of the core."""
+        return p.core_radius - p.back * p.thickness - p.radius - p.growth * shaft.angle
+
+    @guard("used_up", to="gone", unit="m")
+    def vanishes(p, shaft):
+        """The radius is zero."""
+        return -p.radius - p.growth * shaft.angle
 
 
 class Spiral(Component):
@@ -101,10 +124,23 @@ class SteadyRoll(OnRoll):
     rim = Translational("where the web comes off or on")
     moment = Parameter("kg*m^2", "Moment of inertia of all that turns.", above=0)
 
-    def law(p, shaft):
+    @zone("on", "used_up", "gone")
+    def carried(p, shaft, zone):
         """The web on it becomes less, or more, all the same."""
         wound = pi * (p.radius**2 - p.core_radius**2 + 2 * p.radius * p.growth * shaft.angle) / p.thickness
-        return Law(radius=p.radius, wound=wound, moment=p.moment, strain=p.strain)
+        return Law(shaft=0, rim=0, radius=p.radius, wound=wound, moment=p.moment, strain=p.strain,
+                   used_up={"on": 0, "used_up": 1, "gone": 2}[zone])  # fmt: skip
+
+    @guard("on", to="used_up", unit="m")
+    def ends(p, shaft):
+        """The web on it is none, in turns of the core."""
+        turned = p.radius**2 - p.core_radius**2 + 2 * p.radius * p.growth * shaft.angle
+        return -turned / (2 * p.core_radius) - p.back * p.thickness
+
+    @guard("used_up", to="gone", unit="m")
+    def vanishes(p, shaft):
+        """The radius would be zero, had it followed."""
+        return -(p.radius**2 + 2 * p.radius * p.growth * shaft.angle) / (2 * p.radius)
 
     def ties(p):
         """A rack."""
@@ -150,7 +186,7 @@ def rolled(p, scene, way, length):
     """Expansion of a roll whose radius grows (way +1) or falls (-1) as it turns; `length` is what its web is called."""
     bulk = pi * p.density * p.width / 2
     same = {"radius": p.radius, "growth": way * p.thickness / (2 * pi), "core_radius": p.core_radius,
-            "thickness": p.thickness, "strain": p.strain}  # fmt: skip
+            "thickness": p.thickness, "strain": p.strain, "back": float(way > 0)}  # fmt: skip
     told = {"radius": "roll.radius", "moment": "roll.moment", length: "roll.wound"}
     if way < 0:
         told["held"] = "roll.strain"
@@ -183,10 +219,12 @@ class Unwinder(WebRoll):
     J = moment + pi density width (R^4 - core_radius^4)/2,    J d(speed)/dt = torque + R tension
 
     `left` is the web still on it, pi (R^2 - core_radius^2)/thickness; connect it with `left` of the first span, and
-    `held` with its `before`. There is no term speed dJ/dt, because web that leaves keeps its momentum.
+    `held` with its `before`. There is no term speed dJ/dt, because web that leaves keeps its momentum. A run ends where
+    the roll is used up, at R = core_radius; where `left` is connected, the end of the web comes off there, what is left
+    of the roll turns on, and a run ends at R = 0 at the latest.
 
-    Source: docs/physics.md, 4.9. Limits: layers do not slip or give; what is left of a used-up roll turns on; the
-    thickness is that of the web as it comes off. Only `rodas` takes radii that change (docs/components.md).
+    Source: docs/physics.md, 4.9. Limits: layers do not slip or give; the thickness is that of the web as it comes off.
+    Only `rodas` takes radii that change (docs/components.md).
     """
 
     left = Output("m", "Web left on the roll; at zero it is used up.")
@@ -203,7 +241,8 @@ class Winder(WebRoll):
     J = moment + pi density width (R^4 - core_radius^4)/2,    J d(speed)/dt = torque - R tension
 
     `wound` is the web on it, pi (R^2 - core_radius^2)/thickness. A TaperTension tells the torque that is wanted over
-    `radius`. There is no term speed dJ/dt, because web that comes brings its momentum.
+    `radius`. There is no term speed dJ/dt, because web that comes brings its momentum. A run ends where an empty core
+    has turned back by a whole turn.
 
     Source: docs/physics.md, 4.9. Limits: layers do not slip or give; no air is wound in; `strain` is not that of
     what comes on. Only `rodas` takes radii that change (docs/components.md).

@@ -106,6 +106,7 @@ class StorageDrum(Composite):
 
     R = radius at angle zero, less diameter^2/(width 2 pi) (nested: sqrt(3)/2 of it) for each angle paid out. So it is
     an Unwinder whose web is a layer of rope; turned backward it winds. `held` is the strain that the rope keeps on it.
+    A run ends where no rope is left, at R = core_radius.
 
     Source: docs/physics.md, 4.4 and 4.9. Limits: the radius grows evenly and not layer by layer (a Winch of a Route has
     layers); all rope on it has the one strain; only `rodas` takes it.

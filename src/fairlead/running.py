@@ -26,6 +26,7 @@ from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.unsettled import with_way_out
+from fairlead.analysis.record.used_up import UsedUp
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.analysis.remarks.remarks import remarks
 from fairlead.analysis.treatments.friction_record import friction_record
@@ -81,7 +82,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         asked = engine_settings(netlist, settings, system, patterns, between=peaks or bool(strains.names))
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
-                      strains, BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
+                      strains, UsedUp.of(system, recording.recorded),
+                      BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
                       WindUp.of(system, recording.recorded if told else []),
                       RoundedOff.of(system, recording.recorded if told else []),
                       together, GaveWay(system, asked.start), progress, interruption, event_rows, settings.accuracy,
@@ -99,8 +101,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         summary["dwell"] = asked.dwell
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
-        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.gave_way.remarks(),
-                 *inexact]  # fmt: skip
+        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(),
+                 *watch.gave_way.remarks(), *inexact]
         summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)

@@ -20,6 +20,7 @@ from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
 from fairlead.analysis.record.strains import Strains
+from fairlead.analysis.record.used_up import UsedUp
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.integrate import Block, End
 from fairlead.interruption import Interruption
@@ -46,6 +47,7 @@ class Watch:
     creep: WorstCreep
     limits: Limits
     strains: Strains
+    used_up: UsedUp
     below: BelowWeight
     wind_up: WindUp
     rounded: RoundedOff
@@ -87,7 +89,8 @@ class Watch:
         Raises KeyboardInterrupt when it is written, if that was asked for meanwhile.
         """
         self.interruption.between_blocks = True
-        found = self.strains.end(block.t, block.values)
+        ends = (self.strains.end(block.t, block.values), self.used_up.end(block.t, block.values))
+        found = min((end for end in ends if end is not None), key=lambda end: end[0], default=None)
         self._take(block if found is None else up_to(block, found[0]))
         self.interruption.due()
         return None if found is None else End(float(block.t[found[0]]), *found[1:])

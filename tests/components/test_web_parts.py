@@ -316,3 +316,64 @@ def test_the_end_of_a_web_comes_off_when_its_roll_is_used_up(simulate):
     assert switched(result, "web", "torn") == pytest.approx(np.pi * 1.1e-3 / 1e-3 / 1.2, rel=2e-3)
     assert result.at("web.tension", 2.8) > 90
     assert result["web.tension"][-1] == 0
+
+
+DRUM = """
+    components:
+      drum: {type: StorageDrum, radius: 0.32 m, core_radius: 0.3 m, width: 1 m, diameter: 30 mm, mass: 3 kg/m,
+             nested: no, moment: 60 kg*m^2}
+      motor: {type: SpeedSource, speed: 5 rad/s}
+      end: {type: Mass, mass: 1 kg, position: 0 m}
+    connections: [[drum.shaft, motor.shaft], [drum.rim, end.flange]]
+    run: {stop: 100 s, accuracy: 1e-6}
+"""
+
+
+def test_a_run_ends_where_no_rope_is_left_on_a_drum(scene):
+    """The angle until then is (R - core) 2 pi width/diameter^2; the rope pi (R^2 - core^2) width/diameter^2."""
+    result = scene(DRUM).run(out=None, check=False)
+    assert not result.ok
+    assert "drum is used up" in result.run["sentence"]
+    assert result.t[-1] == pytest.approx(0.02 * 2 * np.pi / 0.03**2 / 5, rel=1e-6)
+    assert result["drum.radius"][-1] == pytest.approx(0.3, rel=1e-6)
+    assert result["drum.left"][-1] == pytest.approx(0.0, abs=1e-4)
+    assert result["end.x"][-1] == pytest.approx(np.pi * (0.32**2 - 0.3**2) / 0.03**2, rel=1e-6)
+
+
+@pytest.mark.parametrize("layers", ["on", "off"])
+def test_a_run_ends_where_a_roll_is_used_up_whether_or_not_its_radius_follows(scene, layers):
+    text = (SCENES / "unwinder.yaml").read_text(encoding="utf-8").split("name: unwinder\n")[1]
+    text = text.replace("stop: 18 s", "stop: 200 s").replace("every: 10 ms, ", "") + f"effects: {{layers: {layers}}}\n"
+    result = scene(text).run(out=None, check=False)
+    assert not result.ok
+    assert "roll is used up" in result.run["sentence"]
+    assert result["roll.left"][-1] == pytest.approx(0.0, abs=1e-3)
+    if layers == "on":
+        assert result["roll.radius"][-1] == pytest.approx(0.05, rel=1e-4)
+
+
+def test_what_is_left_of_a_roll_turns_on_until_its_radius_is_zero(scene):
+    """A span that listens to `left` has let its end come off; the motor turns what is left of the roll on."""
+    text = USED_UP.replace("run: {stop: 4 s, accuracy: 1e-6}", "run: {stop: 100 s, accuracy: 1e-5}")
+    text = text.replace("signals: [web.tension,", "signals: [roll.radius,")
+    result = scene(text.replace("torque: -6 N*m", "torque: 1 N*m")).run(out=None, check=False)
+    assert "roll is used up" in result.run["sentence"]
+    assert switched(result, "web", "gone") < result.t[-1]
+    assert result["roll.radius"][-1] == pytest.approx(0.0, abs=1e-4)
+
+
+WOUND = """
+    components:
+      roll: {type: Winder, radius: 50 mm, core_radius: 50 mm, width: 0.5 m, thickness: 1 mm, density: 800 kg/m^3,
+             moment: 0.2 kg*m^2, speed: 1 rad/s}
+      pull: {type: TorqueSource, torque: -0.1 N*m}
+    connections: [[roll.shaft, pull.shaft]]
+    run: {stop: 100 s, accuracy: 1e-6}
+"""
+
+
+def test_an_empty_core_may_go_back_by_a_turn(scene):
+    """It comes to rest, and turns back past where it began."""
+    result = scene(WOUND).run(out=None, check=False)
+    assert "roll is used up" in result.run["sentence"]
+    assert result["roll.radius"][-1] == pytest.approx(0.049, rel=1e-5)

@@ -61,6 +61,8 @@ def check(cls: type[Declaring], sort: str) -> None:
     for name, output in has.outputs.items():
         known = output.role in ("", *ROLES)
         demand(cls, known, f"{name!r} has the role {output.role!r}; roles are {', '.join(ROLES)}")
+        known = output.of in ("", *has.outputs)
+        demand(cls, known, f"{name!r} is of {output.of!r}, which is no output of the class")
         known = output.rounded_by in ("", *has.parameters)
         demand(cls, known, f"{name!r} is rounded by {output.rounded_by!r}, which is no parameter of the class")
         clash = name in {**has.ports, **has.states, **has.unknowns, **has.inputs, **has.discrete}

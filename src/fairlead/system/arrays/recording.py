@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fairlead.component.declare import CREEP, INTEGRAL, PULL, STRAIN
+from fairlead.component.declare import CREEP, INTEGRAL, PULL, STRAIN, USED_UP
 from fairlead.kernels import layout
 from fairlead.patterns import picked
 from fairlead.system.arrays.blocks import Block, Integers, Memory
@@ -15,7 +15,7 @@ from fairlead.system.arrays.shares import shares
 from fairlead.system.arrays.shown import flows_to_ask, what_to_ask
 from fairlead.system.numbering.unknowns import Numbering
 
-WATCHED = (CREEP, STRAIN, PULL, INTEGRAL)
+WATCHED = (CREEP, STRAIN, PULL, INTEGRAL, USED_UP)
 """Roles of outputs that every run looks at, whatever is recorded."""
 
 
@@ -69,7 +69,8 @@ def choose(
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]
-    hidden = [s for s in signals if (s.role in WATCHED or s.rounded_by or s.at < 0) and s.name not in names]
+    watched = [s for s in signals if s.role in WATCHED or s.rounded_by or s.at < 0]
+    hidden = [s for s in watched if s.name not in names]
     return recording(chosen, chosen + hidden, blocks, numbering, memory)
 
 
