@@ -17,6 +17,7 @@ from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
+from fairlead.analysis.record.never_closed import NeverClosed
 from fairlead.analysis.record.no_rebound import remark as no_rebound
 from fairlead.analysis.record.pushes import pushes
 from fairlead.analysis.record.released_together import ReleasedTogether
@@ -86,6 +87,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       BelowWeight.of(system, recording.chosen if told else [], settings.accuracy),
                       WindUp.of(system, recording.recorded if told else []),
                       RoundedOff.of(system, recording.recorded if told else []),
+                      NeverClosed.of(system, recording.recorded if told else [], asked.start),
                       together, GaveWay(system, asked.start), progress, interruption, event_rows, settings.accuracy,
                       peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
@@ -101,7 +103,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         summary["dwell"] = asked.dwell
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
-        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(),
+        found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.open_.remarks(),
                  *watch.gave_way.remarks(), *inexact]
         summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:

@@ -16,6 +16,7 @@ from fairlead.analysis.record.event_rows import EventRows, Rows
 from fairlead.analysis.record.extremes import Extremes
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.limits import Limits
+from fairlead.analysis.record.never_closed import NeverClosed
 from fairlead.analysis.record.released_together import ReleasedTogether
 from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
@@ -51,6 +52,7 @@ class Watch:
     below: BelowWeight
     wind_up: WindUp
     rounded: RoundedOff
+    open_: NeverClosed
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     gave_way: GaveWay
     progress: Callable[[float, float, Any], None] | None
@@ -111,6 +113,7 @@ class Watch:
         self.strains.watch(block.t, block.values)
         self.below.watch(block.values)
         self.rounded.watch(block.values)
+        self.open_.watch(block.values, block.events)
         self.wind_up.watch(block.t, block.values, block.events)
         if self.metered is not None:
             self.ledger.watch(block.values[:, self.metered])

@@ -57,3 +57,38 @@ def test_none_presses_nothing(simulate: Scene) -> None:
     pad = PAD[0].replace('"{normal}"', "0 N")
     result = simulate(SLIDER.format(engine="rodas", pad=pad, joined=PAD[1]))
     assert result["block.x"][-1] == pytest.approx(4.0)
+
+
+BY_SIGNAL = """
+    parameters: {normal: 1e-7}
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 1e-7, velocity: 1 m/s}
+      press: {type: SignalSource, value: "{normal}"}
+      pad: {type: Contact, curve: 0.25%s}
+    connections: [[floor.flange, pad.a], [pad.b, block.flange], [press.signal, pad.normal]]
+    run: {stop: 4 s}
+    record: {signals: [block.x]}
+"""
+
+
+def told(scene: Scene, normal: float, lift: str = "") -> tuple[float, list[str]]:
+    """Where the block is at the end, and what the run has to say of contacts that stayed open."""
+    text = BY_SIGNAL % lift
+    result = scene(text, normal=normal).run(out=None)
+    return float(result["block.x"][-1]), [one for one in result.remarks if "never closed" in one]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_signal_below_the_lift_is_told(scene: Scene) -> None:
+    x, said = told(scene, 1e-7)
+    assert x == pytest.approx(4.0)
+    assert len(said) == 1
+    assert "pad was never closed although its normal force was above zero, up to 1e-07 N" in said[0]
+    assert "`lift`" in said[0]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(("normal", "lift"), [(1e-7, ", lift: 1e-10 N"), (1e-7, ", lift: 1 mN"), (2e-6, ""), (0.0, "")])
+def test_nothing_is_told_of_one_that_closes_or_whose_lift_was_given(scene: Scene, normal: float, lift: str) -> None:
+    assert not told(scene, normal, lift)[1]

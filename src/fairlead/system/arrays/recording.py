@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,13 +63,13 @@ class Recording:
 
 def choose(
     signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], numbering: Numbering,
-    memory: Memory,
+    memory: Memory, also: Collection[str] = (),
 ) -> Recording:  # fmt: skip
-    """The signals of a System whose names fit a pattern with * and ?."""
+    """The signals of a System whose names fit a pattern with * and ?; a run watches those in `also`, too."""
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]
-    watched = [s for s in signals if s.role in WATCHED or s.rounded_by or s.at < 0]
+    watched = [s for s in signals if s.role in WATCHED or s.rounded_by or s.at < 0 or s.name in also]
     hidden = [s for s in watched if s.name not in names]
     return recording(chosen, chosen + hidden, blocks, numbering, memory)
 

@@ -21,6 +21,7 @@ from fairlead.kernels import layout
 from fairlead.kernels.break_away import least_left
 from fairlead.system.arrays.blocks import Block, Memory, Tables
 from fairlead.system.arrays.plain_python import CalledController, Known, called_controllers
+from fairlead.system.arrays.pressing import pressed
 from fairlead.system.arrays.recording import OutputSignal, Recording, choose
 from fairlead.system.arrays.switching import met_slots
 from fairlead.system.arrays.timing import PlacedTable
@@ -279,8 +280,9 @@ class System:
 
     @functools.cached_property
     def _recording(self) -> Callable[[tuple[str, ...]], Recording]:
+        pressing = frozenset(one.signal for one in pressed(self.flat))
         return functools.lru_cache(maxsize=8)(
-            lambda names: choose(self.signals, names, self.blocks, self.numbering, self.memory)
+            lambda names: choose(self.signals, names, self.blocks, self.numbering, self.memory, pressing)
         )
 
     def instance(self, run: Asked | None = None, piece: Bytes | None = None) -> Instance:
