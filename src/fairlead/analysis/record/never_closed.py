@@ -56,7 +56,8 @@ class NeverClosed:
             if i.path in contacts and contacts[i.path].signal in columns
         ]  # fmt: skip
         table = np.array([row[1:] for row in rows], dtype=np.int64).reshape(-1, 3)
-        return cls([row[0] for row in rows], *table.T, start)
+        at, machines, open_ = table.T
+        return cls([row[0] for row in rows], at, machines, open_, start)
 
     def watch(self, rows: Floats, events: NDArray[Any]) -> None:
         """Take recorded rows, shape (k, recorded), and the zone changes among them."""

@@ -48,10 +48,10 @@ def first_pieces(blocks: Sequence[Block], zones: Integers) -> list[PlacedTable]:
     """
     timed = []
     for block in blocks:
-        if block.count and block.instances[0].type.answers.begins_in is not None:
+        begins = block.instances[0].type.answers.begins_in if block.count else None
+        if begins is not None:
             for instance, machines in zip(block.instances, block.machines, strict=True):
-                zone = instance.type.answers.begins_in(instance.values)
-                zones[machines[0]] = block.kernel.structure.zones.index(zone)
+                zones[machines[0]] = block.kernel.structure.zones.index(begins(instance.values))
     for table in tables(blocks):
         if table.timed:
             timed.append(table)
