@@ -8,7 +8,7 @@ integrated of the force of a stop gets the impulse.
 
 from __future__ import annotations
 
-from math import sqrt
+from math import exp, sqrt
 
 import pytest
 
@@ -259,3 +259,21 @@ run: {{stop: 0.6 s, engine: {engine}, accuracy: {accuracy}}}
     assert result.at("one.v", 0.6) == pytest.approx(0, abs=1e-6)
     assert result.at("other.v", 0.6) == pytest.approx(1, rel=1e-6)
     assert result.at("sum.signal", 0.6) == pytest.approx(4 + 9, abs=1e-5)
+
+
+CURVES = {
+    "viscous": ("{curve: viscous, coulomb: 0.1, rate: 0.2 s/m}", 3.5 * exp(-0.4) - 0.5),
+    "steeply viscous": ("{curve: viscous, coulomb: 0.1, rate: 2 s/m}", 3.05 * exp(-4) - 0.05),
+    "stribeck": ("{curve: stribeck, stiction: 1.5, coulomb: 0.3, velocity: 2.5 m/s}", 1.3216582),
+}
+"""Curves, and the speed after an impulse of 2 m/s times the mass: dv/dp = -mu(v)."""
+
+
+@ENGINES
+@ACCURACIES
+@pytest.mark.parametrize("case", CURVES)
+def test_friction_over_speed_follows_the_speed_through_a_blow(simulate, engine, accuracy, case):
+    """Stribeck's by integration of dv/dp with a tolerance of 1e-10; the others by hand."""
+    curve, after = CURVES[case]
+    result = simulate(pressed(curve=curve, engine=engine, accuracy=accuracy))
+    assert result.at("slide.v", 0.5001) == pytest.approx(after, abs=2e-5)

@@ -9,7 +9,8 @@ force, and an impulse is a force beyond all limits for no time. So the guards of
 
 A contact whose normal force is finite lets go. One whose normal force is an impulse itself holds while |P_t| <= mu P_n,
 and slides with P_t = mu P_n beyond that, because C has the slopes of the law; it is caught if that would turn its slip
-round. Losses that follow a load have the slopes that they have under the impulse, not those of no load. A stop that
+round. Losses that follow a load have the slopes that they have under the impulse, not those of no load; where they follow the
+speed too, the impulse is taken in parts (`follow_slopes`). A stop that
 would have to pull opens. One that touches at that instant, and that the speeds v + dV would close, closes: all impacts
 of an instant are one problem, whichever stop was found first. Who changes changes C, so all is asked again until
 nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
@@ -34,6 +35,8 @@ Unilateral Contacts, 1996, chapter 8.
 
 from __future__ import annotations
 
+from math import isfinite, sqrt
+
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse_changes import (
     any_support_moves,
@@ -55,6 +58,9 @@ ROUNDED = 1.0
 """Change of speed, in error weights, below which a slip is no impact."""
 SOLVES, SAME = 12, 1e-9
 """How often it is solved with the slopes under the load at most, and the change of impulses that ends it."""
+BENDS, MOST_PARTS = 1e-7, 1000
+"""Share of the largest impulse by which impulses differ with the slopes halfway, that makes friction depend on speed
+here; also the error left by the parts in which these are followed, of which there are that many at most."""
 
 
 @compiled
@@ -70,6 +76,8 @@ def impact(m):
     if change_of_speed(problem, point) <= ROUNDED:
         return DONE
     status = solve_under_load(m)
+    if status == DONE and bends(m):
+        status = follow_slopes(m)
     if status != DONE:
         return status
     change_zones_for(m)
@@ -145,6 +153,78 @@ def solve_under_load(m):
             break
     change_of_speed(problem, point)
     return DONE if settled else CONTRADICTS
+
+
+@compiled
+def bends(m):
+    """Set `parts`: in how many the impulse in b is to be taken; True if laws depend on the speeds that it changes.
+
+    The error of one implicit midpoint step whose slopes change by the share d is d^2/12, that of r of them d^2/(12 r^2).
+
+    b and u stay as they are.
+    """
+    problem, point, linear = m.problem, m.point, m.linear
+    n = problem.n
+    b, whole = reals(point.at_b, n), reals(problem.at_impulse, n)
+    copy(b, whole)
+    most = change = 0.0
+    if not halfway(m, 0.5):
+        change = 0.0
+    elif slip_to_stop(problem, point) and solve_to_rounding(problem, point, linear) == DONE:
+        for k in range(n):
+            if takes_any(problem, k):
+                most, change = max(most, abs(b[k])), max(change, abs(b[k] - whole[k]))
+    found = isfinite(change) and change > BENDS * most
+    problem.parts = min(MOST_PARTS, int(change / most / sqrt(12.0 * BENDS)) + 1) if found else 0
+    slip_to_stop(problem, point)
+    copy(whole, b)
+    change_of_speed(problem, point)
+    return found
+
+
+@compiled
+def halfway(m, share):
+    """The slopes under the impulses in b and with that share of their change of speed; False if they are singular."""
+    problem, point = m.problem, m.point
+    n = problem.n
+    b, loaded, struck = reals(point.at_b, n), reals(point.at_y_probe, n), indices(problem.at_struck, n)
+    load(m)
+    for k in range(problem.n):
+        if struck[k] == 1:
+            loaded[k] += share * b[k]
+    return factors_at(problem, point, m.linear, point.at_y_probe, point.at_x) == DONE
+
+
+@compiled
+def follow_slopes(m):
+    """Take the impulse in parts, each with the slopes halfway through its change of speed; b and u are the sums.
+
+    Of r parts that are left, one takes 1/r of what would end the slip. The speeds of the point are those of before.
+    """
+    problem, point, linear = m.problem, m.point, m.linear
+    n = problem.n
+    y, b = reals(point.at_y, n), reals(point.at_b, n)
+    whole, before, struck = reals(problem.at_impulse, n), reals(problem.at_before, n), indices(problem.at_struck, n)
+    copy(y, before)
+    whole[:] = 0.0
+    status = DONE
+    for left in range(problem.parts, 0, -1):
+        for share in (0.0, 0.5 / left):
+            if status == DONE and halfway(m, share):
+                slip_to_stop(problem, point)
+                status = solve_to_rounding(problem, point, linear)
+            else:
+                status = CONTRADICTS
+        for k in range(n):
+            whole[k] += b[k] / left
+            if struck[k] == 1:
+                y[k] += b[k] / left
+    copy(before, y)
+    slip_to_stop(problem, point)
+    for k in range(n):
+        b[k] = whole[k]
+    change_of_speed(problem, point)
+    return status
 
 
 @compiled
