@@ -9,13 +9,12 @@ force, and an impulse is a force beyond all limits for no time. So the guards of
 
 A contact whose normal force is finite lets go. One whose normal force is an impulse itself holds while |P_t| <= mu P_n,
 and slides with P_t = mu P_n beyond that, because C has the slopes of the law; it is caught if that would turn its slip
-round. Losses that follow a load have the slopes that they have under the impulse, not those of no load; where they follow the
-speed too, the impulse is taken in parts (`follow_slopes`). A stop that
-would have to pull opens. One that touches at that instant, and that the speeds v + dV would close, closes: all impacts
-of an instant are one problem, whichever stop was found first. Who changes changes C, so all is asked again until
-nobody does. Then the speeds change by dV: momentum is conserved, and every row that holds is at rest.
-What was let go slips, and is caught later as any contact is. Where stops rebound the speeds change by
-(1 + e) dV, and those that part again open (rebound.py).
+round. Losses that follow a load have the slopes that they have under the impulse, not those of no load; where they
+follow the speed too, the impulse is taken in parts (`follow_slopes`). A stop that would have to pull opens. One that
+touches at that instant, and that the speeds v + dV would close, closes: all impacts of an instant are one problem,
+whichever stop was found first. Who changes changes C, so all is asked again until nobody does. Then the speeds change
+by dV: momentum is conserved, and every row that holds is at rest. What was let go slips, and is caught later as any
+contact is. Where stops rebound the speeds change by (1 + e) dV, and those that part again open (rebound.py).
 
 Contacts that close a circle share an impulse as they share a force, by one number a body (redundancy.py). Where
 friction in a circle takes an impulse, its limit is mu P_n, and its guard compares shares of impulses with it. Where
@@ -159,9 +158,8 @@ def solve_under_load(m):
 def bends(m):
     """Set `parts`: in how many the impulse in b is to be taken; True if laws depend on the speeds that it changes.
 
-    The error of one implicit midpoint step whose slopes change by the share d is d^2/12, that of r of them d^2/(12 r^2).
-
-    b and u stay as they are.
+    One implicit midpoint step whose slopes change by the share d has the error d^2/12, and r of them d^2/(12 r^2). b and
+    u stay as they are.
     """
     problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
