@@ -158,7 +158,7 @@ def solve_under_load(m):
 def bends(m):
     """Set `parts`: in how many the impulse in b is to be taken; True if laws depend on the speeds that it changes.
 
-    One implicit midpoint step whose slopes change by the share d has the error d^2/12, and r of them d^2/(12 r^2). b and
+    One implicit midpoint step whose slopes change by the share d has the error d^2/12, r of them d^2/(12 r^2). b and
     u stay as they are.
     """
     problem, point, linear = m.problem, m.point, m.linear
