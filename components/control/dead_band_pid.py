@@ -32,7 +32,7 @@ class DeadBandPid(Composite):
     The error e = reference - measured is heard, whole, once |e| is above `band`, until |e| is below `inner`, so that a
     control whose integral would hunt behind stiction may rest. While it rests P is zero, I stays and D acts on.
 
-    Source: Astrom, Hagglund, Advanced PID Control, 2006 (dead zone on the error against stiction).
+    Source: T. Kuphaldt, Lessons in Industrial Instrumentation (a dead band against cycling behind a valve's stiction).
     Limits: the place reached is within `inner` to `band` of the reference, not on it; the command jumps by K_p e. As I
     stays, leave the integral out where what is controlled integrates the command itself, as a valve and a cylinder do.
     """
