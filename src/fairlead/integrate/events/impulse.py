@@ -75,8 +75,9 @@ def impact(m):
     if change_of_speed(problem, point) <= ROUNDED:
         return DONE
     status = solve_under_load(m)
-    if status == DONE and bends(m):
-        status = follow_slopes(m)
+    parts = count_parts(m) if status == DONE else 0
+    if parts > 0:
+        status = follow_slopes(m, parts)
     if status != DONE:
         return status
     change_zones_for(m)
@@ -155,8 +156,8 @@ def solve_under_load(m):
 
 
 @compiled
-def bends(m):
-    """Set `parts`: in how many the impulse in b is to be taken; True if laws depend on the speeds that it changes.
+def count_parts(m):
+    """In how many parts the impulse in b is to be taken; 0 if no law depends on the speeds that it changes.
 
     One implicit midpoint step whose slopes change by the share d has the error d^2/12, r of them d^2/(12 r^2). b and
     u stay as they are.
@@ -173,11 +174,11 @@ def bends(m):
             if takes_any(problem, k):
                 most, change = max(most, abs(b[k])), max(change, abs(b[k] - whole[k]))
     found = isfinite(change) and change > BENDS * most
-    problem.parts = min(MOST_PARTS, int(change / most / sqrt(12.0 * BENDS)) + 1) if found else 0
+    parts = min(MOST_PARTS, int(change / most / sqrt(12.0 * BENDS)) + 1) if found else 0
     slip_to_stop(problem, point)
     copy(whole, b)
     change_of_speed(problem, point)
-    return found
+    return parts
 
 
 @compiled
@@ -194,7 +195,7 @@ def halfway(m, share):
 
 
 @compiled
-def follow_slopes(m):
+def follow_slopes(m, parts):
     """Take the impulse in parts, each with the slopes halfway through its change of speed; b and u are the sums.
 
     Of r parts that are left, one takes 1/r of what would end the slip. The speeds of the point are those of before.
@@ -206,7 +207,7 @@ def follow_slopes(m):
     copy(y, before)
     whole[:] = 0.0
     status = DONE
-    for left in range(problem.parts, 0, -1):
+    for left in range(parts, 0, -1):
         for share in (0.0, 0.5 / left):
             if status == DONE and halfway(m, share):
                 slip_to_stop(problem, point)

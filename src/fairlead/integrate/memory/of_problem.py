@@ -16,7 +16,7 @@ PROBLEM = Struct(
         # whether guards have inertias
         "weighs_guards",
         # impacts: whether any row takes impulses; unknowns of the energy ledger (-1: there is none)
-        "takes_impulses", "rebounds", "n_integrals", "parts", "n_balanced", "n_light", "dissipated_at", "supplied_at",
+        "takes_impulses", "rebounds", "n_integrals", "n_balanced", "n_light", "dissipated_at", "supplied_at",
         # positions that move back to relations, and those of which the acceleration is an unknown, as of relations that
         # hold for ever
         "n_moves", "n_accelerated",
