@@ -7,7 +7,7 @@ class Integrator(Component):
     """d(signal)/dt = gain value, from `initial` on, and at rest at a limit while the value would lead beyond it.
 
     Without limits it is free. Limits hold the signal where it met them (no windup); it leaves at once when the value
-    changes its sign.
+    changes its sign. Limits: the impulse of an impact may carry it beyond `low` or `high`, and then it stays there.
     """
 
     asked_with = {"low": -1.0, "high": 1.0}

@@ -37,9 +37,9 @@ class SignalFunction(Composite):
     number.
 
     It is made of a block an operation. abs, min and max have zones, so a run locates their corners. A step also ends
-    where an even power is taken of zero, so that a peak like `exp(-((x - 5)/0.01)**2)` or `1/(1 + x**4)` is not stepped
-    over, however narrow (docs/integrator.md). Limits: what it divides by must not come to zero; what a root or a
-    logarithm is taken of stays above zero.
+    where a power in an exponential or a divisor is taken of zero, so that a peak like `exp(-((x - 5)/0.01)**2)` or
+    `1/(1 + x**4)` is not stepped over, however narrow (docs/integrator.md). Limits: what it divides by must not come to
+    zero; what a root or a logarithm is taken of stays above zero.
     """
 
     asked_with = {"expression": "a*sin(b) + 2"}
@@ -140,18 +140,21 @@ class Blocks:
         return getattr(self, NAMES[step.operation])(*values)
 
     def mark_extreme(self, step, values):
-        """Mark where a function that is even has its extreme, and where an exponential outgrows a 1 beside it.
+        """Mark where an even power, a sine, or an exponential beside a 1 may make something narrow of its value.
 
-        Of sines only in what may be narrow: else all steps are short against them (docs/integrator.md).
+        That is in what is exponentiated or divided by; a power above the square is flat so near its zero that nothing
+        else tells of it.
         """
         of, value, narrow = step.operation, values[0], step in self.narrowed
         if isinstance(value, float):
             return
-        even = (of == "**" and values[1] % 2 == 0) or (of == "*" and unsigned(step.inner[0]) == unsigned(step.inner[1]))
-        of_sines = any(one.operation in EXTREME for one in step.parts())
+        square = of == "*" and unsigned(step.inner[0]) == unsigned(step.inner[1])
+        even = square or (of == "**" and values[1] % 2 == 0)
+        flat = even and not square and values[1] > 2
+        swings = any(one.operation in EXTREME for one in step.parts())  # so that all steps are short against it
         if narrow and of in EXTREME:
             self.mark(self.block(ElementaryFunction, {"value": value}, curve=EXTREME[of]))
-        elif (narrow and of == "exp") or (even and (narrow or not of_sines)):
+        elif (narrow and (even or of == "exp")) or (flat and not swings):
             self.mark(value)
 
     def mark(self, end):
