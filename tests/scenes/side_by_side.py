@@ -48,7 +48,7 @@ def motions(scene: Scene, text: str, stop: float, engine: str, accuracy: float) 
         settings = {"run.stop": f"{stop} s", "record.every": f"{stop / ROWS} s"}
         model = fairlead.load(file, set=settings, libraries=scene.libraries)
     result = model.run(out=None, engine=engine, accuracy=accuracy)
-    grid = np.linspace(0.0, stop, ROWS + 1)
+    grid = np.minimum(np.linspace(0.0, stop, ROWS + 1), result.t[-1])
     return {
         signal.name: result.at(signal.name, grid) / max(NOMINAL[signal.unit], np.abs(result[signal.name]).max())
         for signal in result.signals if signal.unit in ("m", "rad")
