@@ -52,7 +52,7 @@ def move_by_error(problem, point, linear, stepping, h):
     holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
     moving, ahead = indices(problem.at_differential, n), reals(point.at_error_vector, n)
     chord_ahead(problem, point, h)
-    forces_at_ends(problem, point, h)
+    forces_at_ends(problem, point, stepping.rule, h)
     core.skip_meters = 1
     for k in range(n):
         b[k] = f1[k] - f0[k] + 4.0 * ahead[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
@@ -135,14 +135,23 @@ def follow_surfaces(problem, point, exchange, h):
 
 
 @compiled
-def forces_at_ends(problem, point, h):
-    """Into `x` and `f`: f at the start and at the end of the step, in its zones and with its forces."""
-    y, y_end, start = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_y_probe, problem.n)
-    moving = indices(problem.at_differential, problem.n)
-    for k in range(problem.n):
-        start[k] = y[k] if moving[k] == 1 else y_end[k]
+def forces_at_ends(problem, point, rule, h):
+    """Into `x` and `f`: f at the start and at the end of the step, in its zones and with its forces.
+
+    Forces are means over the step. Where switches are landed on, those of the start balance there, and so the end has
+    as much more than the mean as the start has less. A law that is curved in both a force and a motion asks for that:
+    its cross term is of the order of q.
+    """
+    n = problem.n
+    y, y_end = reals(point.at_y, n), reals(point.at_y_end, n)
+    start, end = reals(point.at_y_probe, n), reals(point.at_u, n)
+    moving = indices(problem.at_differential, n)
+    for k in range(n):
+        known = moving[k] == 1 or rule.locates == 1
+        start[k] = y[k] if known else y_end[k]
+        end[k] = y_end[k] if moving[k] == 1 else 2.0 * y_end[k] - start[k]
     field_at(problem.call_forces, (problem.context, point.t, point.at_y_probe, point.at_x))
-    field_at(problem.call_forces, (problem.context, point.t + h, point.at_y_end, point.at_f))
+    field_at(problem.call_forces, (problem.context, point.t + h, point.at_u, point.at_f))
     problem.rhs += 2
 
 
