@@ -35,7 +35,8 @@ def gas_volume(times: np.ndarray) -> np.ndarray:
 
     def flow(_: float, volume: np.ndarray) -> float:
         over = 3e6 * (1e-3 / volume[0]) ** 1.2 - 2e6
-        return brentq(lambda q: drop_of(NECK, q, CRITICAL) + drop_of(ORIFICE, q, CRITICAL) - over, 0.0, 1e-3, xtol=1e-18)
+        through = lambda q: drop_of(NECK, q, CRITICAL) + drop_of(ORIFICE, q, CRITICAL) - over  # noqa: E731
+        return brentq(through, 0.0, 1e-3, xtol=1e-18)
 
     start = [1e-3 * (3 / 4) ** (1 / 1.2)]
     return solve_ivp(flow, (0.0, times[-1]), start, t_eval=times, rtol=1e-11, atol=1e-15, method="DOP853").y[0]
