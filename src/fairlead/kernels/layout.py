@@ -102,7 +102,12 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     LIGHT_ENTRIES,  # int64 (entries, LIGHT_ENTRY)
     LIGHT_COEF,  # float64 (entries,)     what the partial derivative counts
     LIGHT_PLACES,  # int64 (.,)          where in M a row has the speeds with inertia of its part
-    LIGHT_WORK,  # float64 (.,)          scratch: the rows of a part
+    LIGHT_SUPPORTS,  # int64 (supports, SUPPORT)  accelerations of supports in those rows
+    LIGHT_SUPPORTS_COEF,  # float64 (supports,)  what its partial derivative counts
+    N_LIGHT_TERMS,  # rows that may have an acceleration of a support: LIGHT_TERMS int64 (terms, LIGHT_TERM)
+    LIGHT_TERMS,
+    LIGHT_AT,  # where among the partial derivatives begins what these rows have more of it than their kernels say
+    LIGHT_WORK,  # float64 (.,)          scratch: the rows of a part, speeds and accelerations of supports
     LIGHT_GIVEN,  # int64 (.,)           scratch: the speed that a row gives, or -1
     HOLDS,  # int64 (holds, HOLD)
     N_LOOSE,
@@ -193,17 +198,20 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     N_SHOWN_FLOWS,  # calls for the flows that give the accelerations and reactions that outputs that are shown read
     SHOWN_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(137)
+) = range(142)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last
 PAIR_X, PAIR_V, PAIR = range(3)  # of PAIRS
 ADD_TO, ADD_PARTIAL, ADD_FROM, ADD = range(4)  # of PROGRAM, FIXED: work[to] += coefficient * partials * work[from]
 MASS_TO, MASS_PARTIAL, MASS_ADD = range(3)  # of MASS_PROGRAM: mass[to] += coefficient * partials
-# Of LIGHT_PARTS: first row, one past the last, speeds without inertia, all speeds. Speeds without inertia come first.
-PART_BEGIN, PART_END, PART_LIGHT, PART_WIDTH, LIGHT_PART = range(5)
+# Of LIGHT_PARTS: first row, one past the last, speeds without inertia, which come first, all speeds, first support, one
+# past the last, and where the terms begin, row by row.
+PART_BEGIN, PART_END, PART_LIGHT, PART_WIDTH, PART_SUPPORT, PART_SUPPORT_END, PART_TERM, LIGHT_PART = range(8)
 LIGHT_FIRST, LIGHT_END, LIGHT_PLACE, LIGHT_ROW = range(4)  # of LIGHT_ROWS: entries, and where its places begin
 ENTRY_SLOT, ENTRY_PARTIAL, LIGHT_ENTRY = range(3)  # of LIGHT_ENTRIES
+SUPPORT_OF, SUPPORT_PARTIAL, SUPPORT = range(3)  # of LIGHT_SUPPORTS: its row in the part, and the partial derivative
+TERM_ROW, TERM_Z, LIGHT_TERM = range(3)  # of LIGHT_TERMS: the row of f, and where in z the acceleration is
 HOLD_PLACE, HOLD_ZONE, HOLD = range(3)  # of HOLDS: position in zones, zone that holds
 GUARD_ZONE, GUARD_FIRST, GUARD_SLOTS, GUARD_SLOT, GUARD_ROW = range(5)  # of GUARD_PLACE
 TO_ZONE, TO_MACHINE, TO_PIECE, TO = range(4)  # of GUARD_TO

@@ -28,6 +28,7 @@ from fairlead.system.assembly.algebraic_nodes import (
     unfit_nodes,
 )
 from fairlead.system.assembly.determinacy import undetermined
+from fairlead.system.assembly.light_holds import rows_eliminated
 from fairlead.system.compiled.build import HOLD_TIME, build
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.initial import starts
@@ -57,7 +58,7 @@ def compile(flat: FlatModel) -> System:
     numbering = number(flat, structures, energy=energy_counted(flat), rated=rated, geared=geared, rates=rates)
     ranks = signal_ranks(flat, kernels)
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
-    still_supports(blocks, numbering)
+    still_supports(blocks, numbering, rows_eliminated(blocks, numbering))
     begin, initially, faults = starts(flat, numbering)
     faults += nominal_faults(flat, numbering)
     faults += undetermined(flat, numbering, blocks)

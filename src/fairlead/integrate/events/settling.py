@@ -4,6 +4,7 @@
     all violators change at once
     if a pattern of zones recurs, or their number has not fallen for a while: those at least half as wrong
         as the worst; if a pattern recurs again: the worst alone; and again: the one of least index
+    a pattern that leaves an unknown open, as a node without inertia of which all contacts slide: one near it
     no settlement within `max_passes` is an error that names what still switches
 
 Judged at (t, y, y') right after a switch: a guard above its tolerance violates; one within its
@@ -24,10 +25,11 @@ from fairlead.integrate.events.consistent import consistent
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
+from fairlead.integrate.events.left_open import near_pattern
 from fairlead.integrate.events.limits import ROUNDING, weigh_limits
 from fairlead.integrate.events.patterns import recurs, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
-from fairlead.integrate.linear.systems import DONE
+from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.point.controller import weighted_norm
 from fairlead.integrate.record.rows import there_is_room, write_event
@@ -78,7 +80,7 @@ def settle(m, iterations):
             continue
         if status == DONE:
             status = consistent(m, iterations)
-        if status == RELEASED:
+        if status == RELEASED or (status == SINGULAR and settles_nearby(m)):
             continue
         if status != DONE:
             return status
@@ -164,6 +166,20 @@ def change_zones(m):
         remember_pattern(run, settling)
     elif recurs(run, settling):
         next_stage(problem, m.events)
+
+
+@compiled
+def settles_nearby(m):
+    """True if zones are in force instead that leave nothing open (left_open.py)."""
+    settling = m.events.settling
+    if settling.passes == 0 or settling.passes >= m.run.max_passes or not near_pattern(m):
+        return False
+    log_changes(m)
+    settling.passes += 1
+    settling.settling_passes += 1
+    if recurs(m.run, settling):
+        next_stage(m.problem, m.events)
+    return True
 
 
 @compiled

@@ -252,9 +252,13 @@ def rows_without_rates(blocks: Sequence[Block], numbering: Numbering) -> Integer
     return distinct(np.concatenate(rows))
 
 
-def still_supports(blocks: Sequence[Block], numbering: Numbering) -> None:
-    """Let rows that are not in M read no accelerations of supports either: their slip is zero as it stands."""
+def still_supports(blocks: Sequence[Block], numbering: Numbering, eliminated: set[int]) -> None:
+    """Let rows that are not in M read no accelerations of supports either: their slip is zero as it stands.
+
+    Those `eliminated` are left out, of which elimination decides with the zones whether they are in M (light_holds.py).
+    """
     without = rows_without_rates(blocks, numbering)
+    without = without[~np.isin(without, list(eliminated))]
     if not len(without):
         return
     for block in blocks:

@@ -14,28 +14,32 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
 from fairlead.system.arrays.shares import Share
 from fairlead.system.assembly.algebraic_nodes import add_rated_entries
+from fairlead.system.assembly.light_holds import add_light_entries
 from fairlead.system.assembly.program import Entries, Program, plan
 from fairlead.system.assembly.redundancy import circle_entries
 from fairlead.system.numbering.unknowns import LEDGER, Numbering, part_rows, reaction_masses
 
 
 def jacobian(
-    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, rated: Memory, more: int
+    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, rows: Memory, more: int
 ) -> Program:
     """Plan of the assembly of df/dy and df/dt, signals eliminated.
 
-    At `more` follow the partials of the circles, then those of the nodes in `rated` (algebraic_nodes.py).
+    At `more` follow the partials of the circles, then those in `rows`: of nodes without inertia whose balances have
+    rates (algebraic_nodes.py), and of rows that hold such nodes beside others (light_holds.py).
     """
     m = numbering.zero - numbering.n
     entries = circle_entries(numbering, m, more)
     partials = more + len(numbering.circles) + len(numbering.share)
-    add_rated_entries(entries, rated, m, partials)
+    add_rated_entries(entries, rows, m, partials)
+    light = partials + len(rows["rated_terms"])
+    add_light_entries(entries, rows, m, light)
     to_whole = {one.row: (one.whole, one.sign) for one in part_rows(flat, numbering)}
     for block, share in zip(blocks, shares, strict=True):
         if block.acts:
             _entries(block, share, numbering, entries, m, to_whole)
     _fixed_entries(flat, numbering, entries, m)
-    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, partials + len(rated["rated_terms"]))
+    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, light + len(rows["light_terms"]))
     return plan(entries, numbering.n, m, level, fixed, list(numbering.ledger.values()))
 
 

@@ -12,7 +12,9 @@ row of M. Without it the equations have index 2. Which rows hold is known when M
 
 Example: a node between two masses, held to both:  v1 - u = 0 gives u,  u - v2 = 0 becomes  v1 - v2 = 0.
 
-Left out are nodes held by rows that read how a support is accelerated.
+Speeds that are given have a column, too: not of M, but of the rates on the right, where the accelerations of supports
+stand. A row that gives a speed has none of them; what is left of them in the others is that of their relation
+(`support_light` in callbacks/evaluation.py). Example: a gear, of which one shaft turns as given and one is braked.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.kernels import layout
 from fairlead.kernels.structure import Structure
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
-from fairlead.system.arrays.shares import Share
+from fairlead.system.arrays.shares import Share, shares
+from fairlead.system.assembly.program import Entries as PlanEntries
 from fairlead.system.numbering.unknowns import Numbering
 
 
@@ -36,6 +39,15 @@ class Entries(NamedTuple):
 
     row: Integers
     column: Integers
+    partial: Integers
+    coef: Floats
+
+
+class Supported(NamedTuple):
+    """Accelerations of supports in rows that hold: row, place in z, partial derivative and what it counts there."""
+
+    row: Integers
+    z: Integers
     partial: Integers
     coef: Floats
 
@@ -49,11 +61,11 @@ class Part(NamedTuple):
     heavy: list[int]
 
 
-def held_entries(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering) -> Entries:
+def held_entries(blocks: Sequence[Block], shared: Sequence[Share], numbering: Numbering) -> Entries:
     """Every unknown speed in a row that holds."""
     row, column, partial = ([np.zeros(0, np.int64)] for _ in range(3))
     coef = [np.zeros(0)]
-    for block, share in zip(blocks, shares, strict=True):
+    for block, share in zip(blocks, shared, strict=True):
         s, count = block.kernel.structure, np.arange(block.count)
         for e, (unknown, j) in enumerate(s.mass):
             own, used = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j] < numbering.n
@@ -64,12 +76,31 @@ def held_entries(blocks: Sequence[Block], shares: Sequence[Share], numbering: Nu
     return Entries(np.concatenate(row), np.concatenate(column), np.concatenate(partial), np.concatenate(coef))
 
 
+def supported_entries(blocks: Sequence[Block], shared: Sequence[Share], numbering: Numbering) -> Supported:
+    """Every acceleration of a support that a row of a hold reads."""
+    row, z, partial = ([np.zeros(0, np.int64)] for _ in range(3))
+    coef = [np.zeros(0)]
+    for block, share in zip(blocks, shared, strict=True):
+        s, count = block.kernel.structure, np.arange(block.count)
+        for e, (unknown, j) in enumerate(s.mass):
+            rate = f"{PORT}:{key(s.inputs[j]).name}:A"
+            if rate not in s.inputs:
+                continue
+            a = s.inputs.index(rate)
+            own, used = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, a] != numbering.zero
+            row.append(own[used])
+            z.append(block.in_index[used, a])
+            partial.append((share.mass + count * len(s.mass) + e)[used])
+            coef.append(block.in_coef[used, a])
+    return Supported(np.concatenate(row), np.concatenate(z), np.concatenate(partial), np.concatenate(coef))
+
+
 def light_parts(blocks: Sequence[Block], entries: Entries, numbering: Numbering) -> list[Part]:
     """The parts in which rows may hold more than the nodes without inertia, and something with inertia."""
     inert = np.array([not u.differential for u in numbering.unknowns], dtype=bool)
     if not inert[entries.column].any() or inert[entries.column].all():
         return []
-    always, accelerated = _always_held(blocks), _accelerated(blocks, numbering)
+    always = _always_held(blocks)
     of_row: dict[int, list[int]] = {}
     for e, row in enumerate(entries.row.tolist()):
         of_row.setdefault(row, []).append(e)
@@ -79,9 +110,15 @@ def light_parts(blocks: Sequence[Block], entries: Entries, numbering: Numbering)
         rows = sorted((row for row in of_row if nodes[row] & set(light)), key=lambda row: (row not in always, row))
         those = [of_row[row] for row in rows]
         heavy = {int(entries.column[e]) for some in those for e in some} - set(light)
-        if heavy and len(rows) > len(light) and accelerated.isdisjoint(rows):
+        if heavy and len(rows) > len(light):
             found.append(Part(rows, those, sorted(light), sorted(heavy)))
     return found
+
+
+def rows_eliminated(blocks: Sequence[Block], numbering: Numbering) -> set[int]:
+    """The rows of these parts."""
+    parts = light_parts(blocks, held_entries(blocks, shares(blocks)[0], numbering), numbering)
+    return {row for part in parts for row in part.rows}
 
 
 def relations(parts: Sequence[Part]) -> list[tuple[int, int]]:
@@ -89,13 +126,22 @@ def relations(parts: Sequence[Part]) -> list[tuple[int, int]]:
     return [(row, column) for part in parts for row in part.rows for column in part.heavy]
 
 
-def light_program(parts: Sequence[Part], entries: Entries, place_of: dict[tuple[int, int], int]) -> Memory:
-    """What the callback reads (the names are explained in layout.py); `place_of` (row, column) is where M has it."""
+def light_program(
+    parts: Sequence[Part], entries: Entries, supported: Supported, place_of: dict[tuple[int, int], int]
+) -> Memory:
+    """What the callbacks read (the names are explained in layout.py); `place_of` (row, column) is where M has it."""
     spans, rows, slots = list[tuple[int, ...]](), list[tuple[int, ...]](), list[tuple[int, int]]()
-    coefs, places = list[float](), list[int]()
+    coefs, places, longest = list[float](), list[int](), 0
+    supports, ratios, terms = list[tuple[int, int]](), list[float](), list[tuple[int, int]]()
     for part in parts:
         slot = {column: k for k, column in enumerate([*part.light, *part.heavy])}
-        spans.append((len(rows), len(rows) + len(part.rows), len(part.light), len(slot)))
+        first, mine = len(supports), np.flatnonzero(np.isin(supported.row, part.rows))
+        supports += [(part.rows.index(int(supported.row[e])), int(supported.partial[e])) for e in mine]
+        ratios += supported.coef[mine].tolist()
+        span = (len(rows), len(rows) + len(part.rows), len(part.light), len(slot), first, len(supports), len(terms))
+        spans.append(span)
+        terms += [(row, int(supported.z[e])) for row in part.rows for e in mine]
+        longest = max(longest, len(part.rows) * (len(slot) + len(mine)))
         for row, those in zip(part.rows, part.entries, strict=True):
             rows.append((len(slots), len(slots) + len(those), len(places)))
             slots += [(slot[int(entries.column[e])], int(entries.partial[e])) for e in those]
@@ -107,9 +153,20 @@ def light_program(parts: Sequence[Part], entries: Entries, place_of: dict[tuple[
         "light_entries": np.array(slots, dtype=np.int64).reshape(-1, layout.LIGHT_ENTRY),
         "light_coef": np.array(coefs, dtype=float),
         "light_places": np.array(places, dtype=np.int64),
-        "light_work": np.zeros(max(((end - begin) * width for begin, end, _, width in spans), default=0)),
-        "light_given": np.zeros(max((end - begin for begin, end, *_ in spans), default=0), dtype=np.int64),
+        "light_supports": np.array(supports, dtype=np.int64).reshape(-1, layout.SUPPORT),
+        "light_supports_coef": np.array(ratios, dtype=float),
+        "light_terms": np.array(terms, dtype=np.int64).reshape(-1, layout.LIGHT_TERM),
+        "light_work": np.zeros(longest),
+        "light_given": np.zeros(max((len(part.rows) for part in parts), default=0), dtype=np.int64),
     }
+
+
+def add_light_entries(entries: PlanEntries, memory: Memory, m: int, first: int) -> None:
+    """Add what f has of accelerations of supports; at `first` among the partials begins how much."""
+    terms = memory["light_terms"]
+    entries.add(
+        terms[:, layout.TERM_ROW] + m, terms[:, layout.TERM_Z], first + np.arange(len(terms)), np.ones(len(terms))
+    )
 
 
 def _always_held(blocks: Sequence[Block]) -> set[int]:
@@ -119,18 +176,6 @@ def _always_held(blocks: Sequence[Block]) -> set[int]:
         for unknown, zones in s.holds.items():
             if len(zones) == len(s.zones):
                 found.update(_rows_of(block, s, unknown).tolist())
-    return found
-
-
-def _accelerated(blocks: Sequence[Block], numbering: Numbering) -> set[int]:
-    """Rows that read how a support is accelerated."""
-    found: set[int] = set()
-    for block in blocks:
-        s = block.kernel.structure
-        for j, one in enumerate(map(key, s.inputs)):
-            if one.kind == PORT and one.part == "A":
-                for unknown in s.holds:
-                    found.update(_rows_of(block, s, unknown)[block.in_index[:, j] != numbering.zero].tolist())
     return found
 
 

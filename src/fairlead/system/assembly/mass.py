@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 from fairlead.system.arrays.blocks import Block, Memory
 from fairlead.system.arrays.shares import Share
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
-from fairlead.system.assembly.light_holds import Entries, held_entries, light_parts, light_program, relations
+from fairlead.system.assembly.light_holds import (
+    Entries,
+    held_entries,
+    light_parts,
+    light_program,
+    relations,
+    supported_entries,
+)  # fmt: skip
 from fairlead.system.assembly.program import Pattern
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -39,7 +46,7 @@ def mass(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering)
         "mass_program": np.ascontiguousarray(
             np.stack([place[: len(row)], entries.partial[kept]], axis=1).astype(np.int64)
         ),
-    } | light_program(parts, entries, place_of)
+    } | light_program(parts, entries, supported_entries(blocks, shares, numbering), place_of)
 
 
 def _kept(entries: Entries, blocks: Sequence[Block], numbering: Numbering, of_light: set[int]) -> NDArray[np.bool_]:

@@ -28,6 +28,8 @@ def assemble(ctx, t, y, ledger, values, ft):
     kernels, blocks = i8(ctx[KERNELS]), ctx[BLOCKS]
     if ctx[N_RATED] > 0:
         share_rates(ctx)
+    if ctx[N_LIGHT_TERMS] > 0:
+        weigh_supports(ctx)
     done = i8(ctx[FIXED_DONE])
     if done[0] == 0:
         fix(ctx, t, y)
@@ -86,41 +88,3 @@ def mass(ctx, values):
         values[program[MASS_ADD * k + MASS_TO]] += coefficient[k] * partials[program[MASS_ADD * k + MASS_PARTIAL]]
     if ctx[N_LIGHT_PARTS] > 0:
         hold_light(ctx, values)
-
-
-def hold_light(ctx, values):
-    """The rows in M of what holds nodes without inertia beside rows that give their speeds; see light_holds.py.
-
-    What elimination leaves of an entry is rounding below 1e-9 of the largest entry that its row had.
-    """
-    partials, parts, rows, coef = f8(ctx[PARTIALS]), i8(ctx[LIGHT_PARTS]), i8(ctx[LIGHT_ROWS]), f8(ctx[LIGHT_COEF])
-    entries, places = i8(ctx[LIGHT_ENTRIES]), i8(ctx[LIGHT_PLACES])
-    work, given = f8(ctx[LIGHT_WORK]), i8(ctx[LIGHT_GIVEN])
-    for k in range(0, ctx[N_LIGHT_PARTS]):
-        begin, light = parts[LIGHT_PART * k + PART_BEGIN], parts[LIGHT_PART * k + PART_LIGHT]
-        count, width = parts[LIGHT_PART * k + PART_END] - begin, parts[LIGHT_PART * k + PART_WIDTH]
-        for i in range(0, count):
-            row = LIGHT_ROW * (begin + i)
-            for c in range(0, width):
-                work[width * i + c] = 0.0
-            least = 0.0
-            for e in range(rows[row + LIGHT_FIRST], rows[row + LIGHT_END]):
-                slope = coef[e] * partials[entries[LIGHT_ENTRY * e + ENTRY_PARTIAL]]
-                work[width * i + entries[LIGHT_ENTRY * e + ENTRY_SLOT]] += slope
-                least = max(least, 1e-9 * abs(slope))
-            for q in range(0, i):
-                if given[q] >= 0:
-                    share = work[width * i + given[q]] / work[width * q + given[q]]
-                    for c in range(0, width):
-                        work[width * i + c] -= share * work[width * q + c]
-                    work[width * i + given[q]] = 0.0
-            given[i] = -1
-            largest = least
-            for c in range(0, light):
-                if abs(work[width * i + c]) > largest:
-                    largest = abs(work[width * i + c])
-                    given[i] = c
-            if given[i] < 0:
-                for c in range(light, width):
-                    if abs(work[width * i + c]) > least:
-                        values[places[rows[row + LIGHT_PLACE] + c - light]] += work[width * i + c]

@@ -77,6 +77,8 @@ def evaluate(ctx, t, y):
     ask(ctx, FLOWS, w)
     if ctx[N_CIRCLES] > 0:
         add_shares(ctx, t, y)
+    if ctx[N_LIGHT_TERMS] > 0:
+        support_light(ctx, w)
     react(ctx, w)
     pairs = i8(ctx[PAIRS])
     for k in range(0, ctx[N_PAIRS]):

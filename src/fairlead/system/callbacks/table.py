@@ -9,7 +9,7 @@ from typing import Any
 
 from fairlead.native import Build, Native, digest, load_or_compile
 from fairlead.system.callbacks.algebraic_rates import add_rates, find_known, find_roots, off_balance, share_rates
-from fairlead.system.callbacks.derivatives import assemble, fix, hold_light, jacobian, mass, slopes
+from fairlead.system.callbacks.derivatives import assemble, fix, jacobian, mass, slopes
 from fairlead.system.callbacks.evaluation import (
     accelerate,
     accelerate_shown,
@@ -30,6 +30,7 @@ from fairlead.system.callbacks.evaluation import (
     rhs,
     take_samples,
 )
+from fairlead.system.callbacks.light_rows import eliminate_light, hold_light, support_light, weigh_supports
 from fairlead.system.callbacks.recorded import expand, let_slip, outputs, show, spread
 from fairlead.system.callbacks.rigid_clusters import add_shares, guard_shares, look_around, regroup, unite
 from fairlead.system.callbacks.switching import at_time, drift, gap, guards, next_time, slip, slips, swings, switch
@@ -57,7 +58,8 @@ CALLBACKS: dict[str, tuple[Callable[..., Any], Sequence[str], str]] = {
 """Each with the types of its arguments and of what it returns."""
 SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
-    make_calls, give_motions, average, put_average, look, ask, gather, react, follow, of_accelerations, evaluate,
+    make_calls, give_motions, average, put_average, look, ask, gather, react, follow, of_accelerations,
+    eliminate_light, weigh_supports, support_light, evaluate,
     divide, accelerate, accelerate_shown, slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
 )  # fmt: skip
 """What callbacks call."""

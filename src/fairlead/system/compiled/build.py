@@ -60,15 +60,16 @@ def build(
     """
     shared, end = shares(blocks)
     rated = rated_rows(flat, numbering, blocks)
-    program = jacobian(flat, blocks, shared, numbering, rated, end.mass)
     mass_pattern, memory = mass(blocks, shared, numbering)
+    program = jacobian(flat, blocks, shared, numbering, memory | rated, end.mass)
     slots, switches = guards(blocks)
     on_given_motion, loose = stops(flat, blocks)
     memory |= loose | switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
     memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
     memory |= nothing_set()
-    memory["partials"] = np.concatenate([memory["partials"], np.zeros(len(rated["rated_terms"]))])
+    more = len(rated["rated_terms"]) + len(memory["light_terms"])
+    memory["partials"] = np.concatenate([memory["partials"], np.zeros(more)])
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
     memory["context"] = context(blocks, numbering, program, memory, end.mass)
     timed = first_pieces(blocks, memory["zones"])

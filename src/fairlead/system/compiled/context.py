@@ -25,7 +25,8 @@ from fairlead.system.numbering.unknowns import Numbering, part_rows, reaction_ma
 ADDRESSES = (
     "TABLES", "KERNELS", "BLOCKS", "SCHEDULE", "PAIRS", "INVERSE_MASS", "REACTION_MASS", "REACTION_A", "PROGRAM",
     "PROGRAM_COEF", "MASS_STATIC", "MASS_PROGRAM", "MASS_COEF", "LIGHT_PARTS", "LIGHT_ROWS", "LIGHT_ENTRIES",
-    "LIGHT_COEF", "LIGHT_PLACES", "HOLDS", "LOOSE", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
+    "LIGHT_COEF", "LIGHT_PLACES", "LIGHT_SUPPORTS", "LIGHT_SUPPORTS_COEF", "LIGHT_TERMS",
+    "HOLDS", "LOOSE", "GUARD_PLACE", "GUARD_TO", "GUARD_MACHINES",
     "TIME_PLACE", "STORED", "SAMPLED", "SAMPLE_PERIOD", "SAMPLE_KERNELS", "CIRCLE_PAIRS", "CIRCLE_COEF",
     "CIRCLE_ZONES", "CIRCLE_BODIES", "CIRCLE_PINS", "TAU", "FIXED", "FIXED_COEF", "MOVING",
     "ACCELERATED", "ACCELERATED_MASS", "PARTS", "PARTS_COEF", "RATED", "RATED_JOINS", "RATED_MEMBERS",
@@ -35,7 +36,7 @@ ADDRESSES = (
 COUNTED = {
     "N_REACTIONS": "reaction_mass", "N_BLOCKS": "kernels", "N_SCHEDULE": "schedule", "N_GUARDS": "guard_machines",
     "N_PAIRS": "pairs", "N_PROGRAM": "program", "N_MASS": "mass_static", "N_MASS_PROGRAM": "mass_program",
-    "N_LIGHT_PARTS": "light_parts",
+    "N_LIGHT_PARTS": "light_parts", "N_LIGHT_TERMS": "light_terms",
     "N_HOLDS": "holds", "N_LOOSE": "loose", "N_TIME": "time_place", "N_STORED": "stored", "N_SAMPLED": "sampled",
     "N_CIRCLES": "circle_pairs", "N_CIRCLE_BODIES": "circle_bodies", "N_CIRCLE_NODES": "circle_nodes",
     "N_FIXED": "fixed", "N_MOVING": "moving", "N_ACCELERATED": "accelerated", "N_PARTS": "parts",
@@ -79,12 +80,13 @@ def context(
     blocks: Sequence[Block], numbering: Numbering, program: Program, memory: Memory, circle_at: int
 ) -> Integers:
     """The vector itself, in the order of `layout.py`."""
+    rated_at = circle_at + len(numbering.circles) + len(numbering.share)
     sizes = {name: len(memory[array]) for name, array in COUNTED.items()} | {
         "N": numbering.n, "N_SIGNALS": len(numbering.signals), "N_JACOBIAN": len(program.rows),
         "N_WORK": program.length, "N_PROGRAM_FORCES": program.forces[0],
         "N_MOVING_FORCES": program.forces[1], "T_AT": numbering.time, "ACCELERATION_AT": numbering.acceleration,
         "REACTION_AT": numbering.first_reaction, "ALWAYS_HELD": holds(blocks)[1], "JACOBIAN_AT": program.jacobian_at,
-        "CIRCLE_AT": circle_at, "RATED_AT": circle_at + len(numbering.circles) + len(numbering.share),
+        "CIRCLE_AT": circle_at, "RATED_AT": rated_at, "LIGHT_AT": rated_at + len(memory["rated_terms"]),
         "REACTIONS_READ": int(bool(len(memory["circle_pairs"])) or any(_reads_reactions(b, numbering) for b in blocks)),
         "N_GIVEN": sum(not later for later, *_ in _calls(blocks, numbering)),
         "GUARDS_READ": int(any(b.kernel.structure.guards_read for b in blocks)),

@@ -1,0 +1,78 @@
+"""A pattern of zones that leaves an unknown open is no outcome: another one near it is tried.
+
+No law gives the speed of a node without inertia when all its contacts slide, and all that are beyond their limits let
+go at once. What would really happen is told by a node with a little inertia: the stronger contacts accelerate it
+until one of the others is caught. So of the patterns
+
+    after a pass in which several changed     only one of them changed
+    after a pass in which one changed         one that changed before goes back: the two exchange their places
+
+the first one that determines all unknowns is taken, and judged as any other. The second is the exchange of Lemke's
+method, whose pivot of one vanishes where that of two does not (Cottle, Pang, Stone, The Linear Complementarity
+Problem, 1992, section 4.4). Where there is none, the run ends and names what is open.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.events.consistent import prepare_consistent
+from fairlead.integrate.linear.systems import DONE
+from fairlead.integrate.memory.foreign import compiled, indices, mass_at
+
+
+@compiled
+def near_pattern(m):
+    """Put a pattern in force near the one that leaves an unknown open; False, and the same as before, without one."""
+    nz, settling = m.problem.n_zones, m.events.settling
+    zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
+    changed = 0
+    for z in range(nz):
+        changed += zones[z] != before[z]
+    if changed == 0 or determines(m):
+        return False
+    return keep_one(m) if changed > 1 else exchange(m)
+
+
+@compiled
+def determines(m):
+    """True if the zones in force leave no unknown open."""
+    problem, matrices = m.problem, m.linear.matrices
+    mass_at(problem.call_mass, (problem.context, matrices.at_mass))
+    return prepare_consistent(problem, m.point, m.linear) == DONE
+
+
+@compiled
+def keep_one(m):
+    """Of several that changed only one does."""
+    nz, settling = m.problem.n_zones, m.events.settling
+    zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
+    wanted = indices(settling.at_zones_history + 8 * settling.passes * nz, nz)
+    for kept in range(nz):
+        if wanted[kept] != before[kept]:
+            for z in range(nz):
+                zones[z] = wanted[z] if z == kept else before[z]
+            if determines(m):
+                for z in range(nz):
+                    before[z] = wanted[z]
+                return True
+    for z in range(nz):
+        zones[z] = wanted[z]
+    return False
+
+
+@compiled
+def exchange(m):
+    """One that changed before goes back to the zone it began in, and the one that has just changed stays."""
+    nz, settling = m.problem.n_zones, m.events.settling
+    zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
+    first = indices(settling.at_zones_history, nz)
+    for z in range(nz):
+        if zones[z] == before[z] and zones[z] != first[z]:
+            left = zones[z]
+            zones[z] = first[z]
+            if determines(m):
+                for k in range(nz):
+                    before[k] = zones[k]
+                before[z] = left
+                return True
+            zones[z] = left
+    return False
