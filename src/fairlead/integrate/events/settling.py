@@ -306,13 +306,19 @@ def judge(problem, run, point, events):
     weigh_limits(problem, guards, point.at_y)
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     g, tolerance, probe = reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng), reals(guards.at_g_probe, ng)
+    known_to = place_rounding(problem, point) if problem.n_met_guards > 0 else 0.0
+    met = indices(problem.at_met_guard, problem.n_met_guards)
+    for i in met:
+        if tolerance[i] < g[i] <= known_to:
+            g[i] = 0.0  # a time is no better known than that, so the stop is not passed
     at_limit = False
     for i in range(ng):
         at_limit = at_limit or abs(g[i]) <= tolerance[i]
     if at_limit:
         look_ahead(problem, run, point, events)
-    if at_limit and problem.n_met_guards > 0:
-        forget_rounding(problem, point, guards)
+        for i in met:
+            if abs(probe[i] - g[i]) <= known_to:
+                probe[i] = g[i]
     fired, wrong = indices(guards.at_fired, ng), reals(settling.at_wrong, ng)
     inertia = reals(guards.at_guard_inertia, ng)
     for i in range(ng):
@@ -327,20 +333,17 @@ def judge(problem, run, point, events):
 
 
 @compiled
-def forget_rounding(problem, point, guards):
-    """A place at which a stop is met does not rise by rounding: of places, and of a given one by that of the time.
+def place_rounding(problem, point):
+    """What places at which stops are met are known to: by rounding of places, and of a given one by that of the time.
 
-    Without this a body that leaves a stop on a shaker met it again at once, and left it, some times over.
+    Without this a body that leaves a stop on a shaker, or late in a run, met it again at once, and left it, some times
+    over.
     """
-    g, probe = reals(guards.at_g, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
     position, y, known_to = indices(problem.at_position_of, problem.n), reals(point.at_y, problem.n), 0.0
     for v in range(problem.n):
         if position[v] >= 0:
             known_to = max(known_to, PLACE_ROUNDING * (abs(y[position[v]]) + abs(y[v] * point.t)))
-    met = indices(problem.at_met_guard, problem.n_met_guards)
-    for i in met:
-        if abs(probe[i] - g[i]) <= known_to:
-            probe[i] = g[i]
+    return known_to
 
 
 @compiled
