@@ -1,6 +1,6 @@
-"""A sentence on contacts that switched to and fro within their dwell: which, how many, and what to do.
+"""A sentence on what switched to and fro within its dwell: which, how many, and what to do.
 
-Contacts are told by family (`line.outer[*]`), those of which most did so first; a list of all would say nothing.
+Contacts, and others with zones, are told by family (`line.outer[*]`), those of which most did so first; a list of all would say nothing.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ def remark(names: Sequence[str], dwell: float, reaction: str) -> str:
     more = f" and {rest} more" if rest else ""
     done = (
         "Each was held for that time." if reaction == "hold" else
-        "Usually a load stays at its limit there, and the motion is right; run.chatter: hold keeps such a contact for "
-        "that time."
+        "Usually a load stays at its limit there, and the motion is right; run.chatter: hold keeps what "
+        "switches in its zone for that time. A relay or a comparator in a loop wants hysteresis."
     )  # fmt: skip
     return (
         f"{', '.join(told)}{more} switched to and fro, each time within {dwell:.2g} s (run.dwell). {done} It happens "
