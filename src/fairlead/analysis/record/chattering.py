@@ -1,6 +1,6 @@
 """A sentence on what switched to and fro within its dwell: which, how many, and what to do.
 
-Contacts, and others with zones, are told by family (`line.outer[*]`), those of which most did so first; a list of all would say nothing.
+They are told by family (`line.outer[*]`), those of which most did so first; a list of all would say nothing.
 """
 
 from __future__ import annotations
