@@ -32,9 +32,9 @@ python benchmarks/friction_levels.py --table    # this page
 
 **What happens at high friction?** From a friction of 0.5 on the hose does not follow the core, because the bulkheads
 drag it along only up to 0.50 T_core/T (section 7a of [Physics](physics.md)). Single elements of hose stick and slip,
-and the core goes slack for moments. At 4 m/s and frictions from 0.75 on, the hose is compressed beyond the 160 N at
-which it rucks. This is a property of the route and not of the engine. It needs more steps, so the time grows, and the
-winch tension is not held within a few newtons.
+and the core goes slack for moments. The hose is compressed beyond the 160 N at which it rucks: from 0.75 on at 2 and
+4 m/s, from 0.40 on at 6 m/s. This is a property of the route and not of the engine. It needs more steps, so the time
+grows, and the winch tension is not held within a few newtons.
 
 **Columns.** *Deviation* compares the four tensions of the route with those of steady sliding, and has the largest
 difference: first deploying (mean over 18 to 24.9 s), then hauling (34 to 44 s). A line that sticks and slips does not
