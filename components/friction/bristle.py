@@ -63,10 +63,9 @@ class Bristle(OneFormula):
 
     Bonds that start together snap together, at F_s = N mu_s. Later they are out of step, and friction is a noise about
     F_c with F_c/F_s = (1 - rho^2/3)/(2 - rho). rho follows from the curve: from its coefficient from rest and its
-    level at ten times its velocity. Above F_c/F_s = 2/3 new bonds begin at U(a, 1),
-    with F_c/F_s = (2 + a)/3. Above F_c/F_s = 0.95
-    stiction is raised to F_c/0.95. Otherwise friction does not depend on speed. It holds any load below
-    F_s without creep.
+    level at ten times its velocity. Above F_c/F_s = 2/3 new bonds begin at U(a, 1), with F_c/F_s = (2 + a)/3. Above
+    F_c/F_s = 0.95 stiction is raised to F_c/0.95. Otherwise friction does not depend on speed. It holds any load
+    below F_s without creep.
 
     Limits: it is made to look at, not to use. Every bond switches at every 0.8 presliding of slip or less, some 80 000
     times a second in all at 0.05 m/s. The sites reach over `travel` to either side. The work that stretches bonds

@@ -74,7 +74,7 @@ class PlanarContact(Component):
 
     @guard("on", to="off", unit="N")
     def lifts(p, normal):
-        """Nothing presses any more."""
+        """Nothing presses the surfaces together."""
         return p.lift - normal
 
     @guard("off", to="on", unit="N")
