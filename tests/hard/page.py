@@ -29,8 +29,8 @@ that nobody chose.
 
 Each scene has an *oracle*. This is a rule that decides without the engine whether a result is right: a closed form, a
 balance of energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second
-method as `rodas3p`), `stepping` and `ida`. It runs with exact hold, with robust binding (creep 1e-5 m/s unless the case says
-otherwise) and with LuGre, where they apply. `make hard` repeats all of them:
+method as `rodas3p`), `stepping` and `ida`. It runs with exact hold, with robust binding (creep 1e-5 m/s unless the
+case says otherwise) and with LuGre, where they apply. `make hard` repeats all of them:
 
 ```sh
 make hard                                                # all rows; an interrupted round goes on, at the same commit
