@@ -1,4 +1,4 @@
-"""The single bend over friction, tension and treatment of friction (physics 7c).
+"""The single bend over friction, tension and treatment of friction.
 
     python benchmarks/bend_sweep.py            runs what is missing in benchmarks/data/bend_sweep.jsonl (198 runs of a
                                                second or so), then writes tables and figure into docs/bend_tables.md

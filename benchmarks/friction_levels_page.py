@@ -12,14 +12,14 @@ DOCS = pathlib.Path(__file__).parents[1] / "docs"
 COLOURS = {2.0: "#0072B2", 4.0: "#D55E00", 6.0: "#009E73"}  # Okabe and Ito (2008)
 TICKS = (50, 100, 200, 400, 800)  # N
 LENGTHS = {"deploying": 12.4, "hauling": 9.35}  # m of line in the sea in the middle of the span
-TEXT = """# All friction levels
+TEXT = """# All friction levels: does a whole handling system run?
 
 <!-- table and figure written by benchmarks/friction_levels.py; the words are there too -->
 
-The claim of the technique that fairlead began with is that a whole handling system runs at every friction level one can
-think of. Here it is put to the test: `guidance_route`, deployment, stop and recovery of 40 m of array with
-electrohydraulic drives sampled at 10 ms, 50 s, on its own settings, at frictions of 0.05 to 1.0 of the hose on the
-bends times three speeds of the ship.
+The technique of fairlead was published with the claim that a whole handling system runs at every friction level. This
+page tests the claim. The model is `guidance_route` with its own settings: 40 m of array are deployed, stopped and
+recovered in 50 s, with electrohydraulic drives that are sampled at 10 ms. It runs at frictions of 0.05 to 1.0 of the
+hose on the bends, each at three speeds of the ship.
 
 ```
 python benchmarks/friction_levels.py            # runs what is missing in benchmarks/data/friction_levels.jsonl
@@ -30,24 +30,25 @@ python benchmarks/friction_levels.py --table    # this page
 
 ![Tensions before and after the deployer over friction, and the time they take](figures/friction_levels.png)
 
-From a friction of 0.5 on the hose does not follow the core any more (the bulkheads drag it along up to 0.50 T_core/T,
-section 7a of `physics.md`): single elements of hose stick and slip, the core goes slack for moments, and at 4 m/s the
-hose is compressed beyond the 160 N at which it rucks from 0.75 on. That is what the route does, not what the engine
-does; it costs steps, and the time grows with it. The winch is then no longer held within a few newtons.
+**What happens at high friction?** From a friction of 0.5 on the hose does not follow the core, because the bulkheads
+drag it along only up to 0.50 T_core/T (section 7a of [Physics](physics.md)). Single elements of hose stick and slip,
+and the core goes slack for moments. The hose is compressed beyond the 160 N at which it rucks: from 0.75 on at 2 and
+4 m/s, from 0.40 on at 6 m/s. This is a property of the route and not of the engine. It needs more steps, so the time
+grows, and the winch tension is not held within a few newtons.
 
-Deviation: the largest of the four tensions of the route, deploying (mean over 18 to 24.9 s) and hauling (34 to 44 s),
-from those of steady sliding, which a line that sticks and slips does not have. The lowest tensions are those of the
-whole run, of the core in the route.
+**Columns.** *Deviation* compares the four tensions of the route with those of steady sliding, and has the largest
+difference: first deploying (mean over 18 to 24.9 s), then hauling (34 to 44 s). A line that sticks and slips does not
+slide steadily, so its deviation is larger. The lowest tensions are those of the whole run; that of the core is in the
+route.
 
 {table}
 
-One run stands out: at 1.00 and 2 m/s, while hauling, the tensions are far from those of steady sliding, for the whole
-line goes on shaking. At 0.95 it comes to steady sliding. So two motions are possible there, and a small error chooses:
-a mean tension at such frictions wants more than one run.
+**One run differs from the others.** At 1.00 and 2 m/s, while hauling, the whole line goes on shaking, so the tensions
+are far from those of steady sliding. At 0.95 the line comes to steady sliding. So two motions are possible there, and
+a small error decides between them. Make more than one run if you need a mean tension at such frictions.
 
-Times are CPU seconds on a machine shared with others (commits {commits}). The
-energy ledger closes to {closure:.0e}
-of what was supplied or better in all.
+Times are CPU seconds on a machine shared with others (commits {commits}). The energy ledger of every run closes to
+{closure:.0e} of what was supplied, or better. [Lines and routes](routes.md) explains how to build such a route.
 """
 
 

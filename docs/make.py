@@ -20,6 +20,9 @@ from fairlead.component.registry import known_types
 from fairlead.describe.interface import beyond, first_line, parameter_rows, shared
 
 HERE = pathlib.Path(__file__).parent
+sys.path.insert(0, str(HERE))
+from generate.text import flowing  # noqa: E402 - found by the line above
+
 PAGES, FIGURES = HERE / "treatments", HERE / "figures"
 NOTE = "<!-- written by docs/make.py from the class; change that -->"
 TABLE_BEGINS, TABLE_ENDS = "<!-- table of stepping -->", "<!-- end of table -->"
@@ -60,9 +63,13 @@ def which_part() -> tuple[pathlib.Path, str]:
 def page(word: str, member: Any, base: Any) -> Iterator[str]:
     """One treatment: what its class says of itself, its parameters, its zones and what leads where."""
     yield from (f"# `method: {word}`", "", NOTE, "")
-    yield from block(inspect.getdoc(member) or "")
+    yield from (f"This page has the equation, the zones, the parameters and the limits of `method: {word}`.",
+                "[How do I choose a friction law?](../howto/friction.md) says when to take it.", "")  # fmt: skip
+    equation, _, rest = (inspect.getdoc(member) or "").partition("\n\n")
+    yield from (*block(equation), "")
+    yield from flowing(rest, "../")
     if word not in FLAT:
-        yield from ("", f"![Friction over slip speed](../figures/{word}.png)")
+        yield f"![Friction over slip speed](../figures/{word}.png)"
     own = beyond(member.declaration, base)
     rows = parameter_rows({name: one for name, one in own.parameters.items() if name != "effects"}, 0)
     if rows:
@@ -85,14 +92,17 @@ def page(word: str, member: Any, base: Any) -> Iterator[str]:
 
 def index(contact: Any, members: dict[str, Any], base: Any) -> Iterator[str]:
     """All treatments, and what they have in common."""
-    yield from ("# Treatments of friction", "", NOTE, "", "Which one to take: [friction.md](../friction.md).", "")
-    yield from ("| `method` | |", "|---|---|")
+    yield from ("# Treatments of friction: which methods and curves are there?", "", NOTE, "")
+    yield from ("Look up here what you may write as `method` and `curve` of a contact. To choose, read",
+                "[How do I choose a friction law?](../howto/friction.md);",
+                "[Friction](../friction.md) compares the methods.", "")  # fmt: skip
+    yield from ("## Methods", "", "| `method` | Law |", "|---|---|")
     for word, member in members.items():
         yield f"| [`{word}`]({word}.md) | {cell(first_line(member))} |"
     yield from ("", "## Every contact", "", *block(inspect.getdoc(contact) or ""))
     yield from ("", "Parameters:", "", *block("\n".join(parameter_rows(base.parameters, 0))))
     curve: Any = contact.members["hold"].declaration.parameters["curve"].family
-    yield from ("", "## Curves", "", *block(inspect.getdoc(curve) or ""), "", "| `curve` | |", "|---|---|")
+    yield from ("", "## Curves", "", *block(inspect.getdoc(curve) or ""), "", "| `curve` | Law |", "|---|---|")
     for word, member in sorted(curve.members.items()):
         if not member.__module__.startswith("fairlead."):
             continue  # of a user's library that happens to be loaded

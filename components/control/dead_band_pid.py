@@ -27,14 +27,17 @@ class ErrorSeen(Component):
 
 
 class DeadBandPid(Composite):
-    """A PID controller (see `Pid`) that rests while the error is small: it hears no error of a size within a band.
+    """A PID controller (see `Pid`) that rests while the error is small: errors within a band count as none.
 
-    The error e = reference - measured is heard, whole, once |e| is above `band`, until |e| is below `inner`, so that a
-    control whose integral would hunt behind stiction may rest. While it rests P is zero, I stays and D acts on.
+    The error is e = reference - measured. Once |e| is above `band`, the controller acts on the whole error, until |e|
+    is below `inner`. While it rests P is zero, I stays, and D continues to act. Use it for a control whose integral
+    would hunt because of stiction.
 
     Source: T. Kuphaldt, Lessons in Industrial Instrumentation (a dead band against cycling behind a valve's stiction).
-    Limits: the place reached is within `inner` to `band` of the reference, not on it; the command jumps by K_p e. As I
-    stays, leave the integral out where what is controlled integrates the command itself, as a valve and a cylinder do.
+
+    Limits: the measured value ends within `inner` to `band` of the reference, not on it. The command jumps by K_p e.
+    As I stays, leave the integral out if the controlled part integrates the command itself, as a valve and a cylinder
+    do.
     """
 
     reference = Input("1", "Value wanted.", signed=True)

@@ -6,7 +6,7 @@ BRISK = 0.01  # the limiter holds the current with this share of the electrical 
 
 
 class DcDrive(Component):
-    """An amplifier gives the voltage asked for, up to its limit, and less where the current would exceed its own.
+    """An amplifier gives the voltage asked for, up to its limit, and less if the current would exceed its own limit.
 
     in range              L di/dt = u - R i - K w,  u the command
     upper, lower          the same with u = +-most_voltage

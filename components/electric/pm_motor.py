@@ -51,8 +51,9 @@ class LaggingPm(PmTorque):
 class PmMotor(PmTorque):
     """Winding and current controller:  L di/dt = u - R i - K w,  u = K w + L/lag (wanted - i) + R integral.
 
-    The controller cancels the pole of the winding, d(integral)/dt = (wanted - i)/lag, so that within the voltage of
-    the supply the current follows with a lag, as without `winding`. Beyond it the voltage stays at its limit.
+    The controller cancels the pole of the winding, d(integral)/dt = (wanted - i)/lag. So the current follows with a
+    lag, as without `winding`, while the voltage is within that of the supply. Beyond it the voltage stays at its
+    limit.
     """
 
     winding = Effect("The voltage of the winding, which is limited.", "off", off=LaggingPm)

@@ -47,12 +47,15 @@ class Binding(Creeping):
     break     broke away (latch)             T = +-N mu(v_n) until |v| >= v_n
     off       N = 0                          T = 0
 
-    The applied force is what the contact would have to carry to hold, af = T + M a_rel. `form: robust`
-    caps the bound force at F_s, latches a break-away, and binds again only below (1 - hysteresis) F_s;
-    `form: literal` does none of this, as printed. Each can be set by itself. With `face` the viscous part falls with
-    the load too, from (1 - face) F_s to nothing at F_s: the creep grows before a break-away just below F_s.
-    Limits: it creeps by 0.8 creep af/F_s, leaks load at that rate, and slides only from v_n = 4 creep on. Equations are
-    stiff, 1.25 F_s/(m creep). The printed form chatters in chains, and where a drive is slower than v_n.
+    The applied force af is the force that the contact would have to carry to hold, af = T + M a_rel. `form: robust`
+    limits the bound force to F_s, latches a break-away, and binds again only below (1 - hysteresis) F_s. `form:
+    literal` does none of this, as printed in the source. You can set each of the three by itself. With `face` the
+    viscous part falls with the load too, from (1 - face) F_s to nothing at F_s. Then the creep grows just below F_s,
+    before the break-away.
+
+    Limits: it creeps by 0.8 creep af/F_s, leaks load at that rate, and slides only from v_n = 4 creep on. The
+    equations are stiff, 1.25 F_s/(m creep). The printed form chatters in chains, and if a drive is slower than v_n.
+
     Source: Tomlinson, Cooke, Cosserat (2003), Proc. IMechE Part I 217, 139, DOI 10.1177/095965180321700207.
     """
 

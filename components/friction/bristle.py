@@ -58,18 +58,21 @@ class Bristle(OneFormula):
     """T = s0/n sum (z - b_i) + viscous v over n bonds, s0 = F_s/presliding, z the slip since the start.
 
     on    bond i snaps where |z - b_i| = presliding, and holds anew stretched by U(0, rho) presliding in the direction
-          of slip; each bond is a zone machine of its own
+          of slip; each bond has zones of its own
     off   N = 0, the bonds go on without force
 
-    Bonds that start together snap together, at F_s = N mu_s; later they are out of step, and friction is a noise about
-    F_c with F_c/F_s = (1 - rho^2/3)/(2 - rho). rho follows from the curve: from its coefficient from rest and its level
-    at ten times its velocity. (Beyond 2/3 new bonds begin at U(a, 1), F_c/F_s = (2 + a)/3; beyond 0.95 stiction is
-    raised to F_c/0.95.) It does not depend on speed otherwise. It holds any load below F_s without creep.
-    Limits: one switch for every bond and every 0.8 presliding or less of slip, some 80 000 a second at 0.05 m/s; made
-    to be looked at, not to be used. The sites reach over `travel` to either side. What stretches bonds counts as
-    dissipated at once, since snapping loses it without a power; unloading gives some back.
-    Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas.
-    Control 113, 354 (citation not checked). There the sites are drawn as slip goes on; here they are drawn before.
+    Bonds that start together snap together, at F_s = N mu_s. Later they are out of step, and friction is a noise about
+    F_c with F_c/F_s = (1 - rho^2/3)/(2 - rho). rho follows from the curve: from its coefficient from rest and its
+    level at ten times its velocity. Above F_c/F_s = 2/3 new bonds begin at U(a, 1), with F_c/F_s = (2 + a)/3. Above
+    F_c/F_s = 0.95 stiction is raised to F_c/0.95. Otherwise friction does not depend on speed. It holds any load
+    below F_s without creep.
+
+    Limits: it is made to look at, not to use. Every bond switches at every 0.8 presliding of slip or less, some 80 000
+    times a second in all at 0.05 m/s. The sites reach over `travel` to either side. The work that stretches bonds
+    counts as dissipated at once, since snapping loses it without a power; unloading gives some of it back.
+
+    Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas. Control
+    113, 354 (citation not checked). There the sites are drawn as slip goes on; here they are drawn before.
     """
 
     exempt = {

@@ -78,7 +78,7 @@ class Contact(Family, Component, abstract=True):
 
     @guard("*", to="off", unit="N")
     def lifts(p, normal):
-        """Nothing presses any more; declared first, because it settles the matter."""
+        """Nothing presses the surfaces together."""  # declared first: it decides before all others
         return p.lift - normal
 
     def breaks_away_at(p):

@@ -12,10 +12,12 @@ class Dahl(OneWay):
     backward  v < 0     |v| = -v
     off       N = 0     no force, the bristles straighten
 
-    With one coefficient at all speeds this is dT/dx = s0 (1 - sgn(v) T/F_c), Dahl's law with exponent 1, whatever the
-    speed; from T_0 friction follows T = F_c - (F_c - T_0) exp(-s0 x/F_c), and reversal closes a hysteresis loop.
-    Limits: no stiction peak of its own, no damping of the bristles: a block on it rings at sqrt(s0/m). It holds any
-    load below F_c without steady creep, but shaken under load it drifts, since any slip is plastic in part.
+    With one coefficient at all speeds this is dT/dx = s0 (1 - sgn(v) T/F_c), Dahl's law with exponent 1, at any speed.
+    From T_0 friction follows T = F_c - (F_c - T_0) exp(-s0 x/F_c). Reversal closes a hysteresis loop.
+
+    Limits: it has no stiction peak of its own, and no damping of the bristles. So a block on it rings at sqrt(s0/m).
+    It holds any load below F_c without steady creep. Shaken under load it drifts, because any slip is partly plastic.
+
     Source: Dahl (1968), A solid friction model, Aerospace Corporation TOR-0158(3107-18)-1; (1976), Solid friction
     damping of mechanical vibrations, AIAA Journal 14, 1675, DOI 10.2514/3.61511. Other exponents are not offered.
     """

@@ -16,10 +16,14 @@ class Elastoplastic(Bristles):
     forward, backward   loading, at z_s and above      alpha = 1: LuGre
     off       N = 0                                    no force, the bristles straighten
 
-    It holds loads below elastic_share F_s without any drift, shaken or not, which LuGre and Dahl do not.
-    Departure from the source: the elastic limit follows z_s(v), so that it stays below it on any curve; and full
-    plasticity begins 1 % above z_s and ends 1 % below it, because steady sliding sits on that border.
-    Limits: more zones than LuGre, a switch at every reversal under load; no passivity for any s1 (see LuGre).
+    It holds loads below elastic_share F_s without any drift, shaken or not. LuGre and Dahl drift when shaken.
+
+    It differs from the source in two points. The elastic limit follows z_s(v), so that it stays below z_s on any
+    curve. Full plasticity begins 1 % above z_s and ends 1 % below it, because steady sliding sits on that border.
+
+    Limits: it has more zones than LuGre, and a switch at every reversal under load. It is not passive for any s1 (see
+    LuGre).
+
     Source: Dupont, Hayward, Armstrong, Altpeter (2002), Single state elastoplastic friction models, IEEE Trans.
     Automatic Control 47, 787, DOI 10.1109/TAC.2002.1000274.
     """

@@ -13,10 +13,13 @@ class Hold(Rigid):
     forward:   T = +N mu(v) + viscous v          backward: T = -N mu(-v) + viscous v
     off:       T = 0, the surfaces are apart
 
-    Sliding ends when the slip reaches zero: the contact is then tried as held, and lets go again in
-    the direction of its force if that is above the limit. Holding does not creep.
-    Limits: one algebraic unknown for every contact. What contacts side by side leave open they share with the least
-    sum of squares; one between two prescribed motions is refused. Every switch is located: many switches, many steps.
+    Sliding ends when the slip reaches zero. The contact is then tried as held. It lets go again, in the direction of
+    its force, if that force is above the limit. A contact that holds does not creep.
+
+    Limits: every contact has one algebraic unknown. Contacts side by side share what the laws leave open by the least
+    sum of squares. A contact between two prescribed motions is refused. Every switch is located, so many switches take
+    many steps.
+
     Source: set-valued friction after Moreau (1988); stuck and sliding as zones with the stuck force as an unknown:
     Otter, Elmqvist, Mattsson (1999), as in the Modelica Standard Library.
     """

@@ -14,15 +14,20 @@ class Karnopp(Rigid):
     forward    v >= band                    T = +N mu(v) + viscous v       backward the same the other way
     off        N = 0                        T = 0
 
-    Karnopp computes the applied force af from the neighbours, by hand for every topology; here the force that keeps
-    the slip at zero is an unknown and the engine solves for it, whatever else is stuck. On entering the band the slip
-    is set to zero by an impulse that conserves momentum, as his velocity is; m band^2/2 of energy goes unaccounted.
-    It holds without creep up to F_s. Against exact hold it stops early by about m band/T seconds, and leaves with F_s
-    (not the curve) until the slip is out of the band.
-    Limits: the band must stay well below the slowest speed that matters; below it everything is stuck. What nothing
-    can stop inside the band, such as a slider whose crank passes its dead centre, ends the run: take another method.
-    Source: Karnopp (1985), Computer simulation of stick-slip friction in mechanical dynamic systems, ASME J. Dyn.
-    Sys. Meas. Control 107, 100, DOI 10.1115/1.3140698.
+    Karnopp computes the applied force af from the neighbours, by hand for every topology. Here the force that keeps
+    the slip at zero is an unknown, and the engine solves for it, whatever else is stuck.
+
+    When the slip enters the band, an impulse that conserves momentum sets it to zero, as Karnopp does with his
+    velocity. The energy m band^2/2 is not accounted for. The contact holds without creep up to F_s. Compared with
+    exact hold it stops early, by about m band/T seconds. It leaves with F_s (not the curve) until the slip is out of
+    the band.
+
+    Limits: the band must stay well below the slowest speed that matters, because everything slower is stuck. If
+    nothing can stop the slip inside the band, as in a slider whose crank passes its dead centre, the run ends: take
+    another method.
+
+    Source: Karnopp (1985), Computer simulation of stick-slip friction in mechanical dynamic systems, ASME J. Dyn. Sys.
+    Meas. Control 107, 100, DOI 10.1115/1.3140698.
     """
 
     sticks_below = "band"

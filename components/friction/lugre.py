@@ -12,14 +12,16 @@ class LuGre(OneWay):
     backward  v < 0     |v| = -v
     off       N = 0     no force, the bristles straighten
 
-    Stiction, presliding displacement, frictional lag and a break-away force that falls with the rate of loading
-    come out of one equation. A block at rest under a steady load below F_s stays, after a presliding displacement of
+    One equation gives stiction, presliding displacement, frictional lag, and a break-away force that falls with the
+    rate of loading. A block at rest under a steady load below F_s stays, after a presliding displacement of
     -presliding*ln(1 - load/F_s).
+
     Limits: shaken under load it drifts (Dupont and others 2002; use elastoplastic). With constant s1 it is passive
-    only if s1 is small enough (Barabanov and Ortega 2000), which usual values are not, so `dissipated` may go
-    below zero for a moment. Stiff: rates are sqrt(s0/m), and |v|/presliding while sliding.
-    Source: Canudas de Wit, Olsson, Astrom, Lischinsky (1995), A new model for control of systems with friction,
-    IEEE Trans. Automatic Control 40, 419, DOI 10.1109/9.376053.
+    only if s1 is small enough (Barabanov and Ortega 2000). Usual values are larger, so `dissipated` may go below zero
+    for a moment. The equations are stiff: rates are sqrt(s0/m), and |v|/presliding while sliding.
+
+    Source: Canudas de Wit, Olsson, Astrom, Lischinsky (1995), A new model for control of systems with friction, IEEE
+    Trans. Automatic Control 40, 419, DOI 10.1109/9.376053.
     """
 
     word = "lugre"

@@ -18,16 +18,20 @@ class MaxwellSlip(Contact):
     backward_m   the same the other way           z_i' = (-y_i S(v) - z_i)/lag
     off          N = 0                            no force, the springs straighten
 
-    Spring i begins to slip where |z_i| = y_i S(v), with S(v) = mu(v)/mu_s and y_i = presliding (i/4)^shape, and sticks
-    again when the slip turns round. Each bears a quarter of the force: k_i = mu_s/(4 y_i). With one coefficient at all
-    speeds the force from the start is V(x) = N sum min(k_i |x|, mu_s/4), and after a turn at (x_0, T_0) it is
-    T_0 -+ 2 V((x - x_0)/2) (Masing); an inner loop closes and is forgotten, whatever the load, so that nothing drifts
-    when shaken below break-away. On a falling curve friction in sliding lags by `lag`.
-    Limits: no damping while stuck but that of the loops. Springs let go in the order of their y_i; where friction falls
-    fast with speed a stiff one may reach its limit before, and waits. While friction rises again it gives back energy.
+    Spring i begins to slip where |z_i| = y_i S(v), with S(v) = mu(v)/mu_s and y_i = presliding (i/4)^shape. It sticks
+    again when the slip turns round. Each spring bears a quarter of the force: k_i = mu_s/(4 y_i).
+
+    With one coefficient at all speeds the force from the start is V(x) = N sum min(k_i |x|, mu_s/4). After a turn at
+    (x_0, T_0) it is T_0 -+ 2 V((x - x_0)/2) (Masing). An inner loop closes and is forgotten, at any load. So nothing
+    drifts when it is shaken below break-away. On a falling curve friction in sliding lags by `lag`.
+
+    Limits: while stuck the only damping is that of the loops. Springs let go in the order of their y_i. If friction
+    falls fast with speed, a stiff spring may reach its limit earlier, and waits. While friction rises again it gives
+    back energy.
+
     Source: Al-Bender, Lampaert, Swevers (2005), The generalized Maxwell-slip model, IEEE Trans. Automatic Control 50,
-    1883, DOI 10.1109/TAC.2005.858676. Departures: the number of springs is free there and four here; the rate of a
-    slipping spring is that there times S(v), with C = N mu_s/lag, so that a curve may reach zero.
+    1883, DOI 10.1109/TAC.2005.858676. It differs in two points: the number of springs is free there and four here; the
+    rate of a slipping spring is that there times S(v), with C = N mu_s/lag, so that a curve may reach zero.
     """
 
     exempt = {

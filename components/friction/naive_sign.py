@@ -13,13 +13,16 @@ class NaiveSign(OneFormula):
     on    N > 0
     off   N = 0
 
-    When the slip comes to zero the force jumps inside a step. An implicit method then looks for a slip at which
-    the block is in balance; there is none but zero itself, where the law says no force at all. So every step that
-    reaches zero is rejected, and the step size falls until the floor or a budget ends the run with this contact's
-    name. A law here must be smooth; the sign is written as tanh(v/width)^3 with a width at rounding level, flat at
-    zero like sgn. (Written with tanh alone the slope at rest is enormous, and a block at rest never comes loose.)
+    When the slip comes to zero, the force jumps inside a step. An implicit method then looks for a slip at which the
+    block is in balance. The only such slip is zero, and there the law gives no force. So every step that reaches zero
+    is rejected. The step size falls until the shortest step or a budget ends the run, with the name of this contact.
+
+    A law must be smooth, so the sign is written as tanh(v/width)^3 with a width at rounding level. It is flat at zero
+    like sgn. With tanh alone the slope at rest would be so steep that a block at rest never comes loose.
+
     Use `hold` to stick exactly, `binding` for many contacts, `tanh` with a width that can be resolved.
-    Source: textbook; the difficulty is the one that Karnopp (1985), DOI 10.1115/1.3140698, removes.
+
+    Source: textbook; Karnopp (1985), DOI 10.1115/1.3140698, removes this difficulty.
     """
 
     width = Parameter("m/s", "Slip speed over which the sign changes; not to be resolved.", default=1e-15, above=0)

@@ -10,13 +10,15 @@ class NaiveZone(Sliding):
 
     forward   v > 0     backward   v < 0     off   N = 0
 
-    Freezing the zone makes every step smooth, which cures the step-size collapse of the plain sign switch. But at
-    rest neither zone is right: in `forward` the friction drives the block back, in `backward` it drives it on. So
-    the zones do not settle, or switch at every step. There is no stiction: `curve` counts only while sliding.
-    What ends such a run is the bound on passes, the dwell or a budget of steps and switches, with this contact's name.
-    Use `hold` to stick exactly, `binding` for many contacts at once; both have a zone for being stuck.
-    Source: the two-zone example in Tomlinson, Cooke and Cosserat (2003), DOI 10.1177/095965180321700207, which
-    warns of it as well.
+    Frozen zones make every step smooth, so the step size does not collapse as with the plain sign. But at rest neither
+    zone is right. In `forward` the friction drives the block back, in `backward` it drives it on. So the zones do not
+    settle, or switch at every step. There is no stiction: `curve` counts only while sliding. The bound on passes, the
+    dwell or a budget of steps and switches ends such a run, with the name of this contact.
+
+    Use `hold` to stick exactly, `binding` for many contacts at once. Both have a zone for sticking.
+
+    Source: the two-zone example in Tomlinson, Cooke and Cosserat (2003), DOI 10.1177/095965180321700207, which warns
+    of it as well.
     """
 
     advice = (

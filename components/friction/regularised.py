@@ -47,7 +47,9 @@ class Regularised(OneFormula, abstract=True):
 class Smooth(Regularised):
     """T = N mu(|v|) tanh(v/creep) + viscous v; it never sticks: under load af it slips at creep*atanh(af/(N mu)).
 
-    Limits: creep grows without bound near stiction (2.6 creep at 99 % of it); nothing tells sticking from sliding.
+    Limits: creep grows without bound near stiction (2.6 creep at 99 % of it). Nothing distinguishes sticking from
+    sliding.
+
     Source: Andersson, Söderberg, Björklund (2007), Friction models for sliding dry, boundary and mixed lubricated
     contacts, Tribology International 40, 580.
     """
@@ -66,8 +68,9 @@ class Smooth(Regularised):
 class Arctan(Regularised):
     """T = N mu(|v|) (2/pi) atan(v/creep) + viscous v; creep is creep*tan(pi/2 af/(N mu)).
 
-    Limits: the slowest to reach its level: 94 % at ten times the creep speed, 99 % at 64 times. Of the regularised
-    laws it needs the smallest creep for the same error, and pays for it in stiffness.
+    Limits: it is the slowest to reach its level: 94 % at ten times the creep speed, 99 % at 64 times. Of the smooth
+    laws it needs the smallest creep for the same error, which makes the equations stiffer.
+
     Source: Mostaghel and Davis (1997), Representations of Coulomb friction for dynamic analysis, Earthquake
     Engineering and Structural Dynamics 26, 541 (citation not checked).
     """
@@ -84,8 +87,11 @@ class Arctan(Regularised):
 class Root(Regularised):
     """T = N mu(|v|) v/sqrt(v^2 + creep^2) + viscous v; creep is creep*q/sqrt(1 - q^2) with q = af/(N mu).
 
-    Limits: as tanh, but its level is approached like 1 - (creep/v)^2/2, not exponentially: 99 % at seven times the
-    creep speed. No transcendental function, so it is the cheapest of the smooth ones.
+    It has no transcendental function, so it is the cheapest of the smooth laws.
+
+    Limits: as tanh, but it approaches its level like 1 - (creep/v)^2/2, not exponentially: 99 % at seven times the
+    creep speed.
+
     Source: as for arctan.
     """
 

@@ -15,12 +15,15 @@ class ResetIntegrator(Bristles):
     backward  z <= -presliding, v < 0               the same the other way
     off       N = 0                                 no force, the spring straightens
 
-    The force jumps from F_s = N mu_s to the curve when the contact breaks away, and back when it sticks; the source
-    writes s0 = (1 + a) F_c/p0 for the spring and F_c while sliding. It holds any load up to F_s on a spring, with
-    no creep and no drift.
-    Limits: while stuck a block rings at sqrt(s0/m) unless s1 damps it; every sticking is a bounce on that spring.
-    Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas.
-    Control 113, 354 (citation not checked).
+    The force jumps from F_s = N mu_s to the curve when the contact breaks away, and back when it sticks. The source
+    writes s0 = (1 + a) F_c/p0 for the spring and F_c while sliding. The contact holds any load up to F_s on a spring,
+    with no creep and no drift.
+
+    Limits: while stuck a block rings at sqrt(s0/m) unless s1 damps it. Every time it sticks, it bounces on that
+    spring.
+
+    Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas. Control
+    113, 354 (citation not checked).
     """
 
     relaxation = Parameter("s", "Damping over stiffness of the spring, s1/s0.", default=2e-3, least=0)

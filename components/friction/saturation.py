@@ -14,10 +14,13 @@ class Saturation(Sliding, Creeping):
     forward   v >= creep          backward   v <= -creep
     off       N = 0
 
-    The simplest regularisation, with its two corners in zones of their own, so that no step crosses one. A block
-    under load af < N mu(creep) creeps at creep*af/(N mu(creep)): less than with tanh, and exactly linear, so that a
-    loaded spring k leaks as exp(-k creep/(N mu) t).
-    Limits: no stiction, no memory. It is binding friction without plateau: use that where creep matters.
+    This is the simplest regularisation. Its two corners are borders of zones, so no step crosses one. A block under
+    load af < N mu(creep) creeps at creep*af/(N mu(creep)), which is less than with tanh. The creep is exactly linear,
+    so a loaded spring k leaks as exp(-k creep/(N mu) t).
+
+    Limits: it has no stiction and no memory. It is binding friction without the plateau: use binding if stiction
+    matters.
+
     Source: textbook; Pennestri and others (2016), Nonlinear Dynamics 83, 1785, DOI 10.1007/s11071-015-2485-3, compare
     laws of this kind.
     """

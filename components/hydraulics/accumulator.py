@@ -29,11 +29,11 @@ class Accumulator(Component):
     charged   gas volume  V = volume (precharge/p)^(1/n),  dV/dt = -Q;   flow through the neck from p_port to p
     empty     p_port <= precharge: no flow
 
-    The gas is ideal. n = 1.4 is fast (adiabatic), n = 1 slow: write  heat: isothermal  for a gas that keeps its
-    temperature and takes its heat from the air around. The state is ln(p/precharge).
+    The gas is ideal. n = 1.4 is for fast changes (adiabatic), n = 1 for slow ones. For n = 1 write  heat: isothermal:
+    the gas then keeps its temperature, and takes its heat from the air around. The state is ln(p/precharge).
 
-    Limits: when it is empty and a shut valve is all that its port is joined to, nothing says which pressure is there;
-    a Volume at the port does.
+    Limits: if the accumulator is empty and its port is joined to a shut valve only, no law determines the pressure
+    there. Put a Volume at the port.
     """
 
     port = Hydraulic("the neck")

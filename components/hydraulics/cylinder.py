@@ -45,15 +45,19 @@ CYLINDER = {
 class Cylinder(Composite):
     """Pressure at a pushes the rod out, pressure at b pulls it in; the travel rod.x - body.x ends at stops.
 
-    m dv/dt = A_a p_a - A_b p_b - (A_a - A_b) air - seal friction - load. Pressures are absolute, so the air presses
-    on the rod; `air` of 0 leaves it out. The mass is that of the bodies at `rod` and `body`.
-    Small oscillations with the valve closed have  w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m.
+        m dv/dt = A_a p_a - A_b p_b - (A_a - A_b) air - seal friction - load
+        seal friction = seal_force + (seal_breakaway - seal_force) exp(-(v/seal_speed)^2) + seal_viscous v    for v > 0
 
-    seal friction = seal_force + (seal_breakaway - seal_force) exp(-(v/seal_speed)^2) + seal_viscous v    for v > 0
+    The same holds backward. Pressures are absolute, so the air presses on the rod; `air` of 0 leaves it out. The mass
+    is that of the bodies at `rod` and `body`. With the valve closed, small oscillations have
 
-    and the same backward; without `seal_speed` it falls at once. At rest seals hold up to seal_breakaway, as the
-    friction treatment of the scene does; with `seal_friction` off the rod slides freely.
+        w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m
+
+    Without `seal_speed` the seal friction falls at once. At rest the seals hold up to seal_breakaway, by the friction
+    method of the scene. With `seal_friction` off the rod slides freely.
+
     Source: Jelali, Kroll, Hydraulic Servo-systems, 2003 (Stribeck curve of a cylinder).
+
     Limits: seal friction does not depend on pressure; put a Contact beside the cylinder for that.
     """
 

@@ -57,14 +57,15 @@ class MotorFriction(Component):
 class ServoMotorDrive(Composite):
     """A servo valve drives a motor: command -1 to 1 in, a shaft out.
 
-    (V/bulk_modulus) dp_a/dt = Q_a - D w - C_i (p_a - p_b) - C_e p_a;   the other side alike
-    J dw/dt = D (p_a - p_b) - viscous w - dry friction - load
-    With the valve closed it swings at  D sqrt(2 bulk_modulus/(V J)); w = C_d A x sqrt((p_s - p_t - p_load)/rho)/D
-    is its steady speed, D (p_s - p_t) its stall torque.
+        (V/bulk_modulus) dp_a/dt = Q_a - D w - C_i (p_a - p_b) - C_e p_a        the other side alike
+        J dw/dt = D (p_a - p_b) - viscous w - dry friction - load
+
+    With the valve closed it oscillates at  D sqrt(2 bulk_modulus/(V J)). Its steady speed is
+    w = C_d A x sqrt((p_s - p_t - p_load)/rho)/D, its stall torque D (p_s - p_t).
 
     valve_dynamics     off: the opening is the command
     compressibility    off: no volumes. Without leakage the pressures follow from the speed in closed form, and are no
-                       unknowns; with leakage they are algebraic, which needs some from both sides to the tank
+                       unknowns; with leakage they are algebraic, which needs some leakage from both sides to the tank
     leakage            off: valve and motor are tight
     cavitation         off: a pressure may fall below zero
     air                on: entrained air makes the oil soft at low pressure

@@ -53,10 +53,10 @@ class FollowingSpool(Component):
 class Spool(Component):
     """A spool with the dynamics of a data sheet, second order, between stops.
 
-    x'' = w^2 (command - x) - 2 damping w x',   w = 2 pi natural_frequency,   -1 <= x <= 1
+        x'' = w^2 (command - x) - 2 damping w x',   w = 2 pi natural_frequency,   -1 <= x <= 1
 
-    With `rate_limit` the pull towards the command is limited so that x' stays below it. Rule of thumb: the
-    frequency at which the valve lags by 90 degrees is at least three times that of the load.
+    With `rate_limit` the pull towards the command is limited so that x' stays below it. Rule of thumb: the frequency
+    at which the valve lags by 90 degrees should be at least three times that of the load.
     """
 
     command = Input("1", "Opening asked for, -1 to 1.", signed=True)

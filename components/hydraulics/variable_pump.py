@@ -57,12 +57,14 @@ class VariablePump(Component):
 class LoadSensingPump(Component):
     """A pump that keeps its pressure `margin` above that of the load at `sense`, and below `cut_off`.
 
-    lag dQ/dt = most clip((target - p)/band, 0, 1) - Q,  target = least(p_sense + margin, cut_off),  p of the outlet
+        lag dQ/dt = most clip((target - p)/band, 0, 1) - Q,  target = least(p_sense + margin, cut_off),  p of the outlet
 
-    So it gives what the valves let through at a drop of `margin`, whatever the load. `sense` takes no oil.
+    So it gives the flow that the valves pass at a drop of `margin`, at any load. `sense` takes no oil.
 
     Source: load-sensing pump with a flow and a pressure compensator, e.g. Manring, Fales, Hydraulic Control Systems,
-    2nd edition 2020, chapter 7. Limits: constant drive speed; the compensators have no dynamics but the lag.
+    2nd edition 2020, chapter 7.
+
+    Limits: the drive speed is constant. The compensators have no dynamics except the lag.
     """
 
     inlet = Hydraulic("from the tank")

@@ -46,16 +46,17 @@ class ArrayModule(Composite):
     """Two-layer line in one or more modules; its nodes move along the route, the devices do not move.
 
     hose[i], core[i]            elements between node i and i+1, i = 0 at the inboard end
-    hose_node[i], core_node[i]  masses; where modules end hose and core are one body (end connector)
+    hose_node[i], core_node[i]  masses; at the ends of modules hose and core are one body (end connector)
     registration[i]             core against hose, between the connectors
     outer[i], outer_NAME[i]     contacts with the standing devices of the route, and with each that moves
     inner[i]                    contacts of bulkheads with the hose
 
-    Friction passes only where a device presses: without lateral load hose and core are free of each
-    other. Bulkheads are smeared over the elements unless `bulkhead_pitch` is longer than an element; then the
-    nodes nearest to them have an inner contact each. At the start the tension is uniform.
-    `graded` gives the length of elements over the place in the line, fine for what passes the devices and coarse
-    elsewhere: [[0 m, 2 m], [100 m, 2 m], [102 m, 0.25 m], [140 m, 0.25 m]].
+    Friction passes only where a device presses. Without lateral load hose and core move independently. Bulkheads are
+    smeared over the elements. If `bulkhead_pitch` is longer than an element, the nodes nearest to the bulkheads have
+    an inner contact each. At the start the tension is uniform.
+
+    `graded` gives the length of elements over the place in the line. Make them short in the part that passes the
+    devices, and long elsewhere: [[0 m, 2 m], [100 m, 2 m], [102 m, 0.25 m], [140 m, 0.25 m]].
     """
 
     inboard = Translational("inboard end connector")

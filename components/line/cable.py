@@ -35,11 +35,11 @@ class Cable(Composite):
     node[i]                     masses
     outer[i], outer_NAME[i]     contacts with the standing devices of the route, and with each that moves
 
-    `compression: none` is a rope, which cannot push; `carried` a stiff cable or a crustacean array, whose strength is
-    in the hose and which has no bulkheads; it may be watched for rucking. Bending stiffness is left out.
+    `compression: none` is a rope, which cannot push. `carried` is a stiff cable or a crustacean array. Such an array
+    has its strength in the hose and no bulkheads, and may be monitored for rucking. Bending stiffness is left out.
 
     line_stretch    off: the line is one body with one position and one speed, the limit of a stiff line. Its tensions
-                    are what the balance of each node leaves; they may push, and no element is watched for rucking
+                    follow from the balance of each node. They may push, and no element is monitored for rucking
     """
 
     inboard = Translational("inboard end")

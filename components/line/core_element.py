@@ -14,7 +14,7 @@ class Core(Component):
     closing   tension = 0     still stretched, but closing so fast that the damping would push
     loose     tension = 0
 
-    What is left of the stretch of a closing element gives its energy to the damping, not to the ends.
+    The remaining stretch of a closing element gives its energy to the damping, not to the ends.
     """
 
     exempt = {"zones_reached": "An element closes stretched only faster than stretch times stiffness over damping."}

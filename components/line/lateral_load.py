@@ -11,12 +11,12 @@ from fairlead.component import Component, Input, Law, Output, Parameter, Table, 
 class LateralLoad(Component):
     """Normal force of a node on a curved route: tension times curvature times arc.
 
-    force = (mean tension - heavy v^2) * curvature(s) * arc + more,   arc = (ahead.x - behind.x)/2
+        force = (mean tension - heavy v^2) * curvature(s) * arc + more,   arc = (ahead.x - behind.x)/2
 
-    The mean is over the elements on both sides (the one element at an end: `share` 1 instead of 1/2). What the line
-    needs to follow the bend does not press on it: `heavy` v^2, with the mass per length; no term when not given. The
-    curvature of the route at the node's own position contains the window of the device, so that the sum
-    over a travelling line is constant. A negative force means that nothing presses.
+    The mean is over the elements on both sides (the one element at an end: `share` 1 instead of 1/2). A part of the
+    tension makes the line follow the bend and does not press on it: `heavy` v^2, with the mass per length `heavy`.
+    Without `heavy` there is no such term. The curvature of the route at the node's own position contains the window of
+    the device, so the sum over a travelling line is constant. A negative force means that nothing presses.
     """
 
     flange = Translational("the node, whose position along the route counts")

@@ -42,11 +42,11 @@ class RuckingHose(Hose):
     """An element that buckles into rucks when it is compressed beyond the limit.
 
     sound      tension = k (stretch - folded) + damping * rate,  above -limit
-    rucking    the same, d(folded)/dt = (1 - softening) * rate: on the way in the stiffness is softening * k
+    rucking    the same, d(folded)/dt = (1 - softening) * rate: while it is compressed the stiffness is softening * k
     drawn      the same, folded stays: along the elastic line from the lowest point, below -limit
 
-    It rucks on when the elastic tension falls to where it was before, -limit + hardening * folded with
-    hardening = k softening/(1 - softening). Folds stay; a hose that is pulled straight has got shorter.
+    With hardening = k softening/(1 - softening), it rucks further when the elastic tension falls to where it was
+    before, -limit + hardening * folded. Folds stay: a hose that is pulled straight is shorter than before.
     """
 
     limit = Parameter("N", "Compression beyond which the hose rucks.", above=0)

@@ -21,10 +21,10 @@ TORSION = {
 class TwistElement(Component):
     """One element of line in torsion.
 
-    torque = GJ/length (b.angle - a.angle) + damping (b.speed - a.speed) + coupling * tension
+        torque = GJ/length (b.angle - a.angle) + damping (b.speed - a.speed) + coupling * tension
 
-    What the coupling gives is the work of the tension, which is not taken from the line (one way): the stretch by
-    which a rope that unlays gets longer is left out.
+    The coupling acts one way: the tension twists the line, but the work of this twist is not taken from the tension.
+    So a rope that unlays does not get longer.
     """
 
     a = Rotational("inboard end")

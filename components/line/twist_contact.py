@@ -23,12 +23,12 @@ from fairlead.component import (
 class PlanarContact(Component):
     """Slip in two directions with one friction, against the resultant.
 
-    u = sqrt(v^2 + (r w)^2 + creep^2),   v = b.v - a.v along the line, r w at the surface round it
-    friction = N mu(u) v/u               torque = r N mu(u) r w/u
+        u = sqrt(v^2 + (r w)^2 + creep^2),   v = b.v - a.v along the line, r w at the surface round it
+        friction = N mu(u) v/u               torque = r N mu(u) r w/u
 
-    A line that slides along at v resists turning like a damper of N mu r^2/v, and hardly resists at all when it
-    slides fast: twist leaves it while it moves. At rest it creeps, at load/(N mu) times `creep` for small loads, as
-    with `method: root`; there is no stiction above sliding friction.
+    A line that slides along at v resists turning like a damper of N mu r^2/v. The faster it slides, the less it
+    resists, so twist leaves it while it moves. At rest it creeps, at load/(N mu) times `creep` for small loads, as
+    with `method: root`. There is no stiction above sliding friction.
     """
 
     a = Translational("the surface")
@@ -74,7 +74,7 @@ class PlanarContact(Component):
 
     @guard("on", to="off", unit="N")
     def lifts(p, normal):
-        """Nothing presses any more."""
+        """Nothing presses the surfaces together."""
         return p.lift - normal
 
     @guard("off", to="on", unit="N")
@@ -84,11 +84,12 @@ class PlanarContact(Component):
 
 
 class LaidOn(Component):
-    """What a drum does to the twist of the line that winds on: it turns it by `lay` for every metre wound.
+    """Turns the line that winds on a drum by `lay` for every metre wound.
 
-    torque = bond (node.speed - lay rim.v) inboard of `place`; over `edge` outboard of it the bond fades away
+        torque = bond (node.speed - lay rim.v)        inboard of `place`
 
-    A drum lay or a fleet angle gives the line such a twist; without (lay 0) the drum only keeps it from turning.
+    Outboard of `place` the bond fades away over `edge`. The lay of a drum or a fleet angle gives the line such a
+    twist. With a lay of 0 the drum only keeps the line from turning.
     """
 
     node = Rotational("the line, turning about its axis")

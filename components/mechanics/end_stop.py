@@ -6,16 +6,18 @@ from fairlead.component import Component, Law, Output, Parameter, Translational,
 
 
 class EndStop(Component):
-    """Keeps the travel of b over a between two stops, springs whose damping grows with their deflection.
+    """Keeps the travel of b over a between two stops, which are springs with damping.
 
     free              lower < travel < upper      force = 0
     upper             travel beyond upper by d    force = stiffness d (1 + damping dd/dt),  pushes b back
     upper_opening     damping dd/dt < -1          force = 0
     lower(_opening)   the same at the other end
 
-    The force begins with the deflection and never pulls, so a stop neither knocks nor holds on (Hunt and Crossley 1975,
-    J. Applied Mechanics 42, 440, with a linear spring). `damping` of 5 s/m doubles the force where b comes at 0.2 m/s.
-    What comes slowly, at a speed v, goes back with (1 - 2/3 damping v) v.
+    The damping grows with the deflection. So the force begins with the deflection and never pulls: a stop does not
+    begin with a blow, and does not hold b on. With `damping` of 5 s/m the force is twice that of the spring if b comes
+    at 0.2 m/s. A body that comes slowly, at a speed v, goes back with (1 - 2/3 damping v) v.
+
+    Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring.
     """
 
     asked_with = {"damping": 100.0}  # or no random motion would tear b off

@@ -76,8 +76,10 @@ class Play(Loose):
     gap                                              force = 0
     reverse(_opening)  a behind b                    the same, backward
 
-    The force begins with d and never pulls (Hunt and Crossley 1975), as that of a Backlash, its twin of shafts:
-    `damping` of 10 s/m doubles it where they approach at 0.1 m/s, and it is zero where they part at 0.1 m/s.
+    The force begins with d and never pulls. With `damping` of 10 s/m it is twice that of the spring if the points
+    approach at 0.1 m/s, and zero if they part at 0.1 m/s. A Backlash is the same for shafts.
+
+    Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring.
     """
 
     force = Output("N", "Force carried from a to b, positive forward.")
@@ -108,8 +110,8 @@ class ElasticGap(Component):
     closing    damping dd/dt > stiffness d            force = 2 stiffness d
     opening    -damping dd/dt > stiffness d           force = 0
 
-    The damping is never more than the spring gives, so the force begins at zero and never pulls. Damping that grows
-    with the deflection, and stops at both ends, have EndStop and Play.
+    The damping is never more than the force of the spring. So the force begins at zero and never pulls. EndStop and
+    Play have stops at both ends, and damping that grows with the deflection.
 
     Source: ElastoGap of the Modelica Standard Library (Modelica.Mechanics.Translational.Components).
     """

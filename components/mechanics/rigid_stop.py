@@ -11,12 +11,17 @@ class RigidStop(Component):
     free       b.x - a.x > length     force = 0
     touching   b.v = a.v              force = whatever holds, force >= 0
 
-    The force pushes b forward and a back. Where the ends meet, an impulse takes away the speed at which they meet,
-    and gives back `restitution` of it (`docs/integrator.md`, Impacts). The other way round, with a negative length, it
-    is a rope that cannot stretch: RigidStop from b to a of length -L keeps b.x - a.x <= L. Where one side moves as
-    given, as a shaker does, the body that touches it is put back to it after every step, and leaves where that falls
-    away; on `ida`, which does not, zones do not settle. Limits: a stop that gives under load, and rings, is an EndStop;
-    at a node without inertia nothing is given back.
+    The force pushes b forward and a back. When the ends meet, an impulse removes the speed at which they meet, and
+    gives back the share `restitution` of it (`docs/integrator.md`, Impacts).
+
+    With a negative length and its ends exchanged it is a rope that cannot stretch: RigidStop from b to a of length -L
+    keeps b.x - a.x <= L.
+
+    One side may move as given, as a shaker does. The body that touches it is then put back to it after every step, and
+    leaves when the given motion falls away from it. `ida` does not do this, so zones do not settle there.
+
+    Limits: a stop that gives under load, and oscillates, is an EndStop. At a node without inertia nothing is given
+    back.
     """
 
     exempt = {"settles": "bodies pulled apart within each other, which no run comes to: docs/integrator.md, Impacts"}

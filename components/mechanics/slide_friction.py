@@ -12,12 +12,15 @@ PRESSED = 1.0  # N; a coefficient times it is the force
 class SlideFriction(Composite):
     """Dry friction between two bodies given as a force over their speed v = b.v - a.v, with no normal force.
 
-    force = sliding + (breakaway - sliding) exp(-(v/speed)^2) + viscous v  for v > 0, and the same backward; without
-    `speed` it falls from breakaway to sliding at once; or `points` of a measurement. On b it acts against v. At rest it
-    is what holds, up to breakaway. Join `a` with a Ground for a guide that stands.
+        force = sliding + (breakaway - sliding) exp(-(v/speed)^2) + viscous v        for v > 0, and the same backward
+
+    Without `speed` the force falls from breakaway to sliding at once. With `points` of a measurement it follows these.
+    On b the force acts against v. At rest it is the force that holds, up to breakaway. Join `a` with a Ground for a
+    guide that stands.
 
     Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994), 1083, section 2 (Stribeck curve).
-    Limits: the force does not depend on load, place or direction; with a normal force take a Contact.
+
+    Limits: the force does not depend on load, place or direction. For friction under a normal force take a Contact.
     """
 
     a = Translational("the guide, or a Ground")

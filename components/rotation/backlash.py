@@ -13,10 +13,10 @@ class Backlash(Component):
     gap                                               torque = 0
     reverse(_opening)  beyond play/2 the other way    the same, backward
 
-    twist = a.angle - b.angle: positive torque turns b forward. The torque begins with the deflection and teeth never
-    pull, as in an `EndStop`. `damping` of 10 s/rad doubles it where they approach at 0.1 rad/s, and makes it 61 times
-    that of the spring at 6 rad/s: so teeth of fast shafts take less. Teeth that meet slowly, at a speed v, part again
-    with (1 - 2/3 damping v) v.
+    twist = a.angle - b.angle: a positive torque turns b forward. The torque begins with the deflection and teeth never
+    pull, as in an `EndStop`. With `damping` of 10 s/rad it is twice that of the spring if the teeth approach at 0.1
+    rad/s, and 61 times at 6 rad/s. So take a smaller `damping` for fast shafts. Teeth that meet slowly, at a speed v,
+    part again with (1 - 2/3 damping v) v.
     """
 
     transmits = True  # in steady motion its ends move alike

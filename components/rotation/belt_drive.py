@@ -55,14 +55,20 @@ class BeltSpans(Component):
 class BeltDrive(Composite):
     """A flat belt, V-belt or cord by which pulley a drives pulley b:  torque_b = radius_b (upper - lower).
 
-    The belt sticks to a pulley up to the capstan's ratio of tensions, (T_1 - m v^2)/(T_2 - m v^2) = exp(mu wrap), and
-    slips beyond: so a pulley at rest slips at the torque  2 tension radius tanh(mu wrap/2). Both pulleys have the same
-    two tensions, so the belt slips on the one with the smaller wrap alone (on b if they are equal). Of a V-belt mu is
-    that of its flanks over the sine of half the groove's angle; `stiffness` is E A (1/l + 1/l) of the two free spans.
+    The belt sticks to a pulley up to the capstan's ratio of tensions, and slips beyond:
+
+        (T_1 - m v^2)/(T_2 - m v^2) = exp(mu wrap)
+
+    So a pulley at rest slips at the torque  2 tension radius tanh(mu wrap/2). Both pulleys have the same two tensions.
+    The belt therefore slips only on the pulley with the smaller wrap (on b if the wraps are equal). For a V-belt, mu
+    is that of its flanks over the sine of half the groove's angle. `stiffness` is E A (1/l + 1/l) of the two free
+    spans.
 
     Source: Euler's formula with the centrifugal term, e.g. Shigley's Mechanical Engineering Design, flexible elements.
-    Limits: the belt has no mass but in m v^2; its elastic creep below slip is not told; the centres stand, so that the
-    sum of the tensions is constant. A toothed belt or a chain does not slip: that is a Gear and a TorsionSpring.
+
+    Limits: the mass of the belt counts only in m v^2. Its elastic creep below slip is left out. The centres stand, so
+    the sum of the tensions is constant. A toothed belt or a chain does not slip: take a Gear and a TorsionSpring for
+    it.
     """
 
     a = Rotational("driving pulley")

@@ -43,13 +43,14 @@ class ChainStrands(Loose):
 class ChainDrive(Composite):
     """A chain or toothed belt by which wheel a drives wheel b:  torque_b = radius_b (upper - lower).
 
-    Speeds are in the ratio teeth_a/teeth_b, and a strand carries  torque/radius + mass v^2  when it is taut, with
-    radius = teeth pitch/(2 pi). The other hangs through by `slack`: b stays behind by it when a turns back. A strand
-    that stretches at the speed v pulls 1 + damping v times as much as at rest, and never pushes.
+    The ratio of the speeds is teeth_a/teeth_b. With radius = teeth pitch/(2 pi), the taut strand carries torque/radius
+    + mass v^2. The other strand hangs through by `slack`, so b stays behind by it when a turns back. A strand that
+    stretches at the speed v pulls 1 + damping v times as much as at rest, and never pushes.
 
-    Source: roller chains, e.g. Shigley's Mechanical Engineering Design, flexible elements. Limits: the chain's speed
-    does not go up and down with every link (polygon effect); it has no inertia, and no loss (put a LossyGear of ratio 1
-    beside it); the centres stand.
+    Source: roller chains, e.g. Shigley's Mechanical Engineering Design, flexible elements.
+
+    Limits: the speed of the chain does not vary with every link (no polygon effect). It has no inertia, and no loss
+    (put a LossyGear of ratio 1 beside it). The centres stand.
     """
 
     a = Rotational("driving wheel")

@@ -18,13 +18,16 @@ from fairlead.component import (
 class Crank(Component):
     """A crank on a shaft moves a slider by a rigid rod without mass, play or loss.
 
-    slider.x = centre + radius cos(angle) + sqrt(rod^2 - (radius sin(angle) - offset)^2)
+        slider.x = centre + radius cos(angle) + sqrt(rod^2 - (radius sin(angle) - offset)^2)
 
-    At angle 0 without offset the slider is in its outer dead centre, at pi in the inner one; both are passed. Shaft
-    and slider each need an inertia of their own, unless their motion is given. Of angle and position one may be given
-    at the start, and one of the speeds; the others follow. The rod leans, so it presses the slider on its guide with
-    `thrust`: a guide that rubs is a Contact whose `normal` is a SignalSize of it. Limits: what the rod weighs is to be
-    added to the two.
+    At angle 0 without offset the slider is in its outer dead centre, at pi in the inner one. The crank passes both.
+    Shaft and slider each need an inertia of their own, unless their motion is given. At the start you may give one of
+    angle and position, and one of the speeds; the others follow.
+
+    The rod leans, so it presses the slider on its guide with the force `thrust`. For a guide with friction take a
+    Contact whose `normal` is a SignalSize of `thrust`.
+
+    Limits: the rod has no mass; add its mass to the two sides.
     """
 
     shaft = Rotational("the shaft with the crank")

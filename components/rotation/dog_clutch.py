@@ -25,10 +25,11 @@ class DogClutch(Component):
     ahead, behind      torque = 0,   teeth are pressed on while b is faster, or slower
     closed             b.speed = a.speed,   torque = whatever holds, either way
 
-    `engage` above 1/2 presses the teeth on, and they go in as soon as |b.speed - a.speed| is below `synchronised`;
-    below 1/2 they come out, under load too. The slip left when they go in is taken away at once, by an impulse that
-    keeps the angular momentum. Limits: no play of the teeth (put a Backlash in series), and no waiting for a tooth to
-    meet a gap.
+    `engage` above 1/2 presses the teeth on. They go in as soon as |b.speed - a.speed| is below `synchronised`. Below
+    1/2 they come out, under load too. When they go in, an impulse removes the slip that is left, and keeps the angular
+    momentum.
+
+    Limits: the teeth have no play (put a Backlash in series), and do not wait to meet a gap.
     """
 
     a = Rotational("one shaft")

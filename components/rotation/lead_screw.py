@@ -104,16 +104,23 @@ def thread(p, scene):
 class LeadScrew(Screw):
     """A screw and a nut that cannot turn:  nut.v = lead/(2 pi) screw.speed, with friction on the flanks.
 
-    A load W on the nut is raised by the torque  W r (tan s + m)/(1 - m tan s)  and let down by  W r (m - tan s)/
-    (1 + m tan s), with r the radius, tan s = lead/(2 pi r) and m = mu/cos(half_angle). Where mu is above tan s the
-    screw locks itself: a load cannot turn it. `preload` rubs without load, as a ball nut does.
+    With r the radius, tan s = lead/(2 pi r) and m = mu/cos(half_angle), a load W on the nut needs the torque
 
-    Source: square and angular threads, e.g. Shigley's Mechanical Engineering Design, power screws. Limits: no play (put
-    a Backlash on the shaft) and no give; the collar that takes the thrust is a Bearing of its own. A screw that locks
-    itself jams while a load is let down if the load has more inertia than the shaft can follow: its mass m' at the nut
-    above J/r^2 (1 + m tan s)/(tan s (m - tan s)), J the moment of inertia of the shaft. No motion of rigid parts exists
-    then, and a run ends with zones that did not settle. Give the load a SpringDamper, and the nut a Mass of its own
-    below that.
+        W r (tan s + m)/(1 - m tan s)        to raise it
+        W r (m - tan s)/(1 + m tan s)        to let it down
+
+    If m is above tan s the screw locks itself: a load cannot turn it. `preload` adds friction without load, as in a
+    ball nut.
+
+    Source: square and angular threads, e.g. Shigley's Mechanical Engineering Design, power screws.
+
+    Limits: there is no play (put a Backlash on the shaft) and no give. The collar that takes the thrust is a Bearing
+    of its own. A screw that locks itself may jam while a load is let down: no motion of rigid parts exists then, and a
+    run ends with zones that did not settle. This happens if the mass m' at the nut is above
+
+        J/r^2 (1 + m tan s)/(tan s (m - tan s))        J: moment of inertia of the shaft
+
+    In that case give the load a SpringDamper, and the nut a Mass of its own below that.
     """
 
     screw = Rotational("the screw")
@@ -128,12 +135,13 @@ class LeadScrew(Screw):
 class Worm(Screw):
     """A worm and its wheel:  wheel.speed = lead/(2 pi wheel_radius) worm.speed, with friction on the flanks.
 
-    The worm is a screw whose nut is the rim of the wheel, see LeadScrew: it locks itself where mu is above the slope of
-    the thread. `lead` is the number of threads times pi times the module. `half_angle` is the pressure angle.
+    The worm is a screw, and the rim of the wheel is its nut (see LeadScrew). It locks itself if mu/cos(half_angle) is
+    above the slope of the thread. `lead` is the number of threads times pi times the module. `half_angle` is the
+    pressure angle.
 
-    Limits: those of LeadScrew. A worm that locks itself jams while a load is let down if the inertia at the wheel is
-    too large for the one at the worm (m' is moment/wheel_radius^2 there), and a run ends with zones that did not
-    settle. Give the load a TorsionSpring, and the wheel an Inertia of its own.
+    Limits: those of LeadScrew. A worm that locks itself jams while a load is let down, if the inertia at the wheel is
+    too large for that at the worm (m' is moment/wheel_radius^2). A run then ends with zones that did not settle. Give
+    the load a TorsionSpring, and the wheel an Inertia of its own.
     """
 
     worm = Rotational("the worm")

@@ -74,11 +74,13 @@ class ArmPin(Linkage):
 class ArmStrut(Linkage):
     """A strut, such as a cylinder, from a point of the frame to a pin of an arm: slider.x is its length.
 
-    slider.x = sqrt(frame^2 + radius^2 - 2 frame radius cos(angle - zero))
+        slider.x = sqrt(frame^2 + radius^2 - 2 frame radius cos(angle - zero))
 
-    with `frame` and `radius` the distances of its two ends from the shaft, and angle - zero the angle between them. The
-    rod of a Cylinder whose body is at a Ground is the slider, less the length that it has when it is in (a RigidLink).
-    Limits: the strut has no mass but that of the slider; the arm does not pass through the line of the frame point,
+    `frame` and `radius` are the distances of its two ends from the shaft, and angle - zero is the angle between them.
+    If a Cylinder is the strut, join its body with a Ground, and its rod with the slider by a RigidLink of the length
+    that the cylinder has when it is in.
+
+    Limits: the strut has no mass except that of the slider. The arm does not pass through the line of the frame point,
     where the strut has no leverage.
     """
 

@@ -32,13 +32,17 @@ class ToothLoad(Component):
 class LoadedFriction(Composite):
     """Dry friction of a gear train between two shafts, which depends on the torques on both sides.
 
-    level = dry + |by_motor * motor - by_load * load|,  friction while turning = level (1 + (excess) exp(-(w/speed)^2))
-    + viscous w. Motor and load count with the sign with which they turn the shaft forward, so that a motor that holds a
-    load presses the teeth with both. Different shares make driving cost another torque than being driven. Join `a` with
-    a Housing. With both shares zero it is a `ShaftFriction`.
+        level = dry + |by_motor * motor - by_load * load|
+        friction while turning = level (1 + (excess) exp(-(w/speed)^2)) + viscous w
+
+    The torques of motor and load count with the sign with which they turn the shaft forward. So a motor that holds a
+    load presses the teeth with both torques. If the two shares differ, driving a load takes another torque than being
+    driven by it. Join `a` with a Housing. With both shares zero it is a `ShaftFriction`.
 
     Source: the directional load-dependent friction of servo actuators (Duclusaud, Passault, Padois, Ly 2024, models
-    M3 to M5, arXiv:2410.08650). Limits: the torque of the motor is that before its own inertia takes a part.
+    M3 to M5, arXiv:2410.08650).
+
+    Limits: the torque of the motor is that before its own inertia takes a part.
     """
 
     a, b = Rotational("one shaft, or a Housing"), Rotational("the other shaft")

@@ -32,13 +32,14 @@ EFFICIENCY = {
 
 
 class ToothLoss(Component):
-    """Loss of teeth at their driving shaft, that carry a torque T on to the driven one.
+    """Loss of teeth at their driving shaft, for a torque T that they carry to the driven one.
 
-    a drives    T w > 0    loss = (1/eta - 1) |T|           eta = efficiency at w
-    b drives    T w < 0    loss = (1 - eta_back) |T|
+        a drives    T w > 0    loss = (1/eta - 1) |T|           eta = efficiency at w
+        b drives    T w < 0    loss = (1 - eta_back) |T|
 
-    Both are  skew T + level sign(w)  with  skew = half the difference of the two factors and  level = half their sum
-    times |T|:  a torque without a threshold, which the shaft takes here, and dry friction, whose level goes out.
+    Both are written as  skew T + level sign(w).  `skew` is half the difference of the two factors: this part is a
+    torque without a threshold, and the shaft takes it here. `level` is half the sum of the factors times |T|: this
+    part is dry friction, and its level is an output.
     """
 
     exempt = {
@@ -74,17 +75,23 @@ class ToothLoss(Component):
 class LossyGear(Composite):
     """b turns `ratio` times as often as a; teeth take a share of the load, bearings a torque without it.
 
-    a drives:  torque_b = efficiency (torque_a - bearing)/ratio;   b drives:  torque_a = efficiency_back ratio torque_b
-    - bearing,  both turning forward. Between the two it sticks, as dry friction does. An `efficiency_back` of zero or
-    less locks it: no torque at b turns it, however large, and at a negative one a must help to let the load down. When
-    not given it is 2 - 1/efficiency, which friction on one pair of flanks gives: so a gear with an efficiency of half
-    or less is self-locking. All three may be given over the speed of a.
+    For forward turning the torques are
+
+        torque_b = efficiency (torque_a - bearing)/ratio          a drives
+        torque_a = efficiency_back ratio torque_b - bearing       b drives
+
+    Between the two the gear sticks, as dry friction does. All three parameters may be given over the speed of a.
+
+    `efficiency_back` of zero or less locks the gear: no torque at b turns it. If it is negative, a must help to let
+    the load down. Its default is 2 - 1/efficiency, which friction on one pair of flanks gives. So a gear with an
+    efficiency of half or less locks itself.
 
     Source: Pelchen, Schweiger, Otter 2002, Modeling and simulating the efficiency of gearboxes and of planetary
     gearboxes, 2nd Modelica Conference, 257; of the default, the power screw (Shigley's Mechanical Engineering Design).
-    Limits: no play (put a Backlash beside it). A self-locking gear whose load has more inertia than the driving side,
-    times -efficiency_back ratio^2, jams while it is let down: no motion of rigid parts exists then, so a run ends. Give
-    the load a TorsionSpring.
+
+    Limits: there is no play (put a Backlash beside it). A gear that locks itself jams while a load is let down, if the
+    load has more inertia than the driving side times -efficiency_back ratio^2. No motion of rigid parts exists then,
+    so a run ends. Give the load a TorsionSpring.
     """
 
     a = Rotational("driving shaft")

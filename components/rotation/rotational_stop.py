@@ -6,17 +6,19 @@ from fairlead.component import Component, Law, Output, Parameter, Rotational, Zo
 
 
 class RotationalStop(Component):
-    """Keeps the angle of b over a between two stops, springs whose damping grows with their deflection.
+    """Keeps the angle of b over a between two stops, which are springs with damping.
 
     free              lower < turn < upper      torque = 0
     upper             turn beyond upper by d    torque = stiffness d (1 + damping dd/dt),  turns b back
     upper_opening     damping dd/dt < -1        torque = 0
     lower(_opening)   the same at the other end
 
-    The torque begins with the deflection and never holds b on (Hunt and Crossley 1975, J. Applied Mechanics 42, 440,
-    with a linear spring), as that of an EndStop. `damping` of 5 s/rad doubles it where b comes at 0.2 rad/s, and is 31
-    times that of the spring at 6 rad/s: what hits fast takes less. What comes slowly, at a speed v, goes back with
-    (1 - 2/3 damping v) v.
+    The damping grows with the deflection. So the torque begins with the deflection, as in an EndStop, and never holds
+    b on. With `damping` of 5 s/rad the torque is twice that of the spring if b comes at 0.2 rad/s, and 31 times at 6
+    rad/s. So take a smaller `damping` for fast blows. A shaft that comes slowly, at a speed v, goes back with (1 - 2/3
+    damping v) v.
+
+    Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring.
     """
 
     a = Rotational("what carries the stops")

@@ -111,9 +111,9 @@ def rubbing(p, scene, other):
 class Clutch(Rubbing):
     """Two shafts coupled by friction: torque up to faces * radius * mu * normal force, slip b over a.
 
-    The normal force may be a signal: connect it to `normal` and the clutch engages as it is pressed.
-    For plates between radii r and R the mean radius is (r + R)/2 when run in (uniform wear) and
-    2/3 (R^3 - r^3)/(R^2 - r^2) when new (uniform pressure). `heat` with a curve that has a `softening` is fade.
+    The normal force may be a signal: connect it to `normal`, and the clutch engages as it is pressed. For plates
+    between radii r and R the mean radius is (r + R)/2 when they are run in (uniform wear). New plates (uniform
+    pressure) have 2/3 (R^3 - r^3)/(R^2 - r^2). For fade use `heat` with a curve that has a `softening`.
     """
 
     a, b = Rotational("one shaft"), Rotational("the other shaft")

@@ -18,10 +18,11 @@ class Route(Composite):
           - {type: Deployer, start: 5 m, length: 1.5 m, friction: 0.6, clamp: 1500 N/m}
           - {type: Sea, start: 10 m, speed: 4 m/s, tail: 150 N}
 
-    A device without `start` begins where the one before it ends; between devices the line spans freely. Nodes of
-    a line travel along the route and are in a device as far as their piece of line lies inside it, so what two
-    neighbouring devices take of a node sums to one. What moves in a device stands below its name:
-    `route.deployer.belt`, `route.winch.shaft`.
+    A device without `start` begins where the one before it ends. Between devices the line spans freely.
+
+    Nodes of a line travel along the route. A node is in a device by the share of its piece of line that lies in it. So
+    the shares that two neighbouring devices have of a node sum to one. The moving parts of a device have ports below
+    its name: `route.deployer.belt`, `route.winch.shaft`.
     """
 
     path = Path("the line that runs along it")

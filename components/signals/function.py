@@ -30,16 +30,18 @@ def passing(taken, told):
 class SignalFunction(Composite):
     """signal = an expression of its inputs, such as `expression: "a*sin(b) + 2"`; each name in it is an input.
 
-    Operations are + - * / ** ( ), with sqrt, sin, cos, exp, log, abs, min, max and the constants pi, rad, deg: the
-    language of expressions in braces (docs/netlist.md), and nothing of Python. Without `inputs` all is plain
-    numbers in SI. With `inputs: {a: N, b: rad}` units must go together, and the signal has the unit that
-    follows; quantities stand in parentheses, `(2 N)`. `constants: {k: 3 N/m}` are numbers by name. An exponent is a
-    number.
+    The operations are + - * / ** ( ), the functions sqrt, sin, cos, exp, log, abs, min, max, and the constants pi,
+    rad, deg. This is the language of expressions in braces (docs/netlist.md), not Python. An exponent is a number.
 
-    It is made of a block an operation. abs, min and max have zones, so a run locates their corners. A step also ends
-    where a power in an exponential or a divisor is taken of zero, so that a peak like `exp(-((x - 5)/0.01)**2)` or
-    `1/(1 + x**4)` is not stepped over, however narrow (docs/integrator.md). Limits: what it divides by must not come to
-    zero; what a root or a logarithm is taken of stays above zero.
+    Without `inputs` everything is plain numbers in SI. With `inputs: {a: N, b: rad}` units must fit, and the signal
+    has the unit that follows. Quantities are written in parentheses, `(2 N)`. `constants: {k: 3 N/m}` gives numbers by
+    name.
+
+    It is made of one block for each operation. abs, min and max have zones, so a run locates their corners. A step
+    also ends where the base of a power inside an exponential or a divisor is zero. So a peak like
+    `exp(-((x - 5)/0.01)**2)` or `1/(1 + x**4)` is not missed, however narrow (docs/integrator.md).
+
+    Limits: a divisor must not come to zero. The arguments of roots and logarithms must stay above zero.
     """
 
     asked_with = {"expression": "a*sin(b) + 2"}

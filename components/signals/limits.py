@@ -78,8 +78,9 @@ class DeadZone(Component):
 class DeadBand(Component):
     """signal = value once |value| has risen above `band`, and 0 once it has fallen below `inner` again.
 
-    Unlike in a DeadZone the whole value is heard, so the signal jumps where it is heard or lost; between `inner` and
-    `band` it stays what it was. Before an error of a control it lets the control rest while the error is small.
+    Between `inner` and `band` the signal stays what it was. A DeadZone passes what exceeds its limit; a DeadBand
+    passes the whole value, so its signal jumps. Put it before the error of a control to let the control rest while the
+    error is small.
     """
 
     asked_with = {"inner": 0.2, "band": 0.5}

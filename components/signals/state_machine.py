@@ -19,13 +19,16 @@ class StateMachine(Composite):
         states: {idle: {valve: 0}, filling: {valve: 1}}
         transitions: {idle: {filling: "level < 0.2"}, filling: {idle: "level > 0.8 or stop > 0.5"}}
 
-    A state gives its outputs, and 0 for those that only others name. A condition compares expressions of inputs, as in
-    `SignalFunction`, by < and >; `and` joins up to four, `or` stands between these. Names in it are inputs, plain
-    numbers unless `inputs: {level: m}` gives units. `state` is the number of the state in force, from 0.
+    A state gives its outputs. An output that only other states name is 0. A condition compares expressions of inputs,
+    as in `SignalFunction`, by < and >. `and` joins up to four comparisons, and `or` stands between such groups. Names
+    are inputs. They are plain numbers unless `inputs: {level: m}` gives units. The output `state` is the number of the
+    present state, from 0.
 
-    Each state is a zone: a run locates the instant at which a condition comes to hold, and leaves at once a state whose
-    condition holds already. Limits: what leads to and fro at one instant does not settle, so leave a gap between the
-    two. Conditions take no time; a `SignalTimer` measures it.
+    Each state is a zone, so a run locates the instant at which a condition begins to hold. If a condition holds as its
+    state is entered, the state is left at once.
+
+    Limits: two states that lead to each other at one instant do not settle, so leave a gap between their conditions.
+    Conditions take no time; a `SignalTimer` measures it.
     """
 
     asked_with = {"states": (("off", {"power": 0}), ("on", {"power": 1})),

@@ -22,13 +22,15 @@ class SpaceState(Component):
 class StateSpace(Composite):
     """dx/dt = A x + B u,  y = C x + D u:  linear dynamics by their matrices, from `initial` on.
 
-    A is n by n, B n by m, C q by n, D q by m, each a list of rows in SI. A list of numbers is one row; it is a column
-    where the shape wants a column, as B of one input. With one input and one output the signals are `value` and
-    `signal`, with several `value1`, `value2` and so on, and `signal1`, `signal2`. A factor of zero makes nothing; with
-    D an output follows its inputs at once.
+    A is n by n, B n by m, C q by n, D q by m, each a list of rows in SI. A list of numbers is one row. It is a column
+    if the matrix must be a column, such as B of one input. With one input and one output the signals are `value` and
+    `signal`. With several they are `value1`, `value2` and so on, and `signal1`, `signal2`. A factor of zero adds no
+    term. With D an output follows its inputs at once.
 
-    Source: e.g. Kailath 1980, Linear Systems, section 2.2. Limits: linear, and the same at all times; n, m and q are at
-    most 50. An operating point that is not zero is the business of what is added before and behind it.
+    Source: e.g. Kailath 1980, Linear Systems, section 2.2.
+
+    Limits: the dynamics are linear, and the same at all times; n, m and q are at most 50. If the operating point is
+    not zero, add it before and behind the block.
     """
 
     asked_with = {"a": ((0.0, 1.0), (-4.0, -0.5)), "b": ((0.0, 1.0),), "c": ((1.0, 0.0),)}

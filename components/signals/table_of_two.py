@@ -18,9 +18,10 @@ SUMMANDS = "abcd"  # of a Sum
 class SignalTable2(Composite):
     """signal = table(x, y):  a map in two dimensions from a CSV file, bilinear between its points.
 
-    The first row of the file holds the values of x behind a first cell that is not read; every other row begins with
-    its y. All numbers are in SI, both x and y grow. Beyond its borders the map keeps the value at the border. A map of
-    n rows is n tables of x, each times its share at y: a corner at each x and each y, which a run locates.
+    The first row of the file has the values of x, after a first cell that is not read. Every other row begins with its
+    y. All numbers are in SI; x and y must grow. Beyond its borders the map keeps the value at the border. A map of n
+    rows is made of n tables over x, each times its share at y. It has a corner at each x and each y, and a run locates
+    them.
     """
 
     x = Input("1", "Along the first row.", signed=True)

@@ -68,9 +68,13 @@ class HeatConductor(Component):
 class HeatConvection(Component):
     """heat = coefficient area (T_a - T_b),  from a surface a to a fluid b, whose speed may be a signal.
 
-    coefficient = still + moved sqrt(speed): along a plate with laminar flow the coefficient grows with the root of the
-    speed (Pohlhausen 1921; VDI Heat Atlas, G4). The root is rounded at rest, where it begins with v^6: it is taken as
-    s^(1/12) (1 - w^6/s),  s = v^6 + w^6,  w = 1 mm/s,  1.4 % low at 2 mm/s and 1e-6 at 1 cm/s.
+        coefficient = still + moved sqrt(speed)
+
+    Along a plate with laminar flow the coefficient grows with the root of the speed. The root is rounded at rest, so
+    that it is smooth there. With s = v^6 + w^6 and w = 1 mm/s it is  s^(1/12) (1 - w^6/s).  This is 1.4 % low at 2
+    mm/s and 1e-6 at 1 cm/s.
+
+    Source: Pohlhausen 1921; VDI Heat Atlas, G4.
     """
 
     a, b = Thermal("the surface"), Thermal("the fluid")

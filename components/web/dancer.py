@@ -10,14 +10,16 @@ from fairlead.component import Composite, Expansion, Input, Output, Parameter, R
 class RotaryDancer(Composite):
     """A roller on a swinging arm, in a loop of web:  arm_moment angle'' = torque - arm (tension_in + tension_out).
 
-    Either side of the loop has the way  length + arm angle  and the material of a WebAccumulator with one strand. The
-    roller, between the two, turns by the web:  moment d(speed)/dt = radius (tension_out - tension_in). Join what draws
-    the loop out with `pivot`: a TorqueSource, or by a Rack an air cylinder, then a RotationalDamper, a RotationalStop,
-    a RotationSensor for the controller.
+    Each side of the loop has the length  length + arm angle  and the material of a WebAccumulator with one strand. The
+    web between the two sides turns the roller:  moment d(speed)/dt = radius (tension_out - tension_in). Join at
+    `pivot` what draws the loop out: a TorqueSource, or an air cylinder by a Rack. A RotationalDamper, a RotationalStop
+    and a RotationSensor for the controller go there, too.
 
-    Source: docs/physics.md, 4.9; V. Gassmann, D. Knittel, P. R. Pagilla, M.-A. Bueno, American Control Conference 2009,
-    WeB07.3. Limits: the sides of the loop are square to the arm, so small angles; the web does not slip; the mass of
-    arm and roller is all in `arm_moment`, and their weight in what acts on `pivot`.
+    Source: docs/physics.md, 4.9; V. Gassmann, D. Knittel, P. R. Pagilla, M.-A. Bueno, American Control Conference
+    2009, WeB07.3.
+
+    Limits: the sides of the loop are square to the arm, so angles are small. The web does not slip. The whole mass of
+    arm and roller is in `arm_moment`; add their weight to what acts on `pivot`.
     """
 
     a = Translational("rim of the roller behind the loop")

@@ -97,16 +97,17 @@ class ActiveForce(Component):
 class HeaveCompensator(Composite):
     """A cylinder on a gas-loaded accumulator; the force on its rod hardly depends on the position.
 
-    force = area (pressure - air) + command,   pressure (gas)^n = constant,   gas grows by area travel
+        force = area (pressure - air) + command,   pressure (gas)^n = constant,   gas grows by area travel
 
-    The smaller the gas the stiffer it is: the passive stiffness is n area^2 pressure/gas. Join the rod with the place
-    of a MovingSheave, whose loop then has force/2 in each side, or with the line itself (a tensioner).
+    The passive stiffness is n area^2 pressure/gas: the less gas, the stiffer. Join the rod with the place of a
+    MovingSheave, whose loop then has force/2 in each side, or with the line itself (a tensioner).
 
     active      on: a second cylinder adds the force that the signal `command` says, up to `most`; off: passive
 
-    Source: docs/physics.md, 5.5; heave compensation, e.g. Woodacre, Bauer, Irani, Ocean Engineering 104
-    (2015), 140. Limits: oil and gas are those of a SingleActingCylinder and an Accumulator; the active cylinder is
-    ideal but for its limit.
+    Source: docs/physics.md, 5.5; heave compensation, e.g. Woodacre, Bauer, Irani, Ocean Engineering 104 (2015), 140.
+
+    Limits: oil and gas are those of a SingleActingCylinder and an Accumulator. The active cylinder is ideal except for
+    its limit.
     """
 
     body = Translational("the barrel, on the ship")

@@ -216,15 +216,19 @@ def rolled(p, scene, way, length):
 class Unwinder(WebRoll):
     """A roll that web is drawn from:  rim.v = R shaft.speed,   R = radius - thickness angle/(2 pi).
 
-    J = moment + pi density width (R^4 - core_radius^4)/2,    J d(speed)/dt = torque + R tension
+        J = moment + pi density width (R^4 - core_radius^4)/2,    J d(speed)/dt = torque + R tension
 
-    `left` is the web still on it, pi (R^2 - core_radius^2)/thickness; connect it with `left` of the first span, and
-    `held` with its `before`. There is no term speed dJ/dt, because web that leaves keeps its momentum. A run ends where
-    the roll is used up, at R = core_radius; where `left` is connected, the end of the web comes off there, what is left
-    of the roll turns on, and a run ends at R = 0 at the latest.
+    There is no term speed dJ/dt, because web that leaves keeps its momentum. The output `left` is the length of web
+    still on the roll, pi (R^2 - core_radius^2)/thickness. Connect it with `left` of the first span, and `held` with
+    its `before`.
 
-    Source: docs/physics.md, 4.9. Limits: layers do not slip or give; the thickness is that of the web as it comes off.
-    Only `rodas` takes radii that change (docs/components.md).
+    A run ends when the roll is used up, at R = core_radius. If `left` is connected, the end of the web comes off there
+    instead. The rest of the roll then turns on, and a run ends at R = 0 at the latest.
+
+    Source: docs/physics.md, 4.9.
+
+    Limits: layers do not slip or give. The thickness is that of the web as it comes off. Only `rodas` takes radii that
+    change (docs/components.md).
     """
 
     left = Output("m", "Web left on the roll; at zero it is used up.")

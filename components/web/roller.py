@@ -106,13 +106,18 @@ def roller(p, scene, nip=0.0, rubs=None):
 class Idler(WebRoller):
     """A roller that the web turns, or that a drive turns:  moment d(speed)/dt = radius (ahead - behind) - bearing.
 
-    The web sticks up to  |ahead - behind| = least tension (exp(mu wrap) - 1)  and slips beyond, while `traction` is on.
-    Without it web and rim have one speed, and `grip` tells what the roller could hold.
+    With `traction` the web sticks up to
 
-    Source: Euler's formula; docs/physics.md, 4.9. Limits: no film of air, which lowers mu
-    at speed; mu is one coefficient, of sticking and sliding. The web on the roller has no mass, so that it slips as
-    the tensions say; where a roller that slips comes up to the web and zones do not settle, give `web_mass`,
-    and the spans `damping`.
+        |ahead - behind| = least tension (exp(mu wrap) - 1)
+
+    and slips beyond. Without `traction` web and rim have one speed, and `grip` is the force that the roller could
+    hold.
+
+    Source: Euler's formula; docs/physics.md, 4.9.
+
+    Limits: there is no film of air, which lowers mu at speed. mu is one coefficient for sticking and sliding. The web
+    on the roller has no mass, so the tensions alone determine its slip. If a roller that slips reaches the speed of
+    the web and zones do not settle, give `web_mass`, and give the spans `damping`.
     """
 
     def expand(p, scene):

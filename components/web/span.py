@@ -216,13 +216,14 @@ class WebSpan(FixedSpan):
 class WebAccumulator(Web):
     """Stores web in `strands` between fixed rollers and the rollers of a moving carriage.
 
-    The free length is  length + strands carriage.x,  and the carriage is drawn back by  strands tension. With the mass
-    balance of a span the tension follows
+    The free length is  length + strands carriage.x.  The force strands tension draws the carriage back. The tension
+    follows from the mass balance of a span,
 
-    length d(strain)/dt = (1 + strain) strands carriage.v - (1 + strain)^2 (a.v/(1 + before) - b.v/(1 + strain))
+        length d(strain)/dt = (1 + strain) strands carriage.v - (1 + strain)^2 (a.v/(1 + before) - b.v/(1 + strain))
 
     Source: P. R. Pagilla and others, IEEE Trans. Industry Applications 37 (2001), 934.
-    Limits: rollers inside have no inertia and no friction, so that all strands have one tension; `carriage.x` must stay
+
+    Limits: rollers inside have no inertia and no friction, so all strands have one tension. `carriage.x` must stay
     above -length/strands. With one strand it is one side of a loop round a dancer.
     """
 

@@ -20,18 +20,23 @@ NESTED = sqrt(3) / 2  # height of a layer in the grooves of the one below, in di
 class TractionWinch(Composite):
     """Two grooved drums on one shaft, round which a rope runs in half wraps, from a storage drum to the load.
 
-    Each half wrap holds a difference of tensions of least tension (exp(mu' pi) - 1) and slips beyond, with mu' = mu, or
-    mu/sin(groove/2) in a groove with flanks. All together hold  load/storage = exp(mu' pi half_wraps).  Between them
-    the rope is a span of length `distance` with its balance of material. So strain comes in with the rope: hauling,
-    the wraps next to the storage drum slip in full, those next to the load not at all; paying out, the other way.
-    `step` makes each groove larger than the one before it, towards the load, against that slip.
+    Each half wrap holds a difference of tensions up to (exp(mu' pi) - 1) times the smaller one, and slips beyond.
+    mu' is mu, or mu/sin(groove/2) in a groove with flanks. All half wraps together hold
 
-    `a` is the rim of the storage drum, `rope` the rope on the last groove: join a WebSpan or a RopeTail there, its
-    `tension` with `ahead`, its `strain` with `after`, and `strain` with its `before`. Pay-out is positive.
+        load/storage = exp(mu' pi half_wraps)
 
-    Source: Euler's formula at each wrap; V-belt grooves; docs/physics.md, 4.9. Limits: no bending
-    stiffness; in each groove the rope slips as one mass, damped between its spans; mu is one coefficient, of sticking
-    and sliding; both drums turn alike.
+    Between two half wraps the rope is a span of length `distance` with its balance of material. So strain comes in
+    with the rope. While hauling, the wraps next to the storage drum slip in full, and those next to the load do not.
+    While paying out it is the other way round. `step` makes each groove larger than the one before it, towards the
+    load, to avoid this slip.
+
+    Port `a` is the rim of the storage drum, port `rope` the rope on the last groove. Join a WebSpan or a RopeTail at
+    `rope`: its `tension` with `ahead`, its `strain` with `after`, and `strain` with its `before`. Pay-out is positive.
+
+    Source: Euler's formula at each wrap; V-belt grooves; docs/physics.md, 4.9.
+
+    Limits: there is no bending stiffness. In each groove the rope slips as one mass, damped between its spans. mu is
+    one coefficient for sticking and sliding. Both drums turn alike.
     """
 
     a = Translational("rim of the storage drum")
@@ -102,14 +107,17 @@ def thickness(p):
 
 
 class StorageDrum(Composite):
-    """A drum that stores rope in layers without a bond: its rim has the speed of what comes off, by the radius R.
+    """A drum that stores rope in layers without a bond: its rim has the speed of the rope that comes off.
 
-    R = radius at angle zero, less diameter^2/(width 2 pi) (nested: sqrt(3)/2 of it) for each angle paid out. So it is
-    an Unwinder whose web is a layer of rope; turned backward it winds. `held` is the strain that the rope keeps on it.
-    A run ends where no rope is left, at R = core_radius.
+        R = radius - diameter^2/(2 pi width) angle        angle paid out; nested: sqrt(3)/2 of diameter^2
 
-    Source: docs/physics.md, 4.4 and 4.9. Limits: the radius grows evenly and not layer by layer (a Winch of a Route has
-    layers); all rope on it has the one strain; only `rodas` takes it.
+    So it is an Unwinder whose web is a layer of rope. Turned backward it winds. `held` is the strain that the rope
+    keeps on the drum. A run ends when no rope is left, at R = core_radius.
+
+    Source: docs/physics.md, 4.4 and 4.9.
+
+    Limits: the radius grows evenly and not layer by layer (a Winch of a Route has layers). All rope on the drum has
+    one strain. Only `rodas` takes it.
     """
 
     shaft = Rotational("the drum, forward when it pays out")

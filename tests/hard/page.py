@@ -24,11 +24,13 @@ HEAD = """\
 
 How far can you trust a run of a difficult scene? This page lists scenes that were chosen to break an engine, and the
 result of each. If you want to know about your own scene, find the case nearest to it below, and read its row.
+[Validation](validation.md) compares realistic models with known answers, [random scenes](random_scenes.md) has scenes
+that nobody chose.
 
-Each scene has an *oracle*, a rule that tells without the engine whether a result is right: a closed form, a balance of
-energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second method as
-`rodas3p`), `stepping` and `ida`. It runs with exact hold, with robust binding (creep 1e-5 m/s unless the case says
-otherwise) and with LuGre, where they apply. `make hard` repeats all of them:
+Each scene has an *oracle*. This is a rule that decides without the engine whether a result is right: a closed form, a
+balance of energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second
+method as `rodas3p`), `stepping` and `ida`. It runs with exact hold, with robust binding (creep 1e-5 m/s unless the
+case says otherwise) and with LuGre, where they apply. `make hard` repeats all of them:
 
 ```sh
 make hard                                                # all rows; an interrupted round goes on, at the same commit

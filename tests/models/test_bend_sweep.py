@@ -1,4 +1,4 @@
-"""The single bend over friction with treatments other than those of test_single_bend (physics section 7c).
+"""The single bend over friction with treatments other than those of test_single_bend.
 
 Runs are those of `benchmarks/bend_sweep.py`, which makes the table of docs/bend_tables.md, here for 5 s. The bulkheads
 drag the hose along up to a friction of 0.394 when they slide and 0.492 when they are at rest (0.40 and 0.50 times

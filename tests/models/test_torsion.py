@@ -1,4 +1,4 @@
-"""Torsion of a line with the same friction as along it (physics sections 5.8 and 7d, section 8 item 30)."""
+"""Torsion of a line with the same friction as along it (physics 5.8 and 8 item 30)."""
 
 import math
 from importlib.resources import files

@@ -197,7 +197,7 @@ class Answers:
     """What a class says, or the default; None where nothing is said. Methods are called with `p` themselves."""
 
     law: Callable[..., Any] | None = _asked(LAW, "what the ports take in, for a class without zones")
-    stored: Callable[..., Any] | None = _asked(LAW, "energy stored [J], where the laws do not tell it")
+    stored: Callable[..., Any] | None = _asked(LAW, "energy stored [J], if the laws do not give it")
     dissipated: Callable[..., Any] | None = _asked(LAW, "power dissipated [W], likewise")
     supplied: Callable[..., Any] | None = _asked(LAW, "power supplied [W], likewise")
     sample: Callable[..., Any] | None = _asked(SAMPLE, "its outputs, at a sample", CONTROLLER)
@@ -211,15 +211,16 @@ class Answers:
         method(), "ports whose motion is given, each with the outputs for position, speed, acceleration; None at rest"
     )
     starts_at: Callable[[Any, float], None] | None = _asked(
-        method("p", "x"), "told where the body is that it moves, when that follows from others"
+        method("p", "x"), "receives the position of the body that it moves, if that follows from other bodies"
     )
     moves_as: str = _asked(WAVE, "with `prescribes`: the quantity in time that is the position", default="")
     ties: Callable[[Any], Iterable[tuple[str, str, Any, Any]]] | None = _asked(
         method("p"), "rigid ties of its ports: (a, b, ratio, offset) for b = ratio * a + offset"
     )
     bears: str = _asked(
-        UNKNOWN, "with `ties` of two ports: the unknown that is what the tie carries; the framework writes its "
-        "equation, the balance of the part beyond, and the law the flows", default="",
+        UNKNOWN,
+        "with `ties` of two ports: the unknown that is the force in the tie; the framework writes its "
+        "equation (the balance of the part beyond), the law writes the flows", default="",
     )  # fmt: skip
     expand: Callable[[Any, Any], Any] | None = _asked(
         method("p", "scene"), "what it is made of, as an Expansion", COMPOSITE
@@ -231,15 +232,19 @@ class Answers:
         method("p"), "yields (parameter, what is wrong, way out) for values that contradict each other", EVERYWHERE
     )
     prepare: Callable[[dict[str, Any]], dict[str, Any]] | None = _asked(
-        method("given"), "what is given, with what follows from it filled in, before `p` is made", EVERYWHERE
+        method("given"),
+        "the given parameters, completed by those that follow from them, before `p` is made",
+        EVERYWHERE,
     )
     transmits: bool = _asked(
         YES_OR_NO, "its two ends move alike in steady motion (springs, teeth, sensors)", default=False
     )
-    passes: str = _asked(INPUT, "its output is, steadily, that input (lags, interlocks)", default="")
-    at_most: str = _asked(PARAMETER, "with `passes`: it goes there at most at that rate", default="")
+    passes: str = _asked(INPUT, "in steady motion its output equals that input (lags, interlocks)", default="")
+    at_most: str = _asked(
+        PARAMETER, "with `passes`: the greatest rate at which its output follows the input", default=""
+    )
     follows: tuple[str, str] | None = _asked(
-        TWO_INPUTS, "the second input becomes the first (controllers with an integral)"
+        TWO_INPUTS, "in steady motion the second input equals the first (controllers with an integral)"
     )
     keeps: str = _asked(PARAMETER, "it keeps the tension of the line at that parameter [N]", default="")
     fastest: Callable[[Any], tuple[float, float]] | None = _asked(
@@ -256,11 +261,10 @@ class Answers:
     breaks_away_at: Callable[[Any], float] | None = _asked(
         method("p"), "with `pressed_by`: friction over normal force at which it begins to slip"
     )
-    sticks_below: str = _asked(
-        PARAMETER, "of a contact: the slip speed below which it counts as sticking", default=""
-    )
+    sticks_below: str = _asked(PARAMETER, "of a contact: the slip speed below which it counts as sticking", default="")
     creeps: bool = _asked(
-        YES_OR_NO, "with `sticks_below`: sticking it still slips, by a share of that speed that goes with the load",
+        YES_OR_NO,
+        "with `sticks_below`: while sticking it still slips, at a share of that speed that grows with the load",
         default=False,
     )
     narrowest: Callable[[Any], float | None] | None = _asked(
@@ -271,17 +275,19 @@ class Answers:
         "accuracy of speeds there is relative; None when level",
     )  # fmt: skip
     preslides: str = _asked(
-        PARAMETER, "of a contact: the way that it gives before it slides [m], to which the accuracy of positions there "
+        PARAMETER,
+        "of a contact: the distance by which it yields before it slides [m], to which the accuracy of "
+        "positions there "
         "is relative", default="",
     )  # fmt: skip
     gives_by: str = _asked(
         PARAMETER, "of a contact: its stiffness over the normal force before it slides [1/m]", default=""
     )
     numbers: Callable[[Any, float], Iterable[tuple[str, float, str]]] | None = _asked(
-        method("p", "normal"), "of a contact: (name, value, unit) of more that `fairlead friction` tells"
+        method("p", "normal"), "of a contact: (name, value, unit) of further values that `fairlead friction` prints"
     )
     exact: bool = _asked(
-        YES_OR_NO, "of a contact: sticking, it does not move; what others are measured against", default=False
+        YES_OR_NO, "of a contact: while sticking it does not move; other contacts are compared with it", default=False
     )
     never_sticks: bool = _asked(
         YES_OR_NO, "of a contact: it slips under any load, by one formula for all slip speeds", default=False
@@ -296,15 +302,18 @@ class Answers:
         "body out there and for one that does not", EVERYWHERE,
     )  # fmt: skip
     compressible: float = _asked(
-        SHARE, "with an output of role strain: the share of its length by which it may get shorter without a remark",
+        SHARE,
+        "with an output of role strain: the share of its length by which it may get shorter without a remark",
         default=0.5,
     )
     begins_in: Callable[[Any], str] | None = _asked(
         method("p"), "the zone in which it begins, unless a guard says otherwise; the first one where it is not said"
     )
     saturates_in: tuple[str, ...] | Mapping[str, tuple[str, ...]] = _asked(
-        SATURATION, "zones in which a larger input gives no larger output, of all inputs or by input; a run tells of a "
-        "controller that winds up there", default=(),
+        SATURATION,
+        "zones in which a larger input gives no larger output, of all inputs or by input; a run "
+        "reports a controller that winds up there",
+        default=(),
     )
     budget: Mapping[str, int] = _asked(
         BUDGET, "`max_steps` and `max_events` of its runs, where the netlist gives none", default=dict
@@ -314,7 +323,7 @@ class Answers:
         MAP, "properties of the contract that it does not keep, each with the reason", EVERYWHERE, dict
     )
     asked_with: Mapping[str, Any] = _asked(
-        GIVEN, "parameters with which the contract is asked, instead of random ones", EVERYWHERE, dict
+        GIVEN, "parameters with which the contract is checked, instead of random ones", EVERYWHERE, dict
     )
 
 

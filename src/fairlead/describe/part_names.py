@@ -185,8 +185,11 @@ def called(name: str) -> str:
 def page(types: Mapping[str, type[Declared]], note: str) -> Iterator[str]:
     """Lines of docs/howto/parts.md; `note` says where they come from."""
     yield from ("# Which part do I take?", "", note, "")
-    yield from ("Look for what you call it; the link leads to the parameters of the part.",
-                "`fairlead describe TYPE` prints the same.", "")  # fmt: skip
+    yield from ("Look in the first column for the word that you use. The second column has the type to write in a",
+                "netlist. Its link leads to ports, parameters, equations and an example, as does",
+                "`fairlead describe TYPE`.", "",
+                "If no part fits, see [several parts together](#several-parts-together), or",
+                "[write a part of your own](../tutorial/parts.md).", "")  # fmt: skip
     yield from ("## Several parts together", "", "| what you call it | take |", "|---|---|")
     yield from (f"| {name} | {parts} |" for name, parts in sorted(COMBINED.items()))
     for folder, names in shown_types(types).items():

@@ -29,7 +29,7 @@ INSIDE: Way = "inside"
 LANDED: Way = "landed"
 REFUSED: Way = "refused"
 FEW = 40
-"""Machines up to which every switch is landed on, as `Run.most_located` has it."""
+"""Machines up to which steps end at every switch, as `Run.most_located` has it."""
 EVERY_SWITCH = 2**31
 """Of `Run.most_located`: whatever there is."""
 OF_NODES = ("V", "A", "Pa", "m^3/s", "W")
@@ -186,7 +186,7 @@ def most_located(system: System, settings: RunSettings) -> int:
 
 def page() -> str:
     """The table as Markdown."""
-    words = {INSIDE: "yes, inside steps", LANDED: "yes, every switch landed on", REFUSED: "refused"}
+    words = {INSIDE: "yes, inside steps", LANDED: "yes, steps end at every switch", REFUSED: "refused"}
     rows = [f"| {one.scenes} | {words[LANDED if one.way == INSIDE else one.way]} | {words[one.way]} |" for one in TABLE]
     return "\n".join([f"| scenes with | up to {FEW} machines | more |", "|---|---|---|", *rows])
 
