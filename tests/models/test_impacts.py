@@ -221,3 +221,17 @@ def test_speeds_that_contradict_each_other_are_refused_with_both_ends(scene, kin
     text = GEAR.format(kind=kind, speed=", speed: 3 rad/s")
     with pytest.raises(ModelError, match=r"rotor.*drum.* at 3 rad/s"):
         scene(text).check()
+
+
+def test_a_start_speed_below_that_with_which_a_contact_lands_is_listed(scene) -> None:
+    """1e-7 m/s is below stick_speed, 1e-6 m/s, and far below the weight of a speed: the block begins held."""
+    text = """
+    components:
+      ground: {type: Ground}
+      block: {type: Mass, mass: 1 kg, velocity: 1e-7 m/s}
+      pad: {type: SlideFriction, sliding: 1e-12 N}
+    connections: [[ground.flange, pad.a], [block.flange, pad.b]]
+    run: {stop: 1 s}
+    """
+    (told,) = scene(text).run(out=None).run["changed_starts"]
+    assert (told["name"], told["given"], told["became"]) == ("block.v", 1e-7, 0.0)

@@ -10,17 +10,23 @@ from fairlead.system.compiled.system import Instance, System
 from fairlead.system.numbering.tolerances import Floats
 
 MOST_TOLD = 20
+SPEEDS, ROUNDING, LEFT = ("m/s", "rad/s"), 1e-12, 1e-3
+"""Units of speeds; what is given as zero but for rounding; the share of a speed below which nothing is left of it."""
 
 
 def changed_starts(problem: Instance, begun: Floats) -> list[dict[str, Any]]:
-    """Start values that settling changed beyond their error weight: name, unit, `given`, `became`.
+    """Start values that settling changed beyond their error weight, and speeds of which it left nothing.
+
+    By name, unit, `given` and `became`. A speed below that with which a contact lands is taken away at the start.
 
     `begun` are the unknowns as settled at the start, shape (n,); all zeros if the run did not get that far.
     """
     given = problem.initial
     weight = np.minimum(problem.absolute + problem.relative * np.maximum(np.abs(given), np.abs(begun)), problem.cap)
     counts = problem.differential & ~problem.quadrature & ~problem.stiff & bool(begun.any())
-    found = np.flatnonzero(counts & (np.abs(begun - given) > weight)).tolist()
+    speeds = np.array([one.unit in SPEEDS for one in problem.numbering.unknowns], dtype=bool)
+    stopped = speeds & (np.abs(given) > ROUNDING) & (np.abs(begun) <= LEFT * np.abs(given))
+    found = np.flatnonzero(counts & (stopped | (np.abs(begun - given) > weight))).tolist()
     unknowns = problem.numbering.unknowns
     return [
         {"name": unknowns[k].name, "unit": unknowns[k].unit, "given": float(given[k]), "became": float(begun[k])}

@@ -7,9 +7,9 @@ until one of the others is caught. So of the patterns
     after a pass in which several changed     only one of them changed
     after a pass in which one changed         one that changed before goes back: the two exchange their places
 
-the first one that determines all unknowns is taken, and judged as any other. The second is the exchange of Lemke's
-method, whose pivot of one vanishes where that of two does not (Cottle, Pang, Stone, The Linear Complementarity
-Problem, 1992, section 4.4). Where there is none, the run ends and names what is open.
+the first one that determines all unknowns is taken, and judged as any other. Only contacts change so. The second is the
+exchange of Lemke's method, whose pivot of one vanishes where that of two does not (Cottle, Pang, Stone, The Linear
+Complementarity Problem, 1992, section 4.4). Where there is none, the run ends and names what is open.
 """
 
 from __future__ import annotations
@@ -26,10 +26,23 @@ def near_pattern(m):
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     changed = 0
     for z in range(nz):
-        changed += zones[z] != before[z]
+        if zones[z] != before[z]:
+            changed += 1
+            if not may_hold(m.problem, z):
+                return False
     if changed == 0 or determines(m):
         return False
     return keep_one(m) if changed > 1 else exchange(m)
+
+
+@compiled
+def may_hold(problem, z):
+    """True if machine z is a contact that may hold."""
+    machine = indices(problem.at_guard_machine, problem.n_guards)
+    holding, found = indices(problem.at_may_hold, problem.n_guards), False
+    for i in range(problem.n_guards):
+        found = found or (machine[i] == z and holding[i] > 0)
+    return found
 
 
 @compiled
@@ -66,7 +79,7 @@ def exchange(m):
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     first = indices(settling.at_zones_history, nz)
     for z in range(nz):
-        if zones[z] == before[z] and zones[z] != first[z]:
+        if zones[z] == before[z] and zones[z] != first[z] and may_hold(m.problem, z):
             left = zones[z]
             zones[z] = first[z]
             if determines(m):

@@ -257,8 +257,8 @@ def still_supports(blocks: Sequence[Block], numbering: Numbering, eliminated: se
 
     Those `eliminated` are left out, of which elimination decides with the zones whether they are in M (light_holds.py).
     """
-    without = rows_without_rates(blocks, numbering)
-    without = without[~np.isin(without, list(eliminated))]
+    rows = rows_without_rates(blocks, numbering).tolist()
+    without = np.array([row for row in rows if row not in eliminated], dtype=np.int64)
     if not len(without):
         return
     for block in blocks:
