@@ -127,7 +127,7 @@ def test_a_motor_without_a_winding_has_no_limit_that_is_known(scene):
 
 
 def test_a_reference_faster_than_a_valve_lets_its_motor_run():
-    """C_d A sqrt((p_s - p_t)/rho)/D through gear and drum is 1.158 m/s (physics 7b)."""
+    """C_d A sqrt((p_s - p_t)/rho)/D through gear and drum is 1.158 m/s (physics 5.3)."""
     assert fairlead.load("winch_drive", set={"profile.value": "1.15"}).check() == []
     found = remark(fairlead.load("winch_drive", set={"profile.value": "1.16"}))
     assert "control: its reference goes to 1.16, and drive.oil reaches 1.158 without load." in found.what

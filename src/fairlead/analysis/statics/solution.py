@@ -29,7 +29,7 @@ from fairlead.flatten.flat_model import FlatModel
 
 POINTS = 33  # along a piece, beside the connectors in it
 LOOKS = 201  # instants at which forces in time are looked at
-WANTED = 1.5  # clamp capacity over the force needed, physics 4.5
+WANTED = 1.5  # clamp capacity over the force needed (physics 4.5), as chosen in docs/routes.md
 
 
 @dataclass(frozen=True)
