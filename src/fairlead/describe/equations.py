@@ -8,6 +8,7 @@ An output that stands for a longer expression is used by its name wherever that 
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -128,9 +129,28 @@ class _Say:
         first = names.index(leave_out) + 1 if leave_out in names else 0
         for name, long in self._short[first:]:
             if long.free_symbols <= value.free_symbols:
-                for form in {long, sympy.signsimp(long)}:  # the latter is how it stands inside |...|
-                    value = value.subs(form, symbol(f"own:{name}"))
+                for form in dict.fromkeys((long, sympy.signsimp(long))):  # the latter is how it stands inside |...|
+                    if _may_hold(value, form):
+                        value = value.subs(form, symbol(f"own:{name}"))
         return tables_as_functions(value.replace(_is_negated_sum, _minus_inside), self._tables)
+
+
+def _may_hold(value: sympy.Expr, form: sympy.Expr) -> bool:
+    """Whether a product may occur in a value: all of its factors are factors of one product there.
+
+    For every product that it meets, SymPy would first denest the powers of all it is made of, a second at a time.
+    """
+    if not form.is_Mul:
+        return True
+    wanted = _bases(form)
+    return any(part.is_Mul and wanted <= _bases(part) for part in sympy.preorder_traversal(value))
+
+
+@functools.lru_cache(maxsize=4096)
+def _bases(product: sympy.Expr) -> frozenset[sympy.Expr]:
+    """What the factors of a product are powers of, of either sign, numbers left out."""
+    bases = (factor.as_base_exp()[0] for factor in product.args if not factor.is_Number)
+    return frozenset(-base if base.could_extract_minus_sign() else base for base in bases)
 
 
 def _is_negated_sum(value: sympy.Expr) -> bool:
