@@ -47,11 +47,21 @@ class _Printer(PythonCodePrinter):
         super().__init__({"fully_qualified_modules": False})
         self._not_supported: set[Any] = set()
         self._number_symbols: set[Any] = set()
+        self._written: dict[sympy.Expr, str] = {}
 
     def text(self, expression: sympy.Expr) -> str:
         """What `doprint` writes, without its search for what no law can hold; what cannot be printed is left to it."""
         written = self._print(expression)
         return self.doprint(expression) if self._not_supported or self._number_symbols else written
+
+    def _print(self, expression: Any, **kwargs: Any) -> str:
+        """What is made of others is written once: modes have many parts in common."""
+        if not expression.args or kwargs:
+            return str(super()._print(expression, **kwargs))
+        found = self._written.get(expression)
+        if found is None:
+            found = self._written[expression] = str(super()._print(expression))
+        return found
 
     def _print_sign(self, expression: sympy.Expr) -> str:
         return f"sign({self._print(expression.args[0])})"
@@ -70,6 +80,7 @@ class KernelText:
         """Number what the class reads and writes, if `rated` with the rates of its flows."""
         self.facts = KernelFacts(traced, rated=rated)
         self._short: dict[sympy.Expr, sympy.Expr] = {}
+        self._printer = _Printer()
 
     def write(self) -> tuple[str, Structure]:
         """The text and the structure."""
@@ -221,7 +232,7 @@ class KernelText:
         names = {s: sympy.Symbol(n, real=True) for s, n in self._identifiers(e for _, e in statements).items()}
         self._short.update(names)
         shared, values = sympy.cse([self._shortened(e) for _, e in statements], sympy.numbered_symbols("s"))
-        printer = _Printer()
+        printer = self._printer
         return [
             *self._loads(names),
             *(f"{name} = {printer.text(value)}" for name, value in shared),
