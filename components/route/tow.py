@@ -56,6 +56,7 @@ class TailEnd(Component):
     speed = Input("m/s", "Speed of the ship through the water.", default=0.0)
     pull = Output("N", "Pull, positive outboard.")
     drag = Output("N", "The part of it that is drag.")
+    asked_with = {"beyond": 10.0, "place": 0.0}  # there is line outboard of the end, wherever it is
 
     def law(p, node, speed):
         """The steady pull is given, the drag is the water's."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +18,7 @@ from fairlead.component.trace import TraceError
 from fairlead.errors import ModelError
 from fairlead.testing.properties import PROPERTIES
 from fairlead.testing.samples import SampleError, families, sample
+from fairlead.testing.settled import Maker, Settled
 from fairlead.testing.world import ContractError, World
 
 
@@ -42,7 +43,8 @@ class Check:
         rng = np.random.default_rng(zlib.crc32(str(self).encode()))
         for optional in (True, False):
             try:
-                PROPERTIES[self.name](functools.partial(_world, self, rng, optional), rng)
+                form = _Form(self.kind, optional, repr(self.chosen), self.chosen)
+                PROPERTIES[self.name](Maker(form.world, rng, _settled(form)), rng)
             except (ContractError, SampleError):
                 raise
             except TraceError as error:
@@ -103,13 +105,25 @@ def _unmade(kind: type[Declared], given: dict[str, Any]) -> Iterator[str]:
             return
 
 
-def _world(check: Check, rng: np.random.Generator, optional: bool) -> World:
-    values = sample(check.kind, rng, check.chosen, optional)
-    ports = check.kind.declaration.ports
-    return World(
-        values,
-        {name: float(10 ** rng.uniform(-1, 1)) for name, port in ports.items() if port.domain.mechanical},
-    )
+@dataclass(frozen=True)
+class _Form:
+    """A kind of law with parameters that are chosen, with or without what may be left out."""
+
+    kind: type[Declared]
+    optional: bool
+    words: str
+    chosen: dict[str, Any] = field(compare=False)
+
+    def world(self, rng: np.random.Generator) -> World:
+        """A random instance, and bodies at its mechanical ports."""
+        values = sample(self.kind, rng, self.chosen, self.optional)
+        ports = self.kind.declaration.ports
+        return World(
+            values,
+            {name: float(10 ** rng.uniform(-1, 1)) for name, port in ports.items() if port.domain.mechanical},
+        )
 
 
-Property = Callable[[Callable[[], World], np.random.Generator], None]
+@functools.lru_cache(maxsize=4)  # properties of one form are asked one after the other, each with and without options
+def _settled(form: _Form) -> Settled:
+    return Settled(form.world, (zlib.crc32(f"{form.kind.__name__} {form.words}".encode()), int(form.optional)))

@@ -24,9 +24,9 @@ from fairlead.component.terms import terms_of
 from fairlead.component.values import Variant, parameter
 from fairlead.kernels import layout
 from fairlead.testing.rig import Rig
+from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
-Maker = Callable[[], World]
 INSTANCES, INSTANTS = 4, 12  # per variant; each instant is taken through all zones
 ROUNDING = 1e-9  # relative to the largest number met; laws lose a few digits by cancellation, no more
 KEPT = (
@@ -79,7 +79,7 @@ def machine_code(make: Maker, rng: np.random.Generator) -> None:
 
 def as_written(make: Maker, rng: np.random.Generator) -> None:
     """The kernel says what the author's own Python says with plain numbers."""
-    for world, at in _settled(make, rng):
+    for world, at in _settled(make):
         has = world.kind.declaration
         tables = any(isinstance(d, Table | Waveform) for d in has.parameters.values())
         if tables or any(d.wave for d in has.derived.values()):
@@ -103,7 +103,7 @@ def as_written(make: Maker, rng: np.random.Generator) -> None:
 
 def balance(make: Maker, rng: np.random.Generator) -> None:
     """What the two ports of a massless two-port take in sums to zero."""
-    for world, at in _settled(make, rng):
+    for world, at in _settled(make):
         ports = world.kind.declaration.ports
         if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or _massive(world) or world.prescribed:
             return
@@ -121,7 +121,7 @@ def balance(make: Maker, rng: np.random.Generator) -> None:
 
 def dissipates(make: Maker, rng: np.random.Generator) -> None:
     """Dissipated power is never negative, in the zones that the guards allow."""
-    for world, at in _settled(make, rng):
+    for world, at in _settled(make):
         if f"dissipates {world.zone(at)}" in world.kind.answers.exempt:
             continue
         power = world.ask(layout.OUTPUT, at)[-2].real
@@ -133,7 +133,7 @@ def dissipates(make: Maker, rng: np.random.Generator) -> None:
 
 def energy(make: Maker, rng: np.random.Generator) -> None:
     """Power in = rate of stored energy + dissipated - supplied."""
-    for world, at in _settled(make, rng):
+    for world, at in _settled(make):
         if world.kind.answers.ties is not None:
             return  # a rigid tie passes on what it takes in; it has no law to say so
         taken = _power_in(world, at, rates := _rates(world, at, rng))
@@ -178,7 +178,7 @@ def _ledger_lines(world: World) -> Iterator[bool]:
 
 def settles(make: Maker, rng: np.random.Generator) -> None:
     """From every zone, at any instant, the guards lead to a zone in which none has risen."""
-    for _ in _settled(make, rng, tell=True):
+    for _ in _settled(make, tell=True):
         pass
 
 
@@ -186,11 +186,15 @@ def zones_reached(make: Maker, rng: np.random.Generator) -> None:
     """Some motion leads to every zone: none is dead, none is left out."""
     world = make()
     missing = set(world.structure.zones)
-    for _ in range(40):
+    for there, end in _settled(make):
+        missing.discard(there.zone(end))
+        if not missing:
+            return
+    for _ in range(40 - INSTANCES):
         world = make()
         for at in (world.draw(rng) for _ in range(INSTANTS)):
             for zone in world.structure.zones:
-                missing -= {world.zone(end) for end in _end(world, at, zone, tell=False)}
+                missing -= {world.zone(end) for end in _end(world, at, zone)}
             if not missing:
                 return
     names = ", ".join(sorted(missing))
@@ -276,39 +280,24 @@ def _anywhere(make: Maker, rng: np.random.Generator, *, alone: bool = False) -> 
     for _ in range(INSTANCES):
         world = make()
         for zone in world.structure.zones:
-            yield world, world.enter(_in_pieces(world, world.draw(rng, alone=alone), rng), zone)
+            yield world, world.enter(in_pieces(world, world.draw(rng, alone=alone), rng), zone)
 
 
-def _settled(make: Maker, rng: np.random.Generator, *, tell: bool = False) -> Iterator[tuple[World, Instant]]:
-    """Random instants in the zones that the guards lead to, from every zone."""
-    for _ in range(INSTANCES):
-        world = make()
-        for _ in range(INSTANTS):
-            at = _in_pieces(world, world.draw(rng), rng)
-            for zone in world.structure.zones:
-                for end in _end(world, at, zone, tell):
-                    yield world, end
+def _settled(make: Maker, *, tell: bool = False) -> Iterator[tuple[World, Instant]]:
+    """Where the guards lead to from random instants. A circle of zones is for `settles` to `tell`, else left out."""
+    for world, end in make.settled(INSTANCES, INSTANTS):
+        if not isinstance(end, CircleError):
+            yield world, end
+        elif tell:
+            raise end
 
 
-def _end(world: World, at: Instant, zone: str, tell: bool = False) -> list[Instant]:
-    """Where the guards lead from a zone. One that runs in a circle is for `settles` to `tell`, else left out."""
+def _end(world: World, at: Instant, zone: str) -> list[Instant]:
+    """Where the guards lead from a zone; nowhere, if they run in a circle."""
     try:
         return [world.settle(at, zone)]
     except CircleError:
-        if tell:
-            raise
         return []
-
-
-def _in_pieces(world: World, at: Instant, rng: np.random.Generator) -> Instant:
-    """Tables of time in the piece that holds; others anywhere, their guards lead to the right one."""
-    s, zones = world.structure, list(at.zones)
-    first = s.machines - len(s.tables)
-    for k, name in enumerate(s.tables):
-        table = world.rig.pieces[0][k]
-        usable = np.flatnonzero(np.isfinite(table.rows).all(axis=1))  # others end a run
-        zones[first + k] = table.piece_at(at.values["t"]) if name in s.time_tables else int(rng.choice(usable))
-    return at.but(zones)
 
 
 def _complex_steps(world: World, at: Instant, mode: int) -> Any:

@@ -73,9 +73,8 @@ class Rig:
             out: Any = self._machine(mode, inputs, zones, max(size, 1))
         else:
             out = [0.0] * size
-            block = self._arrays + [0] * (layout.BLOCK - len(self._arrays))
-            flat = np.ravel(inputs).tolist()
-            self.text(mode, block, 0, self.count, flat, np.ravel(zones).tolist(), self.tables, out)
+            flat, places = (one if isinstance(one, list) else np.ravel(one).tolist() for one in (inputs, zones))
+            self.text(mode, self._listed, 0, self.count, flat, places, self._rows, out)
         return np.array(out)[:size]
 
     def _machine(self, mode: int, inputs: Any, zones: Any, size: int) -> Any:
@@ -92,6 +91,18 @@ class Rig:
         return ctypes.CFUNCTYPE(None, WHOLE, POINTER, WHOLE, WHOLE, POINTER, POINTER, POINTER, POINTER)(
             kernel(self.variant).address
         )
+
+    @functools.cached_property
+    def _listed(self) -> list[Any]:
+        """The block for the text, which reads lists three times as fast; their numbers remain those of numpy."""
+        return [list(array) if array.dtype == float else array.tolist() for array in self._arrays] + [0] * (
+            layout.BLOCK - len(self._arrays)
+        )
+
+    @functools.cached_property
+    def _rows(self) -> list[Any]:
+        """The tables for the text."""
+        return list(self.tables)
 
     @functools.cached_property
     def _addresses(self) -> Any:

@@ -9,7 +9,7 @@ force that keeps its slip at zero. Positions and speeds are given; nothing moves
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -47,11 +47,15 @@ class Instant:
 
     def but(self, zones: Iterable[int]) -> Instant:
         """The same in other zones."""
-        return replace(self, zones=tuple(zones))
+        return Instant(self.values, self.loads, tuple(zones))
+
+    def having(self, values: dict[str, Any]) -> Instant:
+        """The same with other values."""
+        return Instant(values, self.loads, self.zones)
 
     def shifted(self, rates: Mapping[str, float], distance: complex) -> Instant:
         """The same with every value moved along its rate."""
-        return replace(self, values={key: value + distance * rates.get(key, 0.0) for key, value in self.values.items()})
+        return self.having({key: value + distance * rates.get(key, 0.0) for key, value in self.values.items()})
 
 
 @dataclass
@@ -108,12 +112,12 @@ class World:
     def ask(self, mode: int, at: Instant) -> Any:
         """One row of what the instance says."""
         inputs = [at.values[key] for key in self.structure.inputs]
-        return self.rig.ask(mode, inputs, at.zones)[0]
+        return self.rig.ask(mode, inputs, list(at.zones))[0]
 
     def enter(self, at: Instant, zone: str) -> Instant:
         """The instant with another zone, on the pieces of tables it had; slip is taken out where the zone holds."""
         zones = (self.structure.zones.index(zone), *at.zones[1:]) if self.zoned else at.zones
-        return self._at_rest(replace(at, zones=zones))
+        return self._at_rest(at.but(zones))
 
     def zone(self, at: Instant) -> str:
         """Name of the zone in force."""
@@ -141,7 +145,7 @@ class World:
         unknowns = [f"own:{name}" for name in self._told_here()]
         values = dict(at.values)
         for _ in range(30 if unknowns else 0):
-            here = replace(at, values=values)
+            here = at.having(values)
             residual = np.array(self._residual(here))
             slopes = [np.imag(self._residual(here.shifted({key: 1.0}, STEP * 1j))) / STEP for key in unknowns]
             try:
@@ -155,8 +159,8 @@ class World:
             }
             if np.abs(change).max() <= 1e-12 * max(1.0, *(abs(values[key]) for key in unknowns)):
                 break
-        here = replace(at, values=values)
-        return replace(here, values={**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
+        here = at.having(values)
+        return at.having({**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
 
     def _told_here(self) -> list[str]:
         """Unknowns that the law determines; what a tie bears depends on what it is tied between, as drawn."""
@@ -164,10 +168,7 @@ class World:
 
     def settle(self, at: Instant, zone: str) -> Instant:
         """Follow the guards from `zone` until none has risen. Raises CircleError naming the circle."""
-        here, path = (
-            at if not self.zoned else replace(at, zones=(self.structure.zones.index(zone), *at.zones[1:])),
-            [],
-        )
+        here, path = at.but((self.structure.zones.index(zone), *at.zones[1:])) if self.zoned else at, []
         for _ in range(PASSES + sum(len(t.rows) for t in self.rig.pieces[0])):
             here = self.solve(here)
             path.append(self.zone(here))
@@ -193,7 +194,7 @@ class World:
     def _follow(self, at: Instant, guard: dict[str, Any]) -> Instant:
         zones = list(at.zones)
         zones[guard["machine"]] = guard["to"] if guard["to"] >= 0 else zones[guard["machine"]] + guard["step"]
-        return self._at_rest(replace(at, zones=tuple(zones)))
+        return self._at_rest(at.but(zones))
 
     def _at_rest(self, at: Instant) -> Instant:
         """Held speeds brought together, where the hold takes them, by an impulse that conserves momentum."""
@@ -206,12 +207,12 @@ class World:
             for port, c in rates.items():
                 if port in self.bodies:
                     values[f"port:{port}:v"] += np.real(slips[f"own:{unknown}"]) * c / self.masses[port] / give
-        return replace(at, values=values)
+        return at.having(values)
 
     def _residual(self, at: Instant) -> list[Any]:
         flows, held = self.flows(at), self.held(at)
         accelerations = self._accelerations(at, flows)
-        moving = self.flows(replace(at, values={**at.values, **accelerations})) if self.structure.positions else {}
+        moving = self.flows(at.having({**at.values, **accelerations})) if self.structure.positions else {}
         found = []
         for name in self._told_here():
             rates = held.get(name)
