@@ -288,7 +288,6 @@ LEFT_TO_TEST_ALL = (
     "tests/components/test_curves.py::test_a_surface_with_a_nap_*[tanh]",
     "tests/components/test_assembly.py::test_only_unknowns_with_a_rate_*[machines/traction_winch]",
     "tests/components/test_assembly.py::test_only_unknowns_with_a_rate_*[guidance_route_electric]",
-    "tests/unit/test_gone_with_effects.py::test_a_route_is_set_and_recorded_*[hose_core_slip]",
     "tests/models/test_long_runs.py::test_a_block_goes_on_*[100-10-0.2-1e-4-ida]",
     "tests/models/test_long_runs.py::test_a_block_goes_on_*[1000000.0-100000.0-20-1e-6-ida]",
     # what others of the file or of a smaller scene show: routes in a unit test, one more variant or pair of engines
@@ -370,6 +369,17 @@ LEFT_TO_TEST_ALL = (
     "tests/hard/*[node_without_mass_*_/_rodas_/_lugre]",
     "tests/hard/*[normal_force_to_zero_and_back,_in_ramps_/_rodas_/_lugre]",
     "tests/hard/*[steep_falling_curve,_tustin_*_/_rodas_/_lugre]",
+    # names: test_names_say_nothing; settings and runs before: test_compiled_once and the order of instances beside it
+    "tests/invariance/test_invariance.py::test_other_names_*[quick]",
+    # of the page the example beside a library is compiled, and a program in C sets, advances and reads
+    "tests/fmu/test_library.py::test_the_program_on_the_page_*",
+    # a clamp that is too weak, in a shorter scene, stands beside it
+    "tests/messages/test_route_remarks.py::test_the_deliberately_weak_clamp_*",
+    # its Jacobian is left already; other machines, bends and a route with torsion are asked for their matrices
+    "tests/components/test_assembly.py::test_the_mass_matrix_*[guidance_route]",
+    "tests/components/test_assembly.py::test_only_unknowns_with_a_rate_*[guidance_route]",
+    # names that go with an effect are left out of a shorter scene by the others of the file
+    "tests/unit/test_gone_with_effects.py::test_a_route_is_set_and_recorded_*",
 )
 
 

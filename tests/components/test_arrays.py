@@ -97,10 +97,18 @@ def test_a_watched_hose_tells_when_and_how_long_it_is_compressed_beyond_the_limi
     assert switched[0][0] == pytest.approx(2.0, abs=1e-6)  # 2 % strain is 160 N
 
 
-def moved(simulate, **effects):
-    """Haul and size of the compiled system with effects on or off."""
+@pytest.fixture(scope="module")
+def hauls():
+    """Forces of the haul by the effects that are on or off, each found once."""
+    return {}
+
+
+def moved(simulate, hauls, **effects):
+    """Force of the haul with effects on or off."""
     switches = ", ".join(f"{name}: {word}" for name, word in effects.items())
-    return simulate(array("modules: 2", friction=0.3) + f"effects: {{{switches}}}\n")
+    if switches not in hauls:
+        hauls[switches] = haul(simulate(array("modules: 2", friction=0.3) + f"effects: {{{switches}}}\n"))
+    return hauls[switches]
 
 
 def unknowns(scene, **effects):
@@ -114,8 +122,8 @@ def test_hose_and_core_as_one_body_have_half_the_unknowns_and_no_inner_contacts(
     assert not [instance for instance in one.flat.instances if ".inner" in instance.path]
 
 
-def test_below_the_threshold_of_slip_they_are_the_limit_of_two(simulate):
-    assert haul(moved(simulate, hose_core_slip="off")) == pytest.approx(haul(moved(simulate)), rel=0.005)
+def test_below_the_threshold_of_slip_they_are_the_limit_of_two(simulate, hauls):
+    assert moved(simulate, hauls, hose_core_slip="off") == pytest.approx(moved(simulate, hauls), rel=0.005)
 
 
 def test_a_core_that_may_push_has_no_zones(scene):
@@ -123,5 +131,5 @@ def test_a_core_that_may_push_has_no_zones(scene):
     assert [name for name in unknowns(scene).machine_names if ".core[" in name]
 
 
-def test_in_tension_it_is_the_same_core(simulate):
-    assert haul(moved(simulate, tension_only_core="off")) == pytest.approx(haul(moved(simulate)), rel=1e-3)
+def test_in_tension_it_is_the_same_core(simulate, hauls):
+    assert moved(simulate, hauls, tension_only_core="off") == pytest.approx(moved(simulate, hauls), rel=1e-3)

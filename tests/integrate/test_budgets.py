@@ -183,7 +183,7 @@ def chattering_machine():
 
 
 def test_a_machine_that_toggles_faster_than_its_dwell_is_named_and_the_run_goes_on():
-    outcome = integrate(chattering_machine(), Run(stop=0.50001, dwell=1e-6))
+    outcome = integrate(chattering_machine(), Run(stop=0.500001, dwell=1e-7))
     assert outcome.ok
     assert outcome.chattering == ("relay",)
 
@@ -196,8 +196,8 @@ def test_chatter_may_stop_the_run():
 
 
 def test_chatter_may_be_held_and_then_costs_one_switch_per_dwell():
-    warned = integrate(chattering_machine(), Run(stop=0.50001, dwell=1e-5))
-    held = integrate(chattering_machine(), Run(stop=0.50001, dwell=1e-5, on_chatter="hold"))
+    warned = integrate(chattering_machine(), Run(stop=0.500002, dwell=2e-6))
+    held = integrate(chattering_machine(), Run(stop=0.500002, dwell=2e-6, on_chatter="hold"))
     assert held.ok
     assert held.chattering == ("relay",)
     assert len(held.events) < 0.01 * len(warned.events)
