@@ -190,7 +190,7 @@ def zones_reached(make: Maker, rng: np.random.Generator) -> None:
         missing.discard(there.zone(end))
         if not missing:
             return
-    for _ in range(40 - INSTANCES):
+    for _ in range(40):
         world = make()
         for at in (world.draw(rng) for _ in range(INSTANTS)):
             for zone in world.structure.zones:
@@ -200,8 +200,9 @@ def zones_reached(make: Maker, rng: np.random.Generator) -> None:
     names = ", ".join(sorted(missing))
     raise ContractError(
         f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there. The search of "
-        f"{40 * INSTANTS} random instants has ended, which does not say that there is none: give parameters at which "
-        f"the zone is met, contract({world.kind.__name__}, name=...) or asked_with, or say why in exempt"
+        f"{(INSTANCES + 40) * INSTANTS} random instants has ended, which does not say that there is none: give "
+        f"parameters at which the zone is met, contract({world.kind.__name__}, name=...) or asked_with, or say "
+        "why in exempt"
     )
 
 
