@@ -369,8 +369,6 @@ LEFT_TO_TEST_ALL = (
     "tests/hard/*[node_without_mass_*_/_rodas_/_lugre]",
     "tests/hard/*[normal_force_to_zero_and_back,_in_ramps_/_rodas_/_lugre]",
     "tests/hard/*[steep_falling_curve,_tustin_*_/_rodas_/_lugre]",
-    # names: test_names_say_nothing; settings and runs before: test_compiled_once and the order of instances beside it
-    "tests/invariance/test_invariance.py::test_other_names_*[quick]",
     # of the page the example beside a library is compiled, and a program in C sets, advances and reads
     "tests/fmu/test_library.py::test_the_program_on_the_page_*",
     # a clamp that is too weak, in a shorter scene, stands beside it
