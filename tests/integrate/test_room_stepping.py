@@ -88,9 +88,9 @@ def turned():
 
 @functools.cache
 def kept():
-    from fairlead.integrate.stepping.history import keep_step
+    from fairlead.integrate.stepping.history import choose_next_step
 
-    return entry(keep_step, ("run", "stepping.rule"), "db")
+    return entry(choose_next_step, ("run", "stepping.rule"), "db")
 
 
 class Contacts:

@@ -22,10 +22,10 @@ accuracy that the run asks for, and the choice of what is recorded.
     next_time double (ctx, t)                     the next time event strictly later than t, or inf
     at_time   int64  (ctx, t, y)                  t is the start or a time event; 1 if anything changed
     outputs   void   (ctx, t, y, out)             out[n_outputs], in the zones in force
-    forces    void   (ctx, t, y, f)               as rhs, with anything in the rows of quadratures
-    slopes    void   (ctx, t, y, values, ft)      as jacobian, with anything in the rows of quadratures
-    drift     void   (ctx, t, y, r)               as slip, where slip answers only for a slip that an
-                                                  impulse takes away
+    forces    void   (ctx, t, y, f)               all of f but quadratures: in their rows is anything
+    slopes    void   (ctx, t, y, values, ft)      all of df/dy but the rows of quadratures, likewise
+    drift     void   (ctx, t, y, r)               -v_rel on all held rows; slip leaves out those in which a contact
+                                                  that bears a limited force slips too fast to be held
 
     gap       void   (ctx, t, y, r)               r[n] = 0 but -g on the rows of relations g of positions that
                                                   are kept (facts.py, moves); asked for where there are any

@@ -39,7 +39,8 @@ RULE = Struct(
     numbers=(
         # theta asked for, its rise when zones cycle, theta in force
         "least_theta", "theta_raise", "theta_now",
-        # distances of the slopes remembered
+        # time from the middle of the last step to now, half of it, or 0 right after a settlement; that between the
+        # middles of the two before
         "gap", "gap_before", "t_cut", "t_bent",
         # what was allowed in the last steps (history.py)
         "allowed", "allowed_before",

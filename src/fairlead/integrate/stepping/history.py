@@ -36,8 +36,11 @@ NO_ERROR = 1e-10
 
 
 @compiled
-def keep_step(run, rule, h, repeated):
-    """Into `h_next` the step after an accepted one of length h; right after a repeated one it does not grow."""
+def choose_next_step(run, rule, h, repeated):
+    """Into `h_next` the length of the step after an accepted one of length h, in place of that of `pace.accept`.
+
+    Right after a repeated step it does not grow.
+    """
     if rule.block_steps == BLOCK:
         rule.allowed_before, rule.allowed, rule.block_steps = rule.allowed, inf, 0
     rule.block_steps += 1

@@ -171,7 +171,7 @@ def doubt_captures(m, h):
 
 @compiled
 def any_doubtful(problem, guards, stepping):
-    """True if one in `fired` is."""
+    """True if one of the guards in `fired` is doubtful (`is_doubtful`)."""
     fired, found = indices(guards.at_fired, guards.n_guards), False
     for k in range(guards.n_fired):
         found = found or is_doubtful(problem, guards, stepping, fired[k])

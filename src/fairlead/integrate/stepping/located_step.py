@@ -30,7 +30,7 @@ LITTLE = 1.0 / CAREFUL
 FOLLOWED = 0.1
 """Share of the way to the balance that is left as error where it was gone. The factors of the step go all of it but
 2/(2 + h |J|/M), less than 2/STIFF, where the law is straight. Five times that is for laws that bend: it is chosen."""
-JUDGED, ACCEPTED, CUT = 0, 1, 2
+ARRANGED, ACCEPTED, CUT = 0, 1, 2
 
 
 @compiled
@@ -132,9 +132,9 @@ def remember_middle(point, rule, h):
 
 @compiled
 def judge_guards(m, h):
-    """JUDGED where the point at the start is settled instead, or the step made shorter; else ACCEPTED or CUT."""
+    """ACCEPTED, or CUT at the first switch; else ARRANGED: the start is settled instead, or a shorter step taken."""
     found = first_crossing(m, h)
     if found == COMPANION:
         mend_start(m, h)
-        return JUDGED
+        return ARRANGED
     return CUT if found == CROSSING else ACCEPTED

@@ -41,7 +41,7 @@ def guards_are_passed(m, h):
 
 @compiled
 def touched_on_the_way(m, h):
-    """The same of a step that its error limits."""
+    """True if a guard of a stop or rope is above its tolerance inside a step whose length its error limits."""
     guards, rule = m.events.guards, m.stepping.rule
     ng = guards.n_guards
     g, end, early = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(guards.at_g_early, ng)
@@ -75,7 +75,7 @@ def guards_inside(m, s, h):
 
 @compiled
 def is_above(m, s, h):
-    """True if such a guard is above its tolerance at the share s of the step, which then is to end there."""
+    """True if a guard of a stop or rope is above its tolerance at the share s of the step; it goes to `t_cut`."""
     guards_inside(m, s, h)
     guards = m.events.guards
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)

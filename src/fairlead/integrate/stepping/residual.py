@@ -50,8 +50,8 @@ def theta_point(point, rule):
 
 
 @compiled
-def take_mean(problem, point, theta, h):
-    """Have the laws read given motions as they read the unknowns, on the chord of the step; until `take_moment`.
+def read_on_chord(problem, point, theta, h):
+    """Begin: laws read given motions as they read the unknowns, on the chord of the step; `read_at_instant` ends it.
 
     A spring between a point that is moved and a body that follows would else be compared with its other end at another
     place: of a motion that speeds up by a the chord is a h^2/8 ahead in the middle, which times a stiffness is much.
@@ -68,8 +68,8 @@ def weigh_ends(problem, point, h, of_start, of_end):
 
 
 @compiled
-def take_moment(problem):
-    """Have the laws read given motions at the time they are asked for."""
+def read_at_instant(problem):
+    """End what `read_on_chord` began: the laws read given motions at the time they are asked for."""
     if problem.mean_at != 0:
         mean = reals(problem.mean_at, 5)
         mean[2], mean[3] = 0.0, 0.0
@@ -96,12 +96,12 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     rule, exchange = stepping.rule, stepping.exchange
     n = problem.n
     theta_point(point, rule)
-    take_mean(problem, point, rule.theta_now, h)
+    read_on_chord(problem, point, rule.theta_now, h)
     if may_be_last and problem.n_quadratures > 0 and rule.theta_now != MIDDLE:
         field_at(problem.call_rhs, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
     else:
         field_at(problem.call_forces, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
-    take_moment(problem)
+    read_at_instant(problem)
     problem.rhs += 1
     y, y_end, v, b = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_v, n), reals(point.at_b, n)
     f, kick = reals(point.at_f, n), reals(rule.at_kick, n)
@@ -152,7 +152,7 @@ def slip_without_mass(problem, point, stepping, h):
 
 @compiled
 def scaled_residual(point, linear):
-    """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is. See `worst`."""
+    """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is."""
     core, factors = linear.core, linear.factors
     b, scale = reals(point.at_b, point.n), reals(factors.at_row_scale, point.n)
     quadrature = indices(point.at_quadrature, point.n)

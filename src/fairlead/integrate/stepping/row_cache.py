@@ -260,7 +260,7 @@ def use_row(linear, exchange, z, count):
 
 @compiled
 def use_entries(factors, starts, entries, values, used, column, z, count):
-    """The same of one matrix."""
+    """Mark columns of machine z where entries of one matrix differ from those `used` in the factors; how many."""
     for e in range(starts[z], starts[z + 1]):
         p = entries[e]
         if values[p] != used[p]:

@@ -48,12 +48,12 @@ from fairlead.integrate.stepping.residual import (
     SEARCHED,
     SOLVED,
     move_end,
+    read_at_instant,
+    read_on_chord,
     remember_move,
     residual_of_step,
     scaled_residual,
     search_line,
-    take_mean,
-    take_moment,
     theta_point,
 )
 from fairlead.integrate.stepping.row_cache import (
@@ -267,9 +267,9 @@ def evaluate_slopes(problem, point, linear, stepping, h):
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
     theta_point(point, rule)
     t = point.t + rule.theta_now * h
-    take_mean(problem, point, rule.theta_now, h)
+    read_on_chord(problem, point, rule.theta_now, h)
     jacobian_at(problem.call_slopes, (problem.context, t, point.at_u, matrices.at_jacobian, point.at_ft))
-    take_moment(problem)
+    read_at_instant(problem)
     problem.jacobians += 1
     find_holds(point, matrices, stepping.exchange)
     if factors.dense == 0:
@@ -337,9 +337,9 @@ def guards_of_step(m, h):
     if exchange.massless == 0 and (contacts.has_limits == 0 or seldom):
         return
     theta_point(point, rule)
-    take_mean(problem, point, rule.theta_now, h)
+    read_on_chord(problem, point, rule.theta_now, h)
     evaluate_guards(problem, run, guards, point.t + rule.theta_now * h, point.at_u, guards.at_g_probe)
-    take_moment(problem)
+    read_at_instant(problem)
     g, at_theta, is_limit = (
         reals(guards.at_g_end, problem.n_guards), reals(guards.at_g_probe, problem.n_guards),
         indices(contacts.at_limit_guard, problem.n_guards),
@@ -364,9 +364,9 @@ def add_quadratures(problem, point, rule, h):
     """The rise of the quadratures over the step that was taken; the iteration leaves them out."""
     if problem.n_quadratures > 0 and rule.theta_now != MIDDLE:
         theta_point(point, rule)
-        take_mean(problem, point, rule.theta_now, h)
+        read_on_chord(problem, point, rule.theta_now, h)
         field_at(problem.call_rhs, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
-        take_moment(problem)
+        read_at_instant(problem)
         problem.rhs += 1
         move_quadratures(point, h)
 

@@ -27,7 +27,7 @@ from __future__ import annotations
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
-from fairlead.integrate.stepping.residual import differs, take_mean, take_moment, weigh_ends
+from fairlead.integrate.stepping.residual import differs, read_at_instant, read_on_chord, weigh_ends
 
 
 @compiled
@@ -41,7 +41,7 @@ def refine_end(problem, point, linear, stepping, h):
 
 @compiled
 def move_by_error(problem, point, linear, stepping, h):
-    """The same of all but the quadratures."""
+    """Move the end of a step by its error, in all unknowns but the quadratures."""
     matrices, core, exchange = linear.matrices, linear.core, stepping.exchange
     n = problem.n
     kick, first, second = (
@@ -110,9 +110,9 @@ def chord_ahead(problem, point, h):
         u[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
     if not differs(problem):
         return
-    take_mean(problem, point, 0.5, h)
+    read_on_chord(problem, point, 0.5, h)
     field_at(problem.call_ahead, (problem.context, point.t + 0.5 * h, point.at_u, point.at_error_vector))
-    take_moment(problem)
+    read_at_instant(problem)
 
 
 @compiled
@@ -171,7 +171,7 @@ def meter_step(problem, point, h):
         mean[k] = 0.5 * (y[k] + y_end[k]) - bend[k] if moving[k] == 1 else y_end[k] + b[k]
     weigh_ends(problem, point, h, 1.0 / 6.0, 1.0 / 6.0)
     field_at(problem.call_rhs, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_f))
-    take_moment(problem)
+    read_at_instant(problem)
     problem.rhs += 1
     for k in range(n):
         if quadrature[k] == 1:

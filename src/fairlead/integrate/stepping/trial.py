@@ -1,17 +1,24 @@
 """The method `stepping`: a trial step proposed, taken, its error estimated (step_error.py), accepted or repeated.
 
-What repeats one, in this order: a matrix without good pivots; a law that jumps at a limit the step reaches; zones that
-do not settle; a rim of a part that changed; an error above one; a switch inside that its formula says is missed. Where
-every switch is landed on (`finish_located`): an error above one; a guard that fires at the start, or at an end that was
-cut too roughly. What is repeated ends in `take_again` (events/given_up.py), which alone sets the length of a step that
-is; `repeat` gives the zones of the start back before. Other pivots, a rim, a jump at the start and a slip left there
-end otherwise: the loop asks for them, or the start is settled.
-
     attempt  zones and end of the step together        # the active set, theta_step.py
-             if they do not settle: the same without guesses, then half of h; TRY again
-             if the error is too large: shrink h; TRY again
+             or, where every step ends at its switch, the end in the zones of the start
+             not solved, or an error above one: a shorter step
     arrive   zone changes go to the log, at the end of the step
-    settled  the slopes before are those of the settled point
+    begin    after a settlement the slopes before are those of the settled point
+
+A step is repeated, in the order in which these are looked for,
+
+    in the zones of its end (`finish_inside`)         in the zones of its start (`finish_located`)
+    a matrix without good pivots                      a matrix without good pivots
+    a law that jumps at a limit the step reaches      an error above one
+    zones, or an end, that are not found              a guard that fires at the start
+    an error above one                                a switch inside, at which the end is too rough
+    a switch inside, whose impulse would be missed
+
+All but the first end in `take_again` (events/given_up.py), which alone sets the length of what follows; `repeat` gives
+back the zones of the start before. Three things are not repeated here: the loop finds other pivots; it takes the step
+with the whole problem where a machine changes that is shared with what rests (a rim); the start is settled where a law
+jumps there, or where contacts that hold still slip.
 """
 
 from __future__ import annotations
@@ -42,10 +49,10 @@ from fairlead.integrate.point.even_steps import FINE, rounded
 from fairlead.integrate.point.swings import judge_swings
 from fairlead.integrate.record.between import end_massless, find_stiff, hold_inside, prepare_rows
 from fairlead.integrate.record.rows import rows_inside
-from fairlead.integrate.stepping.history import begin_history, keep_step, note_rejection, remember_slope
+from fairlead.integrate.stepping.history import begin_history, choose_next_step, note_rejection, remember_slope
 from fairlead.integrate.stepping.located_step import (
+    ARRANGED,
     CUT,
-    JUDGED,
     balance_end,
     judge_guards,
     remember_middle,
@@ -103,7 +110,10 @@ def attempt_stepping(m):
 
 @compiled
 def finish_inside(m, h, status):
-    """The rest of a step that looked for the zones of its end, or was not solved: repeated, or accepted to its end."""
+    """The rest of a step in the zones of its end, and of one of either kind that was not solved.
+
+    It is repeated, or accepted to its end.
+    """
     problem, run, point, linear, guards = m.problem, m.run, m.point, m.linear, m.events.guards
     settling, stepping, rule, exchange = m.events.settling, m.stepping, m.stepping.rule, m.stepping.exchange
     if status == JUMPS or (status == DONE and jump_is_due(m, h)):
@@ -147,14 +157,14 @@ def finish_located(m, h):
         return reject_error(m, h)
     hold_inside(m)
     verdict = judge_guards(m, h)
-    if verdict == JUDGED or (verdict == CUT and run.cut_at < 1.0 and cut_too_rough(m, h)):
+    if verdict == ARRANGED or (verdict == CUT and run.cut_at < 1.0 and cut_too_rough(m, h)):
         return GO_ON
     recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     recorder.meters_off = 1 if problem.n_quadratures > 0 else 0
     repeated = run.retried > 0
     accept(m, h, verdict == CUT)
-    keep_step(run, rule, h, repeated)
+    choose_next_step(run, rule, h, repeated)
     remember_middle(point, rule, h)
     show_inside(m)
     return GO_ON
@@ -209,7 +219,7 @@ def accept_step(m, h):
     repeated = run.retried > 0
     accept(m, h, False)
     if run.adaptive == 1:
-        keep_step(run, rule, h, repeated)
+        choose_next_step(run, rule, h, repeated)
     show_inside(m)
     if rule.localising > 0:
         run.crossed = 1
@@ -279,7 +289,7 @@ def count_unsolved(run, status):
 
 @compiled
 def find_pivots(m, h):
-    """Repeat a step that met such a matrix midway with a shorter one; have other pivots found where none will do."""
+    """After a matrix without good pivots: a shorter step if it was met midway, else, or in vain, other pivots."""
     rule = m.stepping.rule
     if rule.midway == 1 and (rule.replanned == 1 or m.run.retried < HALVINGS):
         rule.replanned = 0
@@ -378,7 +388,7 @@ def arrive_with_zones(m):
     if problem.samples == 1 and run.landing == 1 and run.t_piece >= run.t_next and run.t_piece < run.stop:
         run.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then
         guards.n_fired = 0
-    status = arrive(m, False)
+    status = arrive(m, False)  # at a cut forces are on the line between the ends; the settlement there corrects them
     if run.phase == TRY and m.stepping.rule.instant == 0:
         remember_slope(run, m.stepping)
     return status
