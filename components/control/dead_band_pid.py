@@ -27,23 +27,23 @@ class ErrorSeen(Component):
 
 
 class DeadBandPid(Composite):
-    """A PID controller (see `Pid`) that rests while the error is small: errors within a band count as none.
+    """A PID controller (see `Pid`) that rests while the error is small.
 
-    The error is e = reference - measured. Once |e| is above `band`, the controller acts on the whole error, until |e|
-    is below `inner`. While it rests P is zero, I stays, and D continues to act. Use it for a control whose integral
-    would hunt because of stiction.
+    The error is e = reference - measured. The controller begins to act when |e| is above `band`, and rests when |e| is
+    below `inner`. It acts on the whole error. While it rests P is zero, I keeps its value, and D continues to act. Use
+    it for a control whose integral would hunt because of stiction.
 
     Source: T. Kuphaldt, Lessons in Industrial Instrumentation (a dead band against cycling behind a valve's stiction).
 
-    Limits: the measured value ends within `inner` to `band` of the reference, not on it. The command jumps by K_p e.
-    As I stays, leave the integral out if the controlled part integrates the command itself, as a valve and a cylinder
-    do.
+    Limits: the measured value ends within `inner` to `band` of the reference, not on it. The command jumps by K_p e
+    when it begins to rest or to act, and is constant in between if nothing moves. A part that integrates the command
+    itself, as a valve and a cylinder do, would drift on the value that I keeps: leave the integral out there.
     """
 
     reference = Input("1", "Value wanted.", signed=True)
     measured = Input("1", "Value measured.", signed=True)
-    ahead = Input("1", "What else is fed forward.", 0.0, signed=True)
-    band = Parameter("1", "Size of the error from which on it is heard, in SI of both.", above=0)
+    ahead = Input("1", "Feed-forward input, added to the command times `ahead_gain`.", 0.0, signed=True)
+    band = Parameter("1", "Size of the error above which it acts, in SI units.", above=0)
     inner = Parameter("1", "Size below which it rests again; half the band when not given.", default=None, above=0)
     gain, integral_time = OF_PID["gain"], OF_PID["integral_time"]
     derivative_time, filter_time = OF_PID["derivative_time"], OF_PID["filter_time"]
@@ -52,7 +52,7 @@ class DeadBandPid(Composite):
     sampling = Effect("The controller works in samples; off: continuously and at once.")
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
-    heard = Output("1", "What is heard of it.")
+    heard = Output("1", "The error on which it acts; 0 while it rests.")
     integral = Output("1", "I, what the integral has gathered.")
 
     def check(p):

@@ -4,19 +4,19 @@ from fairlead.component import Component, Law, Output, Parameter, Table, Transla
 
 
 class Drag(Component):
-    """Resists the speed v of b over a:  drag = linear v + quadratic v |v| + points(v).
+    """Resists the speed v of b relative to a:  drag = linear v + quadratic v |v| + points(v).
 
     Of a body with drag coefficient C_d and area A in a fluid of density rho the quadratic part is rho C_d A/2. |v| is
-    rounded at rest over `rounding`, so that the drag is smooth there. Join `a` with a Ground for a fluid that stands.
+    rounded at rest over `rounding`, so that the drag is smooth there. Join `a` with a Ground for a fluid at rest.
     """
 
     a = Translational("the fluid, or a Ground")
     b = Translational("the body")
     linear = Parameter("N*s/m", "Drag per speed.", default=0.0, least=0)
     quadratic = Parameter("N*s^2/m^2", "Drag per speed squared.", default=0.0, least=0)
-    points = Table("m/s", "N", "Speed and drag at it, beside the others.", default=None)
+    points = Table("m/s", "N", "Table of speed and drag, added to the other two; for both signs of v.", default=None)
     rounding = Parameter("m/s", "Speed below which |v| is rounded.", default=1e-4, above=0)
-    force = Output("N", "Drag, positive when it holds b back.")
+    force = Output("N", "Drag, positive when b moves towards +x relative to a.")
 
     def law(p, a, b):
         """Everything taken is dissipated."""

@@ -51,15 +51,16 @@ class Cam(Linkage):
 
 
 class ArmPin(Linkage):
-    """A pin of an arm moves a slider by its height:  slider.x = centre + radius sin(angle - zero).
+    """A pin on an arm that turns moves a slider:  slider.x = centre + radius sin(angle - zero).
 
-    A slotted lever at large angles, where a Lever is one of small ones: two of them on one shaft, at their radii,
-    make a lever of two arms. With a shaft that turns round it is a Scotch yoke.
+    The slider has a slot for the pin, so it follows the pin along one line only. Use it like a Lever, but for large
+    angles: two of them on one shaft, each with its radius, make a lever of two arms. On a shaft that turns all the way
+    round it is a Scotch yoke.
     """
 
     radius = Parameter("m", "Distance of the pin from the shaft; negative: on the other side.")
-    zero = Parameter("rad", "Angle at which the arm is square to the slider's line.", default=0.0)
-    centre = Parameter("m", "Position of the slider there.", default=0.0)
+    zero = Parameter("rad", "Angle at which the arm is at right angles to the line of the slider.", default=0.0)
+    centre = Parameter("m", "Position of the slider at that angle.", default=0.0)
 
     def check(p):
         """An arm has a length."""

@@ -10,20 +10,24 @@ MASK = (1 << 64) - 1
 
 
 class SampledSensor(Controller):
-    """Every `period`:  signal = step(value + noise xi_k),  held until the next sample.
+    """A sensor that measures once every `period`, with noise and a limited resolution, and holds its reading.
+
+    signal = the multiple of `resolution` nearest to (value + noise xi_k),  halves upward
 
     xi_k is normal with mean 0 and variance 1, and depends on `seed` and the number k of the sample alone: the same
-    seed gives the same noise, bit by bit, whatever engine and steps are taken. Two sensors with one seed have one
-    noise; give each its own. `resolution` rounds to the nearest multiple, halves upward. Neither is there if not given.
+    seed gives the same noise, bit by bit, whatever engine and steps are taken. All sensors have the same seed unless
+    you give another one, and then the same noise: give each sensor its own. Without `noise` there is no noise, without
+    `resolution` no rounding. The first sample is taken at the start.
+
     Source of the numbers: two outputs of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, DOI 10.1145/2660193.2660195)
     through the transform of Box and Muller (1958), DOI 10.1214/aoms/1177706645.
     """
 
     passes = "value"
     value = Input("1", "Measured quantity.", signed=True)
-    sampling = Effect("The sensor works in samples; off: it is perfect.", off=PerfectSignal)
-    noise = Parameter("1", "Standard deviation of the noise, in SI of what is measured.", default=None, above=0)
-    resolution = Parameter("1", "Step of its numbers, in SI of what is measured.", default=None, above=0)
+    sampling = Effect("The sensor works in samples; off: its signal is the value at every time.", off=PerfectSignal)
+    noise = Parameter("1", "Standard deviation of the noise, in SI units of the value.", default=None, above=0)
+    resolution = Parameter("1", "Smallest step of the reading, in SI units of the value.", default=None, above=0)
     seed = Count("Seed of the noise.", default=1, least=0)
     signal = Output("1", "Reading of the sensor.")
 

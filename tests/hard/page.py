@@ -24,8 +24,8 @@ HEAD = """\
 
 How far can you trust a run of a difficult scene? This page lists scenes that were chosen to break an engine, and the
 result of each. If you want to know about your own scene, find the case nearest to it below, and read its row.
-[Validation](validation.md) compares realistic models with known answers, [random scenes](random_scenes.md) has scenes
-that nobody chose.
+[Validation](validation.md) compares realistic models with known answers, [random scenes](random_scenes.md) has many
+more drawn at random.
 
 Each scene has an *oracle*. This is a rule that decides without the engine whether a result is right: a closed form, a
 balance of energy or momentum, monotonicity, or symmetry. Each scene runs on every engine: `rodas` (with its second
@@ -44,11 +44,14 @@ in `models/hard`. `tests/hard/known.py` lists the rows that fail and those that 
 
 | verdict | meaning |
 |---|---|
-| ok | finished; the result satisfies the oracle, energy balances to ten accuracies, held contacts do not slip |
+| ok | finished, or refused where the oracle says so; satisfies the oracle; energy balances; held contacts do not slip |
 | stopped | ended before its stop, with a message that says where and why; it reported nothing wrong |
 | wrong | finished, and a reported result is wrong |
 | stuck | its budget of time ran out, or it gave no answer |
 | crashed | an exception, or the process ended |
+
+Energy balances if at most ten times `accuracy` is missing of the energy that passed, or of 0.1 J if less passed. So the
+closure in the tables below, which is relative to the energy that passed, may be large where little passed.
 """
 
 

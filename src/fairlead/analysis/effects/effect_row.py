@@ -118,7 +118,7 @@ class Row:
         if self.change > NOTICEABLE:
             if self.switch.then == "on":
                 return "it matters, and the scene leaves it out."
-            return "it matters: a change of what is modelled."
+            return "it matters, and the scene has it."
         if self.saved <= WORTH or not self.measurable:
             return "not worth a change."
         if self._in_the_start():
