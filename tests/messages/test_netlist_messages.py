@@ -120,6 +120,7 @@ SEEDED = [
     ("20 s", "20 s, accuracy: 1e-13", "belt.yaml:15:29: run.accuracy = 1e-13 is below 1e-12"),
     ("20 s", "20 s, accuracy: high", "belt.yaml:15:29: run.accuracy = high is not a quantity\n    A quantity is a finite"),
     ("20 s", "20 s, engine: rodass", "run.engine = rodass is not known\n    Did you mean rodas? Allowed are auto, rodas, stepping, ida."),
+    ("20 s", "20 s, method: stepping", "run.method = stepping is not known\n    It is a word of run.engine. Allowed are auto, rodas5p, rodas3p."),
     ("20 s", "20 s, chatter: no", "run.chatter = no is not known\n    Allowed are warn, hold, stop."),
     ("20 s", "20 s, max_steps: 1.5", "run.max_steps = 1.5 is not a whole number"),
     ("20 s", "20 s, max_steps: 0", "run.max_steps = 0 is not above 0"),

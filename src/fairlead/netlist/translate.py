@@ -68,7 +68,8 @@ def _fault(error: ErrorDetails, model: type[BaseModel], tree: Value) -> Fault:
         word, key = BOUNDS[kind]
         return Fault(value.where, f"{subject} = {given} is {word} {context[key]:g}", _hover(model, path))
     if kind == "literal_error":
-        return _choice(value, subject, given, context["expected"])
+        beside = _beside(model, path, value)
+        return _choice(value, subject, given, context["expected"], beside)
     if kind == "value_error" and isinstance(reason := context.get("error"), QuantityError):
         joint = "." if isinstance(value.content, dict) else " = "  # a block as a whole names its own entries
         return Fault(_place_of_entry(value, reason.what), f"{subject}{joint}{reason.what}", reason.allowed)
@@ -132,12 +133,21 @@ def _unknown_key(path: Path, model: type[BaseModel], tree: Value) -> Fault:
     return Fault(value.named_at, f"{owner} has no key {shown(name)}", advice)
 
 
-def _choice(value: Value, subject: str, given: str, expected: str) -> Fault:
+def _beside(model: type[BaseModel], path: Path, value: Value) -> str:
+    """The setting of the same block of which this is a word; empty if there is none."""
+    block = _model_at(model, path[:-1])
+    for name, field in block.model_fields.items() if block is not None else ():
+        if name != path[-1] and value.plain() in getattr(field.annotation, "__args__", ()):
+            return _subject((*path[:-1], field.alias or name))
+    return ""
+
+
+def _choice(value: Value, subject: str, given: str, expected: str, beside: str) -> Fault:
     names = re.findall(r"'([^']*)'", expected)
     if not names:
         return Fault(value.where, f"{subject} = {given} is not {expected}", f"Write {subject}: {expected}.")
-    advice = f"{did_you_mean(given, names)} Allowed are {listing(names)}.".strip()
-    return Fault(value.where, f"{subject} = {given} is not known", advice)
+    near = f"It is a word of {beside}." if beside else did_you_mean(given, names)
+    return Fault(value.where, f"{subject} = {given} is not known", f"{near} Allowed are {listing(names)}.".strip())
 
 
 def _given(value: Value) -> str:
