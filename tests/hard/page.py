@@ -112,6 +112,10 @@ def _summary(done: Done) -> str:
     for engine in (*ENGINES, "auto"):
         mine = [one for one in attempts if (one.auto if engine == "auto" else one.engine == engine)]
         lines.append(_line(f"`{engine}`", *(_share([one for one in mine if one.treatment == w]) for w in words)))
+    mine = [one for one in attempts if one.auto]
+    good = sum(one.verdict == "ok" for one in mine)
+    told = f"So leave `run.engine` at `auto`: {good} of its {len(mine)} rows are right. What the others show stands first in"
+    lines += ["", told, "[What fails](#what-fails)."]
     return "\n".join([*lines, ""])
 
 
@@ -126,7 +130,7 @@ def _share(attempts: list[Attempt]) -> str:
 
 def _failures(done: Done) -> str:
     bad = sorted((one for _, one in done if one.verdict != "ok"), key=lambda one: not one.auto)
-    lines = ["## What fails", "", "Rows on the engine that `auto` picks first.", ""]
+    lines = ["## What fails", "", "The rows of the engine that `auto` picks come first.", ""]
     if not bad:
         return "\n".join([*lines, "Nothing.", ""])
     lines += [_line("case", "engine", "treatment", "auto", "verdict", "what came", "why"), _line(*["---"] * 7)]
