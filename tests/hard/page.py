@@ -114,8 +114,8 @@ def _summary(done: Done) -> str:
         lines.append(_line(f"`{engine}`", *(_share([one for one in mine if one.treatment == w]) for w in words)))
     mine = [one for one in attempts if one.auto]
     good = sum(one.verdict == "ok" for one in mine)
-    told = f"So leave `run.engine` at `auto`: {good} of its {len(mine)} rows are right. What the others show stands first in"
-    lines += ["", told, "[What fails](#what-fails)."]
+    told = f"So leave `run.engine` at `auto`: {good} of its {len(mine)} rows are right. What the others show stands"
+    lines += ["", told, "first in [What fails](#what-fails)."]
     return "\n".join([*lines, ""])
 
 
