@@ -78,7 +78,7 @@ def followed(name: str, settings: dict[str, str], budget: float) -> list[str]:
     had = study.size(output_errors(names, units, runs[0].values, runs[1].values))
     numerical, below = study.told(choice.row.numerical, choice.row)
     return [told(name, settings), choice.row.rung.label, f"{'<' if below else ''}{percent(numerical)}", percent(had),
-            percent(error(study, choice.row)), "means" if study.sensitive else "moment by moment"]  # fmt: skip
+            percent(error(study, choice.row)), "means" if study.sensitive else "each moment"]  # fmt: skip
 
 
 def main() -> None:
@@ -87,11 +87,11 @@ def main() -> None:
     parser.add_argument("--budget", type=float, default=120.0)
     budget = parser.parse_args().budget
     print(machine())
-    print("| scene | studied to | took | over budget | lines | numerical | modelling | elements | floor |")
+    print("| scene | studied to | took | beyond the budget | rows | numerical | modelling | elements | floor |")
     print("|" + 9 * " --- |")
     for name, settings in SCENES:
         print(f"| {' | '.join(by_command(name, settings, budget))} |", flush=True)
-    print("\n| unseen | advised | told | had | all errors told | compared |\n|" + 6 * " --- |")
+    print("\n| route | advised | predicted | found | numerical or modelling | compared by |\n|" + 6 * " --- |")
     for name, settings in UNSEEN:
         print(f"| {' | '.join(followed(name, settings, budget))} |", flush=True)
 

@@ -303,10 +303,10 @@ def test_two_refinements_of_the_elements_tell_their_order():
     made = MeshErrors(study, None, None, None, Ladder(), [])
     meshes = [Mesh("element 0.5", {}, 0.5), Mesh("element 0.125", {}, 2.0)]
     made._tell_order(meshes)
-    assert study.remarks[-1].endswith("they approach with order 2, so that the scene's leave 4 % in all.")
+    assert study.remarks[-1].endswith("order 2, so the whole error of the scene's elements is 4 %.")
     study.elements = off(0.09)
     made._tell_order(meshes)
-    assert "they do not come closer" in study.remarks[-1]
+    assert "no convergence" in study.remarks[-1]
 
 
 @pytest.mark.parametrize("order", [0.5, 1, 2, 3])

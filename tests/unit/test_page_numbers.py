@@ -76,7 +76,7 @@ def same_to_the_last_digit(shown: list[str], found: list[str]) -> None:
 def test_what_effects_change_in_the_winch_is_what_the_page_on_drives_shows(row: list[str]) -> None:
     name, unknowns, zones, steps, speed, dip = row
     names, _, word = name.rpartition(" ")
-    settings = {} if name == "as it is" else {f"effects.{one}": word for one in names.split(" and ")}
+    settings = {} if name == "no change" else {f"effects.{one}": word for one in names.split(" and ")}
     result = fairlead.load("winch_drive", set=settings).run(out=None)
     late, v = (result.t >= 3) & (result.t < 4), result["line.v"]
     assert (result.run["unknowns"], result.run["machines"]) == (int(unknowns), int(zones))

@@ -53,22 +53,24 @@ def choose(study: Study, target: float) -> Choice:
         longest = max(good[0].timed.cpu / FASTER, good[0].timed.cpu + UNFELT)
         near = [row for row in good if row.timed.cpu <= longest]
         row = min(near, key=lambda row: found[id(row)])
-        return Choice(target, row, head + _sentence(study, row, target) + _enough(found, good, row))
+        return Choice(target, row, head + _sentence(study, row, target) + _enough(study, found, good, row))
     if known:
         best = min(known, key=lambda row: found[id(row)])
         return Choice(target, None, f"{head}no line reaches it; the nearest is {_sentence(study, best, target)}")
     return Choice(target, None, f"{head}nothing was measured in full.")
 
 
-def _enough(found: Mapping[int, float], good: Sequence[Row], row: Row) -> str:
-    """What looser line would do, none being faster by enough to win: the loosest of the same kind, or the fastest."""
+def _enough(study: Study, found: Mapping[int, float], good: Sequence[Row], row: Row) -> str:
+    """What looser row would do, none being faster by enough to win: the loosest of the same kind, or the fastest."""
     looser = [one for one in good if one.rung.accuracy > row.rung.accuracy]
     if not looser:
         return ""
     alike = [one for one in looser if (one.rung.engine, one.rung.equations) == (row.rung.engine, row.rung.equations)]
     one = max(alike, key=lambda each: each.rung.accuracy) if alike else looser[0]
-    said = f" Enough would be {one.rung.label}: {percent(found[id(one)])}, in {seconds(one.timed.cpu)}"
-    return f"{said}, too little less to count." if one.timed.cpu < row.timed.cpu else f"{said}, which is not less."
+    size, floor = found[id(one)], study.floor_of(one.rung.equations)
+    error = f"below {percent(floor)}" if 0 < size <= floor else percent(size)
+    said = f" The looser {one.rung.label} would do too ({error}, {seconds(one.timed.cpu)}), but"
+    return f"{said} saves too little time to matter." if one.timed.cpu < row.timed.cpu else f"{said} is not faster."
 
 
 def front(study: Study) -> list[tuple[float, float, Row]]:
@@ -108,7 +110,7 @@ def _sentence(study: Study, row: Row, target: float) -> str:
     text += f", in {seconds(row.timed.cpu)}."
     elements, below = study.told(row.discretisation, row)
     if elements is not None and elements > target and not below:
-        text += f" The elements alone leave {percent(elements)}: smaller ones are needed for this."
+        text += f" The elements alone have an error of {percent(elements)}: use smaller ones."
     return text
 
 

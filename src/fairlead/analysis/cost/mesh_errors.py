@@ -105,13 +105,13 @@ class MeshErrors:
         worst = max((name for name in here if name in there), key=here.__getitem__, default="")
         if not worst or not here[worst]:
             return
-        said = f"{worst}: {coarse.label} leaves {percent(there[worst])}, the scene's elements {percent(here[worst])}"
+        both = f"{percent(there[worst])} with {coarse.label}, {percent(here[worst])} with the scene's elements"
         order = order_of(there[worst] / here[worst], 1 / coarse.finer, finest.finer)
-        rest = "they do not come closer: what elements leave is not known, take the larger"
+        rest = "no convergence: the error of the elements is unknown, take the larger error"
         if order is not None:
             whole = percent(here[worst] / (1 - finest.finer**-order))
-            rest = f"they approach with order {order:.2g}, so that the scene's leave {whole} in all"
-        self.study.remarks.append(f"{said}, both against {finest.label}; {rest}.")
+            rest = f"order {order:.2g}, so the whole error of the scene's elements is {whole}"
+        self.study.remarks.append(f"{worst}: {both}, both relative to {finest.label}; {rest}.")
 
     def _by_family(self, errors: Sequence[OutputError] | None) -> dict[str, float]:
         """The error of every output, of the elements of a line in the mean over them."""
