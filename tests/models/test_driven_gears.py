@@ -117,6 +117,19 @@ def test_a_brake_too_weak_slips_and_the_clutch_holds(simulate: Scene) -> None:
     assert {component for _, component, *_ in changes(result)} == {"band.contact"}
 
 
+@pytest.mark.parametrize("method", ["hold", "karnopp"])
+def test_nor_do_both_slip_where_friction_falls_as_they_let_go(simulate: Scene, method: str) -> None:
+    """In the order of release (release.py) the same pattern is met: load = 3 t up to 2.5 rad/s."""
+    parts, joined, *_, moment = PAIRS["planetary, ring braked"]
+    falls = "{curve: coulomb, coulomb: 0.3, stiction: 0.4}"
+    parts = ["motor: {type: SpeedSource, speed: 10 rad/s}", parts[1], BRAKE.replace("0.3", falls)]
+    every = "\n      ".join([*parts, CLUTCH.format(moment=moment).replace("0.3", falls)])
+    text = SCENE + "    friction: {{method: {method}}}\n"
+    result = simulate(text.format(parts=every, joined=joined, engine="rodas", accuracy=1e-6, method=method))
+    times = np.linspace(0.1, 1.9, 19)
+    assert result.at("load.speed", times) == pytest.approx(np.minimum(3 * times, 2.5), abs=1e-5)
+
+
 def test_of_two_that_are_torn_at_once_the_weaker_slips(simulate: Scene) -> None:
     """The motor turns at once at 10 rad/s. Not all contacts of a gear without inertia can slip: nothing would turn it.
 
@@ -128,6 +141,22 @@ def test_of_two_that_are_torn_at_once_the_weaker_slips(simulate: Scene) -> None:
     times = np.linspace(0.1, 1.9, 19)
     assert result.at("load.speed", times) == pytest.approx(np.minimum(3 * times, 2.5), abs=1e-5)
     assert result["band.slip"][1:] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("force", ["500 N", "45 N", "5 N"])
+def test_which_one_slips_does_not_depend_on_the_order_of_the_netlist(simulate: Scene, force: str) -> None:
+    """What is tried at the jump goes by their order; what comes of it does not."""
+    parts, joined, *_, moment = PAIRS["planetary, ring braked"]
+    parts = ["motor: {type: SpeedSource, speed: 10 rad/s}", parts[1], BRAKE.replace("500 N", force)]
+    parts += CLUTCH.format(moment=moment).split("\n      ")
+    text = "\n      ".join
+    found = [
+        simulate(SCENE.format(parts=text(order), joined=joined, engine="rodas", accuracy=1e-6))
+        for order in (parts, parts[::-1])
+    ]
+    times = np.linspace(0.1, 1.9, 19)
+    assert found[0].at("load.speed", times) == pytest.approx(found[1].at("load.speed", times), abs=1e-9)
+    assert [changed for _, *changed in changes(found[0])] == [changed for _, *changed in changes(found[1])]
 
 
 def test_where_the_brake_is_the_weaker_one_it_slips(simulate: Scene) -> None:

@@ -15,7 +15,7 @@ Complementarity Problem, 1992, section 4.4). Where there is none, the run ends a
 from __future__ import annotations
 
 from fairlead.integrate.events.consistent import prepare_consistent
-from fairlead.integrate.linear.systems import DONE
+from fairlead.integrate.linear.systems import SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, mass_at
 
 
@@ -47,10 +47,10 @@ def may_hold(problem, z):
 
 @compiled
 def determines(m):
-    """True if the zones in force leave no unknown open."""
+    """True if the zones in force leave no unknown open, be it with other pivots."""
     problem, matrices = m.problem, m.linear.matrices
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
-    return prepare_consistent(problem, m.point, m.linear) == DONE
+    return prepare_consistent(problem, m.point, m.linear) != SINGULAR
 
 
 @compiled

@@ -80,7 +80,8 @@ def settle(m, iterations):
             continue
         if status == DONE:
             status = consistent(m, iterations)
-        if status == RELEASED or (status == SINGULAR and settles_nearby(m)):
+        status = settle_nearby(m, status)
+        if status == RELEASED:
             continue
         if status != DONE:
             return status
@@ -169,17 +170,24 @@ def change_zones(m):
 
 
 @compiled
-def settles_nearby(m):
-    """True if zones are in force instead that leave nothing open (left_open.py)."""
+def settle_nearby(m, status):
+    """For SINGULAR: RELEASED if zones are in force instead that leave nothing open (left_open.py), else as it was.
+
+    NO_ROOM if the buffer of events is to be emptied first; called again it comes to the same.
+    """
     settling = m.events.settling
+    if status != SINGULAR:
+        return status
+    if not there_is_room(m.problem, m.recorder):
+        return NO_ROOM
     if settling.passes == 0 or settling.passes >= m.run.max_passes or not near_pattern(m):
-        return False
+        return SINGULAR
     log_changes(m)
     settling.passes += 1
     settling.settling_passes += 1
     if recurs(m.run, settling):
         next_stage(m.problem, m.events)
-    return True
+    return RELEASED
 
 
 @compiled

@@ -8,13 +8,13 @@ elimination of u, row by row,
 
 leaves an entry at some u_k, the largest of which it gives, or nothing there: then  a v = 0  is left, whose rate a is a
 row of M. Without it the equations have index 2. Which rows hold is known when M is asked for, so this is done there
-(`hold_light` in callbacks/derivatives.py). What always holds, as a sensor or a gear, comes first.
+(`hold_light` in callbacks/light_rows.py). What always holds, as a sensor or a gear, comes first.
 
 Example: a node between two masses, held to both:  v1 - u = 0 gives u,  u - v2 = 0 becomes  v1 - v2 = 0.
 
 Speeds that are given have a column, too: not of M, but of the rates on the right, where the accelerations of supports
 stand. A row that gives a speed has none of them; what is left of them in the others is that of their relation
-(`support_light` in callbacks/evaluation.py). Example: a gear, of which one shaft turns as given and one is braked.
+(`support_light`). Example: a gear, of which one shaft turns as given and one is braked.
 """
 
 from __future__ import annotations
@@ -63,35 +63,33 @@ class Part(NamedTuple):
 
 def held_entries(blocks: Sequence[Block], shared: Sequence[Share], numbering: Numbering) -> Entries:
     """Every unknown speed in a row that holds."""
-    row, column, partial = ([np.zeros(0, np.int64)] for _ in range(3))
-    coef = [np.zeros(0)]
-    for block, share in zip(blocks, shared, strict=True):
-        s, count = block.kernel.structure, np.arange(block.count)
-        for e, (unknown, j) in enumerate(s.mass):
-            own, used = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j] < numbering.n
-            row.append(own[used])
-            column.append(block.in_index[used, j])
-            partial.append((share.mass + count * len(s.mass) + e)[used])
-            coef.append(block.in_coef[used, j])
-    return Entries(np.concatenate(row), np.concatenate(column), np.concatenate(partial), np.concatenate(coef))
+    every = _read(blocks, shared, "")
+    known = every.z < numbering.n
+    return Entries(every.row[known], every.z[known], every.partial[known], every.coef[known])
 
 
 def supported_entries(blocks: Sequence[Block], shared: Sequence[Share], numbering: Numbering) -> Supported:
-    """Every acceleration of a support that a row of a hold reads."""
+    """Every acceleration of a support that a row that holds reads."""
+    every = _read(blocks, shared, "A")
+    given = every.z != numbering.zero
+    return Supported(every.row[given], every.z[given], every.partial[given], every.coef[given])
+
+
+def _read(blocks: Sequence[Block], shared: Sequence[Share], part: str) -> Supported:
+    """What rows that hold read of the ports whose speeds they hold: the speed, or with "A" its given acceleration."""
     row, z, partial = ([np.zeros(0, np.int64)] for _ in range(3))
     coef = [np.zeros(0)]
     for block, share in zip(blocks, shared, strict=True):
         s, count = block.kernel.structure, np.arange(block.count)
-        for e, (unknown, j) in enumerate(s.mass):
-            rate = f"{PORT}:{key(s.inputs[j]).name}:A"
-            if rate not in s.inputs:
+        for e, (unknown, speed) in enumerate(s.mass):
+            read = f"{PORT}:{key(s.inputs[speed]).name}:{part}" if part else s.inputs[speed]
+            if read not in s.inputs:
                 continue
-            a = s.inputs.index(rate)
-            own, used = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, a] != numbering.zero
-            row.append(own[used])
-            z.append(block.in_index[used, a])
-            partial.append((share.mass + count * len(s.mass) + e)[used])
-            coef.append(block.in_coef[used, a])
+            j = s.inputs.index(read)
+            row.append(block.flow_index[:, s.targets.index(f"own:{unknown}")])
+            z.append(block.in_index[:, j])
+            partial.append(share.mass + count * len(s.mass) + e)
+            coef.append(block.in_coef[:, j])
     return Supported(np.concatenate(row), np.concatenate(z), np.concatenate(partial), np.concatenate(coef))
 
 
