@@ -43,10 +43,10 @@ test-all: engine  ## the rest of the tests, those that take long
 	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
 
 # A worker would wait for the loop that another one compiles. That of rodas is exported by tests as well: all is made of
-# such bitcode, so that one process types what the loops have in common, once.
+# such bitcode, so that one process types what the loops have in common, once, and another what tests of rooms call.
 .PHONY: engine
 engine: $(VENV)/test.done
-	$(RUN) -m fairlead.integrate.compile_all rodas
+	$(RUN) -m tests.compiling
 
 browser:  ## install Debian's chromium, which the tests of pages drive; without it they are skipped
 	@if command -v chromium >/dev/null && command -v chromedriver >/dev/null; then echo "chromium is installed"; \

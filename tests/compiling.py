@@ -1,18 +1,26 @@
-"""What all workers need, made by one of them each: the loops that tests share, and the files of the tests.
+"""What all workers need, made once: compiled code that tests share, and the files of the tests.
+
+    python -m tests.compiling         the loops, and beside them the functions of rooms that tests of rooms call
 
 With cold caches every worker would otherwise wait for the first loop, and again for the second: whoever comes later
-waits until the entry is there (native.py). And each would have pytest rewrite the assertions of all files.
+waits until the entry is there (native.py). Functions of a room call most of the engine, which numba would type in every
+worker. And each would have pytest rewrite the assertions of all files.
 """
 
 from __future__ import annotations
 
 import contextlib
+import functools
+import gc
 import importlib
+import inspect
+import multiprocessing
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from fairlead.integrate.compile_all import compile_all
 from fairlead.integrate.engines import RODAS, STEPPING
 from fairlead.integrate.machine_code import compiled_loop, compiled_sundials
 
@@ -46,3 +54,20 @@ def read_share(config: pytest.Config) -> None:
     for file in files[begin:] if begin else ():
         with contextlib.suppress(Exception, pytest.skip.Exception):  # told when it is collected
             importlib.import_module(".".join(file.relative_to(tests.parent).with_suffix("").parts))
+
+
+def compile_rooms() -> None:
+    """Have machine code of the functions of rooms that tests call in the cache, typed in one process."""
+    gc.disable()  # what numba makes stays till the end
+    for file in sorted((Path(__file__).parent / "integrate").glob("test_*.py")):
+        if "tests.integrate.rooms" in file.read_text(encoding="utf-8"):
+            for made in vars(importlib.import_module(f"tests.integrate.{file.stem}")).values():
+                if isinstance(made, functools._lru_cache_wrapper) and not inspect.signature(made).parameters:
+                    made()
+
+
+if __name__ == "__main__":
+    rooms = multiprocessing.get_context("spawn").Process(target=compile_rooms)
+    rooms.start()
+    compile_all(["rodas"])
+    rooms.join()
