@@ -39,6 +39,7 @@ def haul(result):
     return -result["haul.force"][np.searchsorted(result.t, np.arange(2.5, 5.0, 0.02))].mean()
 
 
+@pytest.mark.slow
 def test_modules_are_joined_by_connectors_in_which_hose_and_core_are_one(simulate):
     result = simulate(array("modules: 2"))
     np.testing.assert_allclose(result["line.hose_node[48].x"], result["line.core_node[48].x"])
@@ -122,6 +123,7 @@ def test_hose_and_core_as_one_body_have_half_the_unknowns_and_no_inner_contacts(
     assert not [instance for instance in one.flat.instances if ".inner" in instance.path]
 
 
+@pytest.mark.slow
 def test_below_the_threshold_of_slip_they_are_the_limit_of_two(simulate, hauls):
     assert moved(simulate, hauls, hose_core_slip="off") == pytest.approx(moved(simulate, hauls), rel=0.005)
 

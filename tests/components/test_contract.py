@@ -171,6 +171,7 @@ def test_energy_that_is_not_accounted_for_is_told():
     assert "stores 0 W" in text
 
 
+@pytest.mark.slow
 def test_zones_that_run_in_a_circle_are_told():
     class Restless(TwoEnded):
         zones = Zones("slack", "taut")

@@ -85,6 +85,7 @@ def test_a_rope_with_an_effect_off_is_the_limit_of_on(simulate, effect):
     assert difference(off, simulate(ROPE, **besides), "haul.force") > 10 * tolerance
 
 
+@pytest.mark.slow
 def test_a_line_presses_less_by_what_its_turn_needs_and_at_rest_not(simulate):
     """T - m v^2 grows by exp(mu angle), as T does without; so the two are the same in the limit of no speed."""
     text = ROPE.replace("20 N/m", "0 N/m").replace("{ramp: {from: 200 N, to: 150 N, over: 0.5 s}}", "200 N")

@@ -353,6 +353,7 @@ def test_the_presliding_loop_of_lugre(simulate):
     assert width < 1e-4
 
 
+@pytest.mark.slow
 def test_the_break_away_force_of_lugre_falls_with_the_rate_of_loading(simulate):
     """1995, Fig. 4: near the stiction force when loaded slowly, towards the Coulomb force when fast."""
     forces = []
@@ -367,6 +368,7 @@ def test_the_break_away_force_of_lugre_falls_with_the_rate_of_loading(simulate):
     assert 1.0 < forces[-1] < forces[0] < 1.5
 
 
+@pytest.mark.slow
 def test_lugre_sticks_and_slips_on_a_spring_as_in_1995(simulate):
     """1995, section 4D, Fig. 6: 1 kg pulled through 2 N/m at 0.1 m/s; against the equations by another library."""
     text = LUGRE.replace("push: {type: ForceSource, force: FORCE}", """spring: {type: Spring, stiffness: 2 N/m}

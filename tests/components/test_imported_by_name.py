@@ -38,6 +38,7 @@ def everything() -> tuple[dict[str, list[str]], list[str]]:
     return told_by(ALL)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["belt", "single_bend"])
 def test_a_scene_imports_a_part_of_the_library_and_whole_families_in_their_order(model, everything) -> None:
     heads, modules = told_by(f"import fairlead; fairlead.load('{model}').assembly")
@@ -97,5 +98,6 @@ assert Curve.members["coulomb"] is Coulomb, Curve.members
 """
 
 
+@pytest.mark.slow
 def test_a_member_of_ones_own_counts_although_the_bundled_one_of_its_word_is_imported_later() -> None:
     told_by(OWN)

@@ -23,6 +23,7 @@ def test_the_weights_of_all_nodes_sum_to_the_length_of_the_device(lengths, begin
     assert felt == pytest.approx(extent, abs=1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(place=some.floats(-3.0, 3.0), behind=some.floats(0.01, 1.0), ahead=some.floats(0.01, 1.0))
 def test_where_one_device_ends_and_the_next_begins_the_weights_sum_to_one(place, behind, ahead):

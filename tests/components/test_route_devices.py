@@ -44,6 +44,7 @@ def test_two_bends_of_different_friction_multiply(simulate):
     assert not result.match("rope.outer_*.slip")  # one contact a node does for both
 
 
+@pytest.mark.slow
 def test_a_bend_with_a_curve_of_another_shape_has_contacts_of_its_own(simulate):
     curve = "{curve: stribeck, stiction: 0.4, coulomb: 0.3, velocity: 2 mm/s}"
     bends = (
@@ -56,6 +57,7 @@ def test_a_bend_with_a_curve_of_another_shape_has_contacts_of_its_own(simulate):
     assert result.match("rope.outer_second[*].slip")
 
 
+@pytest.mark.slow
 def test_a_bend_cut_in_two_is_the_same_bend(simulate):
     """What the two halves take of a node sums to one, so nothing is felt of the cut."""
     whole = "{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.3}"
@@ -67,6 +69,7 @@ def test_a_bend_cut_in_two_is_the_same_bend(simulate):
     assert pull(one) == pytest.approx(pull(two), rel=1e-4)  # of steps at 1e-3, which land on other corners
 
 
+@pytest.mark.slow
 def test_9_where_the_nodes_lie_does_not_matter(simulate):
     bend = "{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.35}"
     one, two = (pull(simulate(hauled(bend, start=start))) for start in (1, 1.0625))
@@ -289,6 +292,7 @@ def test_24_layers_of_a_drum():
     np.testing.assert_allclose(lengths, exact, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_meters_count_how_far_a_contact_has_slipped_and_its_work(simulate):
     bend = "{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.35}"
     result = simulate(hauled(bend, more=", effects: {meters: on}"))
@@ -326,6 +330,7 @@ record: {{every: 10 ms}}
 """
 
 
+@pytest.mark.slow
 def test_a_tensioner_takes_up_half_of_the_line_that_is_brought(simulate):
     result = simulate(TAKEN_UP.replace("WAIT", "2 s"))
     assert result["route.tensioner.carriage.x"][-1] == pytest.approx(0.2 * 3 / 2, abs=2e-3)

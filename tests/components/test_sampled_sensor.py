@@ -65,6 +65,7 @@ def test_noise_has_the_mean_the_variance_and_the_shape_of_a_normal_law_and_no_me
     assert max((steps[1:] - below).max(), (below - steps[:-1]).max()) < 1.95 / math.sqrt(n)  # Kolmogorov, Smirnov
 
 
+@pytest.mark.slow
 def test_a_seed_is_a_noise_bit_by_bit_on_every_engine(simulate):
     text = scene_of(", noise: 1, seed: 3", samples=100)
     one = told(simulate(text, **{"run.engine": "rodas"}), 100)

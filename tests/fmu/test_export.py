@@ -43,6 +43,7 @@ def native_belt(steps=STEPS):
     return rows
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("version", [2, 3])
 def test_the_belt_goes_as_in_fairlead_to_the_last_bit(belt, tmp_path, version):
     fmpy()
@@ -214,6 +215,7 @@ def test_a_state_saved_and_restored_a_thousand_times_at_random_gives_the_same_ru
     assert rows == native_belt(1000)
 
 
+@pytest.mark.slow
 def test_two_exports_have_the_same_bytes(pushed, tmp_path):
     again = export(model(tmp_path, "pushed", PUSHED), tmp_path / "again.fmu")
     assert again.read_bytes() == pushed().read_bytes()

@@ -57,6 +57,7 @@ def test_a_program_in_c_sets_advances_reads_saves_and_restores(pushed):
     assert float.fromhex(again) == 0.0
 
 
+@pytest.mark.slow
 def test_the_example_beside_a_library_runs_and_goes_as_in_fairlead(tmp_path):
     needs_compiler()
     folder = export_library(fairlead.load("belt"), tmp_path / "belt", outputs=["block.x"], engine="rodas")
@@ -94,6 +95,7 @@ int main(void) {
 """
 
 
+@pytest.mark.slow
 def test_a_parameter_is_tuned_from_c(tmp_path):
     """(9 - 2) N and then (9 - 7) N or (9 - 5) N on 2 kg, for 0.1 s each."""
     needs_compiler()

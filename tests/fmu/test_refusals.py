@@ -102,6 +102,7 @@ def test_a_controller_in_plain_python_is_refused_by_name(linked, tmp_path):
     assert "let the master call it" in said
 
 
+@pytest.mark.slow
 def test_an_fmu_inside_is_refused_by_name(tmp_path):
     fmpy()
     needs_compiler()

@@ -81,6 +81,7 @@ def native(tmp_path, engine, before=()):
     return rows
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("version", "engine"), [(3, "rodas"), (2, "rodas"), (3, "stepping")])
 def test_what_is_tuned_moves_as_in_fairlead_to_the_last_bit(scene, tmp_path, version, engine):
     fmpy()

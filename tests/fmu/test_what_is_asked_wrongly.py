@@ -48,6 +48,7 @@ def test_the_largest_of_several_signals_gets_a_name_in_the_netlist(tmp_path):
     assert 'interface: {outputs: {NAME: {of: "max(pad.*)"}}}' in str(told.value)
 
 
+@pytest.mark.slow
 def test_numbers_of_quantities_in_time_are_tuned_by_name(tmp_path):
     """In Python and in a library; what says when something happens stays as it is there, and that is told."""
     needs_compiler()

@@ -70,6 +70,7 @@ def test_ctrl_c_ends_the_run_and_keeps_what_was_computed():
     assert kept[-1].reached == outcome.t > 0
 
 
+@pytest.mark.slow
 def test_blocks_arrive_while_the_run_goes_and_tell_its_fraction():
     fractions = []
     outcome = integrate(belt_block(), Run(stop=200.0), lambda block: fractions.append(block.fraction))
@@ -107,6 +108,7 @@ def test_a_law_that_stops_being_a_number_ends_the_run_and_names_the_unknown():
     assert outcome.counters.rejected_nan > 0
 
 
+@pytest.mark.slow
 def test_a_jump_inside_a_zone_ends_at_the_step_floor_and_names_the_unknown():
     def rhs(t, y, z, f):
         f[0] = 1.0 / max(1e-30, 1.0 - t) ** 2

@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.integrate.problems import belt_block
 
 
@@ -42,6 +44,7 @@ def test_a_cached_loop_runs_without_numba():
     assert "numba" not in modules
 
 
+@pytest.mark.slow
 def test_the_key_of_the_cache_is_made_of_every_file_the_machine_code_is_made_of():
     from fairlead.integrate import machine_code
     from fairlead.integrate.engines import ENGINES

@@ -45,6 +45,7 @@ def test_what_is_stiff_for_a_step_dies_away():
     assert abs(outcome.y[0] - exact(1.0)[0]) < 1e-5
 
 
+@pytest.mark.slow
 def test_reversals_of_friction_inside_the_step_cost_no_order_but_one():
     steps = np.array([0.02, 0.01, 0.005, 0.0025])
     errors = [end_error(coulomb_oscillator, h, stop=7.3)[0] for h in steps]
@@ -105,6 +106,7 @@ def test_a_held_block_does_not_creep():
     assert np.abs(outcome.values[:, 1] - 0.2).max() < 1e-12  # the belt moves with 0.2 m/s
 
 
+@pytest.mark.slow
 def test_two_runs_are_the_same_to_the_last_bit():
     outcomes = [integrate(belt_block(), Run(stop=3.0, engine="stepping")) for _ in range(2)]
     assert outcomes[0].ok
@@ -124,6 +126,7 @@ def test_theta_outside_its_range_is_refused():
         integrate(belt_block(), Run(stop=1.0, engine="stepping", theta=0.3))
 
 
+@pytest.mark.slow
 def test_a_break_away_from_stiction_is_landed_on_to_order_two():
     """Stiction 10 above Coulomb 6: a jump. The catch at the end of each slip is a matter of one step."""
     breaks, slip, stick = stick_slip_times()

@@ -74,6 +74,7 @@ def test_a_misspelt_path_offers_the_nearest(scene, name, says):
     assert says in str(caught.value)
 
 
+@pytest.mark.slow
 def test_an_item_that_there_is_not_is_told_with_those_that_there_are():
     with pytest.raises(ModelError) as caught:
         fairlead.load("single_bend", set={"route.stations.bent.radius": "1 m"}).check()

@@ -168,6 +168,7 @@ def test_a_line_that_its_winch_does_not_hold_is_refused_by_check_and_run(scene, 
         assert way_out in fault.way_out
 
 
+@pytest.mark.slow
 def test_a_line_on_a_drum_of_given_speed_runs_with_exact_hold(scene, tmp_path):
     """Its inboard end is fastened to the drum, so that a friction of its own would be between two given motions."""
     model = scene(ON_THE_WINCH)

@@ -114,6 +114,7 @@ run: {stop: 2 s}
 """
 
 
+@pytest.mark.slow
 def test_a_reference_faster_than_an_electric_motor_at_all_its_voltage(scene):
     """50 V / 0.5 V s = 100 rad/s, through the gear and the drum 100 * 0.1 * 0.5 = 5 m/s."""
     winding = ", resistance: 0.1 ohm, effects: {winding: on}"
@@ -126,6 +127,7 @@ def test_a_motor_without_a_winding_has_no_limit_that_is_known(scene):
     assert scene(SHAFT % (50, "")).check() == []
 
 
+@pytest.mark.slow
 def test_a_reference_faster_than_a_valve_lets_its_motor_run():
     """C_d A sqrt((p_s - p_t)/rho)/D through gear and drum is 1.158 m/s (physics 5.3)."""
     assert fairlead.load("winch_drive", set={"profile.value": "1.15"}).check() == []
@@ -135,6 +137,7 @@ def test_a_reference_faster_than_a_valve_lets_its_motor_run():
     assert "reaches 1.158 without load" in remark(fairlead.load("winch_drive", set=closed)).what
 
 
+@pytest.mark.slow
 def test_a_winch_that_the_tow_slows_down_below_its_reference(scene):
     """p_load = torque/D, so that the speed falls by sqrt(1 - force/stall pull)."""
     winch = """
@@ -192,6 +195,7 @@ run: {stop: 12 s}
 """
 
 
+@pytest.mark.slow
 def test_a_line_of_which_more_is_paid_out_than_lies_on_the_drum(scene):
     """A trapezoid of 10 s with 8 s at full speed pays out 9 s of it."""
     text = PAID_OUT.replace("END", "route.winch.rim")

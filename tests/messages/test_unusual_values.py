@@ -66,6 +66,7 @@ def test_a_period_longer_than_the_run_is_remarked(scene):
     assert any("control.period = 10 s is longer than the run of 2 s" in one for one in said)
 
 
+@pytest.mark.slow
 def test_bundled_models_have_no_such_remark():
     import pathlib
 

@@ -44,6 +44,7 @@ def test_the_hose_is_left_behind_as_far_as_by_an_independent_engine(label, tmp_p
     assert lowest == pytest.approx(wanted["lowest_hose_tension_N"], abs=2.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["mu 0.25", "mu 0.40", "creep 1e-3, mu 0.35"])
 def test_where_the_bulkheads_drag_it_along_it_stays_elastic(label, tmp_path):
     greatest = apart(variant(label, 12.0, tmp_path)).max()

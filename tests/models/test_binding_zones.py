@@ -92,6 +92,7 @@ def literal_zone(v: float, af: float, normal: float) -> str:
     return "ramp_forward" if v > 0 else "ramp_backward"
 
 
+@pytest.mark.slow
 @settings(max_examples=400, deadline=None)
 @given(v=speeds, af=forces, normal=normals, zone=zones)
 def test_the_printed_law_has_one_zone_for_everything_and_forgets_the_old_one(
@@ -132,6 +133,7 @@ def robust_zones(v: float, af: float, normal: float, zone: str) -> set[str]:
     return {ahead} if bound == "plateau" else {ahead, bound}
 
 
+@pytest.mark.slow
 @settings(max_examples=400, deadline=None)
 @given(v=speeds, af=forces, normal=normals, zone=zones)
 def test_the_repaired_law_ends_in_one_zone_that_its_memory_admits(
@@ -144,6 +146,7 @@ def test_the_repaired_law_ends_in_one_zone_that_its_memory_admits(
     assert settled("robust", v, af, normal, zone) in robust_zones(v, af, normal, zone)
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(v=speeds, af=forces, normal=normals)
 @pytest.mark.parametrize("form", FORMS)
@@ -186,6 +189,7 @@ def test_bound_friction_is_capped_at_stiction() -> None:
     assert greatest["literal"] == pytest.approx(2.25**2 / 2, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_friction_opposes_slip_in_every_zone_but_the_latch() -> None:
     """T v >= 0. A latched break-away keeps the force of sliding while the slip is still that of creeping back."""
     rng = np.random.default_rng(3)

@@ -29,6 +29,7 @@ def test_a_coarse_mesh_has_the_error_of_the_trapezoid_rule(bundled):
     assert HOLD * exact * 0.99 < force < HOLD * finest * 1.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("stiffness", "within"), [("5 kN", 5e-4), ("2 kN", 1.5e-3)])
 def test_a_soft_rope_has_the_capstan_of_a_stiff_one(bundled, stiffness, within):
     """Stretched by 2 or 5 % round the bend; a load that counts the length of the start would leave 0.3 or 1 % out."""

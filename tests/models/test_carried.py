@@ -112,6 +112,7 @@ def test_a_rope_that_lies_slack_off_the_drum_comes_taut_again(simulate):
     assert np.asarray(result["route.gauge.tension"]).max() < 5e3
 
 
+@pytest.mark.slow
 def test_nothing_is_carried_while_one_layer_goes_over_to_the_next(simulate, monkeypatch):
     """The drum begins between two layers: its radius falls by a hundredth within half a second, in one zone."""
     text = SCENE.format(**LAYERS).replace("length: 40 m", "length: 80 m").replace("start: -34 m", "start: -70 m")

@@ -45,6 +45,7 @@ def study(folder):
     return cost(belt, LADDER, budget=AMPLE, signals=["block.x", "block.v"], kept=KeptRuns(folder), full=True)
 
 
+@pytest.mark.slow
 def test_two_methods_agree_on_the_reference(study):
     assert study.reference is not None
     assert study.reference.agrees

@@ -115,6 +115,7 @@ def test_an_effect_that_matters_is_not_advised_away(of_a_twentieth):
     assert "it matters" in the(of_a_twentieth, "lag off").sentence
 
 
+@pytest.mark.slow
 def test_the_advice_goes_by_the_worst_of_end_rms_and_peak(lagging):
     """All three in closed form, of a hand shaken by 10 mm that is at 0 and going up at 6 s.
 
@@ -178,6 +179,7 @@ def test_what_a_more_exact_run_changes_as_much_is_no_change():
     assert worst_of(changes(names, units, exact, base), floors(changes(names, units, exact, base))) is None
 
 
+@pytest.mark.slow
 def test_a_window_is_the_users_and_what_was_before_is_told_apart(scene, library):
     """A hand that moves in the first second only: the lag is seen before 2 s, and no more after it has died away."""
     parts = (library(LIBRARY),)
@@ -215,6 +217,7 @@ def test_what_matters_most_is_judged_first():
     assert [one for one in order if one in first] == first
 
 
+@pytest.mark.slow
 def test_what_the_budget_leaves_is_named_from_the_end_of_the_order():
     def load(more):
         return fairlead.load("belt", set={"run.stop": "2 s", **more})

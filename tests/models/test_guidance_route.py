@@ -61,6 +61,7 @@ def test_belts_clamped_too_weakly_slip_and_pay_out_less(weak):
     assert run - paid == pytest.approx(1.0, abs=0.3)  # an independent computation of other discretisation: 1.0 m
 
 
+@pytest.mark.slow
 def test_a_slipping_belt_carries_all_that_its_clamp_allows_and_no_more(weak):
     friction = np.abs(weak.columns(weak.match("line.outer_deployer[*].friction")).sum(axis=1))
     assert friction.max() == pytest.approx(2 * 0.6 * 150 * 1.5, rel=1e-3)

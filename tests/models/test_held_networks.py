@@ -57,6 +57,7 @@ def test_what_settles_is_friction(scene: Scene, bodies: int, contacts: int, stre
         assert forces[held] == pytest.approx(least, abs=1e-6 * max(1.0, np.abs(forces).max()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["rodas", "stepping"])
 def test_two_settlements_of_one_network_are_bitwise_the_same(scene: Scene, engine: str) -> None:
     network = random_network(5, 100, 200, 1.0, 1.3)

@@ -20,6 +20,7 @@ def states(model):
     return {math.copysign(1, state.speed): state for state in model.statics()[0].moving}
 
 
+@pytest.mark.slow
 def test_before_the_deployer_the_sum_of_the_angles_counts(states):
     for way, state in states.items():
         passages = {passage.name: passage for passage in state.passages}

@@ -347,6 +347,7 @@ def test_a_contact_says_how_it_sticks(scene, library):
     assert found[0].stiffness == found[1].stiffness == pytest.approx(3000.0)
 
 
+@pytest.mark.slow
 def test_a_water_says_how_it_flows_and_drags(scene, library):
     words = {"Sea": "Tide", "form": "shape", "speed": "stream", "margin": "apart", "tail": "end"}
     files = (library(copied("route/tow.py", "route/sea.py", **words)),)
@@ -358,6 +359,7 @@ def test_a_water_says_how_it_flows_and_drags(scene, library):
     assert dict(far.settings) == {"route.stations[4].shape": "rigid"}
 
 
+@pytest.mark.slow
 def test_a_contact_says_what_presses_it(library, tmp_path):
     """Drawn from what its family declares, whatever ports, input, zone and curve are called."""
     words = {"Contact": "Touch", "a": "floor", "b": "shoe", "normal": "press", "off": "apart", "curve": "grip_of"}

@@ -46,6 +46,7 @@ def test_every_column_is_explained_in_the_documentation(belt):
 # Elements
 
 
+@pytest.mark.slow
 def test_elements_are_the_signals_side_by_side_with_their_places_along_the_line(route):
     found = route.elements("line.hose[*].tension")
     assert found.dims == ("time", "element")
@@ -132,6 +133,7 @@ def test_another_side_is_refused(belt):
 # Excel
 
 
+@pytest.mark.slow
 def test_a_workbook_holds_signals_events_and_the_run(belt, tmp_path):
     pytest.importorskip("openpyxl", reason="the extra fairlead[excel]")
     path = tmp_path / "belt.xlsx"
@@ -221,6 +223,7 @@ def test_switches_count_the_events_of_each_component(belt):
 # Figures
 
 
+@pytest.mark.slow
 def test_a_plot_is_a_figure_with_a_panel_for_each_unit(belt, tmp_path):
     figure = belt.plot(["block.*", "spring.tension"], between=(1.0, "2 s"), title="stick", file=tmp_path / "stick.png")
     assert [ax.get_ylabel() for ax in figure.axes] == ["x [m]", "v [m/s]", "tension [N]"]

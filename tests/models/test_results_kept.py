@@ -32,6 +32,7 @@ def test_results_of_more_than_the_limit_are_told_with_their_size_and_a_way_out(t
     assert json.loads((tmp_path / "run" / "run.json").read_text())["record_every"] == 0.2
 
 
+@pytest.mark.slow
 def test_what_will_be_large_is_told_before_the_run_where_a_grid_says_it_and_early_in_it_where_not(
     tmp_path: Path, monkeypatch
 ) -> None:
@@ -79,6 +80,7 @@ def test_where_jumps_make_the_rows_the_signals_that_jump_are_named(tmp_path: Pat
     assert len(Result.open(tmp_path / "alone").t) == 5
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="SIGKILL is of POSIX")
 def test_a_rerun_that_is_killed_at_once_leaves_the_results_it_was_to_replace(tmp_path: Path) -> None:
     """At every single file operation: `test_results_claim.py`. Here the whole command, from the shell."""

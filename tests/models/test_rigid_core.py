@@ -194,6 +194,7 @@ def test_a_rope_that_does_not_stretch_pulls_by_the_capstan_law_and_keeps_its_len
     assert result.run["energy"]["closure"] < 1e-5
 
 
+@pytest.mark.slow
 def test_a_stiff_rope_goes_to_one_that_does_not_stretch_as_one_over_its_stiffness(simulate):
     """By how much the rope is longer than at its start, in steady motion; and what the haul takes is the same."""
     limit, longer = mean(simulate(rope(), **UNSTRETCHED, **{"run.engine": "stepping"}), "haul.force"), []

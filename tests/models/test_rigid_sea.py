@@ -71,6 +71,7 @@ def test_in_steady_tow_the_tension_where_the_sea_begins_is_tail_and_drag_of_all_
     assert found["rigid"] == pytest.approx(found["distr"], rel=5e-4)
 
 
+@pytest.mark.slow
 def test_at_rest_it_is_equal_to_the_last_digits(simulate):
     result = simulate(text(line=ROPE.replace("mass: 2", "mass: 0.2"), speed="0 m/s", friction=0, stop=12))
     tension, beyond = where_the_sea_begins(result, -1)
@@ -78,6 +79,7 @@ def test_at_rest_it_is_equal_to_the_last_digits(simulate):
     assert tension == pytest.approx(TAIL + drag(SHIP) * (beyond - stretched), rel=1e-5)
 
 
+@pytest.mark.slow
 def test_a_change_of_speed_takes_the_drag_and_the_mass_of_all_the_line(simulate):
     """T = tail + drag + m' L a at the haul; the acceleration is raised so slowly that nothing rings."""
     t = np.linspace(0, 6, 61)
@@ -161,6 +163,7 @@ def test_a_margin_that_holds_a_hose_within_its_module_is_told(scene):
         assert laid.line.line.rigid_from(START, laid.seas[0].station) == START + margin
 
 
+@pytest.mark.slow
 def test_a_speed_that_changes_before_a_wave_is_back_is_told(scene):
     """Waves run at sqrt(100 kN/2 kg/m) = 224 m/s, in 0.25 s out and back along 28 m; 2 kg/m 28 m 3 m/s^2 = 168 N."""
     speed = "{{table: {{t: [0 s, {0} s, {1} s, 2 s], y: [0, 0.3, 0.6, 0.6]}}}}"

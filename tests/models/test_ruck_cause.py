@@ -40,6 +40,7 @@ def test_the_cause_is_the_bend_whose_friction_the_core_cannot_take(rucking):
     assert told["Way out"].startswith("Below mu = 0.492 on the bend")
 
 
+@pytest.mark.slow
 def test_a_line_that_does_not_ruck_is_told_what_holds_it(bundled):
     (found,) = verdicts(bundled("single_bend", {"run.stop": "4 s"}))
     assert dict(why(found))["Why"].startswith("On the bend mu = 0.35 is below 0.492, up to which the bulkheads hold")

@@ -70,6 +70,7 @@ def test_a_broken_limit_is_warned_of_in_the_line_of_the_caller(scene):
     assert result.remarks == tuple(str(one.message) for one in caught)
 
 
+@pytest.mark.slow
 def test_what_check_remarks_is_warned_of_and_read_again_from_the_folder(tmp_path):
     model = fairlead.load("weak_clamp", set={"run.stop": "10 ms"})
     remarks = tuple(map(str, model.check()))

@@ -28,6 +28,7 @@ def test_the_core_in_the_water_has_the_mean_of_the_tension_while_the_line_is_pai
     assert told == pytest.approx(core, rel=0.03)  # the line has come 0.5 m further since, and bulkheads slip a little
 
 
+@pytest.mark.slow
 def test_the_hose_of_a_run_is_told_beside_its_estimate(bundled):
     """Means of both layers halfway between bend A and the deployer, by hand; the lowest hose is that of the margins."""
     result = bundled("guidance_route_ideal")

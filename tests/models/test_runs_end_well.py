@@ -116,6 +116,7 @@ def check_whole(result: Any, least: int) -> None:
     assert (np.diff(times) >= 0).all()
 
 
+@pytest.mark.slow
 def test_kill_9_leaves_a_directory_that_can_be_read(start, netlist, tmp_path) -> None:
     process = start(netlist)
     wait_until_recorded(process, tmp_path / "run", rows=500)
@@ -143,6 +144,7 @@ def test_ctrl_c_keeps_what_was_computed_and_exits_with_130(start, netlist, tmp_p
     assert -0.02 <= result.t[-1] - result.run["end_time"] < 0.4
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="Windows ends a process without asking it")
 def test_sigterm_ends_the_process_when_run_json_says_so_and_all_is_kept(start, netlist, tmp_path) -> None:
     process = start(netlist)
@@ -179,6 +181,7 @@ fairlead.load(sys.argv[1]).run(out=sys.argv[2])
     assert len(result.t) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("budget", "word"), [("run.max_steps=20000", "20000 steps"), ("run.max_events=40", "40 events")]
 )
@@ -258,6 +261,7 @@ def test_a_number_that_is_none_names_its_culprit(start, tmp_path) -> None:
     assert np.isfinite(result.columns()).all()
 
 
+@pytest.mark.slow
 def test_a_finished_run_is_not_overwritten_without_being_told(start, netlist, tmp_path) -> None:
     assert finish(start(netlist, "--set", "run.stop=1 s"))[0] == 0
     before = (tmp_path / "run" / "events.csv").read_bytes()

@@ -15,6 +15,7 @@ from fairlead.studies.fits.search import errors, fit, prepared
 FOLDER = bundled_models()["belt"].parent / "servo_fit"
 
 
+@pytest.mark.slow
 def test_every_law_of_the_servo_fits_its_model() -> None:
     asked = read_fit(FOLDER / "fit.yaml")
     for law in asked.laws:

@@ -68,6 +68,7 @@ def test_the_inboard_tension_is_that_of_a_capstan(bend, mu: float, within: float
     assert inboard(bend(mu, method)) == pytest.approx(CAPSTAN[mu], rel=within)
 
 
+@pytest.mark.slow
 @METHODS
 def test_the_start_at_high_friction_is_the_same_for_everybody(bundled, method: str) -> None:
     """Up to 1 s the answer is sharp: 112.8 mm and -84.7 N by scipy's Radau on equations of its own."""
@@ -76,6 +77,7 @@ def test_the_start_at_high_friction_is_the_same_for_everybody(bundled, method: s
     assert hose(result).min() == pytest.approx(-84.7, abs=1.5)
 
 
+@pytest.mark.slow
 def test_hold_and_binding_agree_where_the_answer_is_sharp(bend) -> None:
     """Two treatments of sticking, one answer: at 0.35 to a tenth of a millimetre (creep on the bend included)."""
     one, two = (registration(bend(0.35, method)) for method in ("hold", "binding"))
@@ -99,6 +101,7 @@ def test_at_low_friction_hose_and_core_have_one_speed_on_the_bend(bend) -> None:
     assert np.median(np.abs(slip[on_bend])) < 1e-4
 
 
+@pytest.mark.slow
 def test_a_load_that_rises_at_its_limit_is_seen_to_rise() -> None:
     """A contact at its limit, which follows a tension: taken for falling, steps were repeated to the floor."""
     settings = {"mu": "0.6", "method": "hold", "run.stop": "5 s", "run.accuracy": "1e-6"}

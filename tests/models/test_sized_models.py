@@ -68,6 +68,7 @@ def test_modules_and_drums_have_sizes_of_their_sources(name):
             assert 10 <= 2 * float(one["radius"].removesuffix(" m")) / diameter <= 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("mu", "within", "settings"),  # as of the single bend: docs/physics.md, 7a
     [(0.35, 0.01, {"line.element": "0.5 m"}), pytest.param(0.35, 0.01, {}, marks=pytest.mark.slow),

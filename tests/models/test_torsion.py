@@ -37,6 +37,7 @@ def test_energy_closes_in_turning_too(bundled):
     assert bundled("torsion").run["energy"]["closure"] < 1e-6
 
 
+@pytest.mark.slow
 def test_a_cycle_of_the_couple_turns_what_masing_says_into_heat(tmp_path):
     """From one peak of T_0 to the next the couple does the work (2/3) T_0^3/(GJ q); contacts that creep add 3 %."""
     text = (files("fairlead.models") / "torsion.yaml").read_text(encoding="utf-8")
@@ -84,6 +85,7 @@ def torque_at(result, place):
     return np.interp(place, (nodes[1:] + nodes[:-1]) / 2, torque)
 
 
+@pytest.mark.slow
 def test_with_one_friction_for_both_twist_of_the_drum_leaves_a_line_that_moves(simulate):
     """The turning slip is small beside the sliding at 0.3 m/s, so friction hardly resists: mu N r^2/v per node."""
     drag = 0.35 * 500 * math.exp(0.35 * math.pi) * math.pi * 0.0425**2 / 0.3  # N m s, both bends, from above
@@ -98,6 +100,7 @@ def test_with_a_friction_of_its_own_twist_is_held_back_in_the_bends_and_accumula
     assert held > 1.0
 
 
+@pytest.mark.slow
 def test_a_rope_that_wants_to_unlay_turns_a_free_end(simulate):
     """Torque k T turns the line outboard of the bends until the spring balances it: nothing is left in the end."""
     result = wound(simulate, "on", coupling="1 mm")

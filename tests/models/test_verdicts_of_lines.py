@@ -58,6 +58,7 @@ def test_a_line_that_does_not_ruck_is_told_its_margin(bundled):
     assert sentence(found).endswith("; an element rucks beyond 160 N")
 
 
+@pytest.mark.slow
 def test_without_recorded_tensions_the_zones_of_the_hose_tell(tmp_path):
     netlist = fairlead.load("single_bend").netlist.path.read_text(encoding="utf-8")
     begin = netlist.index("record:")
@@ -69,6 +70,7 @@ def test_without_recorded_tensions_the_zones_of_the_hose_tell(tmp_path):
         assert sentence(found).startswith(said)
 
 
+@pytest.mark.slow
 def test_a_line_that_nobody_watches_gets_no_verdict(bundled):
     assert verdicts(bundled("single_bend", {"run.stop": "0.1 s", "line.ruck_force": "null"})) == []
     assert len(bundled("single_bend", {"run.stop": "0.1 s", "line.ruck_force": "null"}).rucks()) == 0
@@ -114,6 +116,7 @@ def test_a_scene_without_contacts_says_nothing_of_friction():
     assert of_friction(None) == ""
 
 
+@pytest.mark.slow
 def test_the_closing_table_and_the_page_have_both(tmp_path):
     out = tmp_path / "run"
     words = ["run", "single_bend", "--set", "run.stop=0.5 s", "--out", str(out), "--report"]

@@ -269,6 +269,7 @@ def test_values_add_up_along_a_chain_of_models():
     same(chain.system, fairlead.load("single_bend", set={"method": "binding", "mu": "0.4", "creep": "0.2 mm/s"}).system)
 
 
+@pytest.mark.slow
 def test_the_first_model_stays_as_it_was():
     model = fairlead.load("single_bend")
     assert model.system.n > 0
@@ -314,6 +315,7 @@ def test_a_station_that_works_out_a_curve_of_its_own_is_not_passed_over(monkeypa
     same(made.system, fairlead.load("capstan", set={friction: "0.123"}).system)
 
 
+@pytest.mark.slow
 def test_models_made_in_threads_are_those_made_one_by_one():
     model, frictions = fairlead.load("single_bend"), [0.2, 0.3, 0.4, 0.5]
     with concurrent.futures.ThreadPoolExecutor(4) as pool:

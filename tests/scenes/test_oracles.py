@@ -122,6 +122,7 @@ def test_impulses_see_an_impact_that_pulls_rebounds_or_gains():
         assert "impulses" in impulses(falsified(run, **{f"{body}__v": lambda v, c=change: v + c * late}), scene.blow)
 
 
+@pytest.mark.slow
 def test_agreement_sees_a_switch_that_is_late_and_friction_that_is_scaled(run):
     one = Compared(run)
     assert agreement(one, Compared(observed(loaded(PLAIN), ACCURACY / 10)), "tenth") == ""

@@ -72,6 +72,7 @@ def test_stiffness_and_friction_come_out_of_a_record_without_noise(tmp_path) -> 
     assert all(one.told for one in found.directions)
 
 
+@pytest.mark.slow
 def test_noise_widens_intervals_that_hold_the_truth(tmp_path) -> None:
     found = fitted(write(tmp_path, f"{HEAD}{FREQUENCY}{DRY}starts: 1\n", noise=1e-3, seed=3))
     for name, truth in (("k", STIFFNESS), ("mu", FRICTION / 10)):
@@ -81,6 +82,7 @@ def test_noise_widens_intervals_that_hold_the_truth(tmp_path) -> None:
         assert 0.5 < (one.drawn[1] - one.drawn[0]) / (one.high - one.low) < 1.5  # white noise: both say the same
 
 
+@pytest.mark.slow
 def test_friction_and_normal_force_of_one_record_are_named_as_a_pair(tmp_path) -> None:
     pair = "  pressed: {start: 11 N, low: 2 N, high: 50 N, log: true}\n"
     found = fitted(write(tmp_path, f"{HEAD}{FREQUENCY}{DRY}{pair}starts: 1\n", noise=1e-4))
@@ -91,6 +93,7 @@ def test_friction_and_normal_force_of_one_record_are_named_as_a_pair(tmp_path) -
     assert found.values["mu"] * found.values["pressed"] == pytest.approx(FRICTION, rel=0.05)
 
 
+@pytest.mark.slow
 def test_features_of_a_record_are_fitted_as_well(tmp_path) -> None:
     text = f"{HEAD}{FREQUENCY}features: {{period: period(block.x)}}\nstarts: 1\n"
     assert fitted(write(tmp_path, text)).values["k"] == pytest.approx(STIFFNESS, rel=1e-4)
@@ -155,6 +158,7 @@ def test_mistakes_in_the_form_of_a_fit_file_have_places(tmp_path) -> None:
         assert part in told, f"{part} is missing in\n{told}"
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_page_and_compares_laws_by_what_was_left_out(tmp_path) -> None:
     second = "  two: {file: coast.csv, time: t, signals: {block.x: place}}\n"
     file = write(tmp_path, f"{HEAD}{DRY}starts: 1\n".replace("parameters:", f"{second}parameters:"))

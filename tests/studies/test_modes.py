@@ -212,6 +212,7 @@ def test_every_mistake_of_what_is_asked_comes_at_once_with_a_suggestion(tmp_path
         fairlead.modes(made(tmp_path, TWO), frequencies=(0, 3))
 
 
+@pytest.mark.slow
 def test_the_command_prints_a_table_draws_and_writes(tmp_path) -> None:
     made(tmp_path, TWO)
     words = ["modes", str(tmp_path / "scene.yaml"), "--zones", "clutch=sliding", "--in", "one", "--out", "one.x",

@@ -25,6 +25,7 @@ def swept(tmp_path, kind, samples):
     return Rows.read(tmp_path)
 
 
+@pytest.mark.slow
 def test_sobol_indices_of_the_ishigami_function_are_those_of_its_variance(tmp_path) -> None:
     # V = a^2/8 + b pi^4/5 + b^2 pi^8/18 + 1/2 with a = 7, b = 0.1; Sobol and Levitan (1999), eq. 4
     whole = 49 / 8 + 0.1 * math.pi**4 / 5 + 0.01 * math.pi**8 / 18 + 0.5
@@ -62,6 +63,7 @@ def test_a_tornado_averages_over_the_others(tmp_path) -> None:
     assert (narrow.parameter, narrow.width) == ("x", 6.0)
 
 
+@pytest.mark.slow
 def test_pictures_are_those_that_fit_the_design(tmp_path) -> None:
     sweep(job(line, "z"), Design(grid={"x": ["0", "1"], "y": ["0", "10"]}), tmp_path / "grid", processes=0)
     drawn = draw(Rows.read(tmp_path / "grid"), "z", tmp_path / "figures")

@@ -33,6 +33,7 @@ def test_the_period_of_the_belt_has_the_derivatives_of_its_closed_form() -> None
     assert found["period", "belt.velocity"].unit == "s/(m/s)"
 
 
+@pytest.mark.slow
 def test_the_tension_of_a_capstan_grows_by_its_angle_for_each_unit_of_friction() -> None:
     """T = T_hold exp(mu theta). Of 6 elements on the bend the slope is off by (mu theta/6)^2 (1/4 + mu theta/12)."""
     still = {"element": "0.25 m", "rope.damping_ratio": "1", "rope.mass": "0.1 kg/m", "run.stop": "3 s"}
@@ -65,6 +66,7 @@ def amplitude(result) -> float:
     return abs(result.at("block.x", result.events[-1].t))
 
 
+@pytest.mark.slow
 def test_the_amplitude_of_a_shaken_block_with_dry_friction_is_den_hartogs(tmp_path) -> None:
     """Den Hartog (1931): x = sqrt((P V/k)^2 - (F U/k)^2), V = 1/(1 - b^2), U = sin(pi/b)/(b (1 + cos(pi/b)))."""
     (tmp_path / "shaken.yaml").write_text(SHAKEN)
@@ -153,6 +155,7 @@ def test_a_model_that_does_not_run_is_told_with_its_reason() -> None:
         fairlead.sensitivity(BELT, "end(block.x)", "block.mass", max_steps=5)
 
 
+@pytest.mark.slow
 def test_the_command_prints_a_table_a_record_and_csv(tmp_path) -> None:
     words = ["sensitivity", "belt", "--set", "run.stop=2", "--of", "T=period(pad, held)", "--to", "pad.curve.stiction"]
     answer = CliRunner().invoke(app, [*words, "--csv", str(tmp_path / "table.csv")])

@@ -101,6 +101,7 @@ def test_monte_carlo_has_the_rank_correlation_that_was_asked_for() -> None:
     assert abs(found - 0.6) < 4 * (1 - 0.6**2) / math.sqrt(4000)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loads", [10, pytest.param(100, marks=pytest.mark.slow)])
 def test_cases_of_the_belt_by_two_processes_are_those_of_a_loop(tmp_path, loads) -> None:
     model = fairlead.load("belt", set={"run.stop": "1.2 s", "run.accuracy": "1e-5"})
@@ -123,6 +124,7 @@ def test_cases_of_the_belt_by_two_processes_are_those_of_a_loop(tmp_path, loads)
     np.testing.assert_allclose(heavy["peak"], expected, rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_a_case_that_ends_its_process_costs_one_row(tmp_path) -> None:
     table, _ = sweep(job(crash_at_three), Design(grid={"x": [str(k) for k in range(12)]}), tmp_path, processes=2)
     frame = table.frame()
@@ -188,6 +190,7 @@ def _when_longer(folder, rows, going) -> int:
     raise AssertionError(f"no row came in {LONG:g} s")
 
 
+@pytest.mark.slow
 def test_a_table_that_is_replaced_while_it_is_read_is_one_of_the_two(tmp_path) -> None:
     place = tmp_path / "read"
     place.mkdir()

@@ -86,6 +86,7 @@ def test_what_must_be_recorded_is_said(scene, tmp_path):
     assert row == "not compared: record rope.node[*].x to tell where the elements are"
 
 
+@pytest.mark.slow
 def test_a_run_of_a_route_is_compared_and_keeps_it(scene, tmp_path):
     model = scene(BENDS)
     answer = CliRunner().invoke(app, ["run", str(model.netlist.path), "--out", str(tmp_path / "run")])

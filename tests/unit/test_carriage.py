@@ -189,6 +189,7 @@ def partition(system, speed):
     return np.array(begin.unknown_names)[moving.kept].tolist(), named(moving.laws), named(moving.watched)
 
 
+@pytest.mark.slow
 def test_what_is_left_depends_neither_on_the_size_of_a_scene_nor_on_its_speed(scene, library, monkeypatch):
     """Nodes a millimetre, a quarter of a metre, and a hundred metres apart, at rest and at 50 m/s."""
     monkeypatch.setattr(entrained, "KEPT_FREE", 4)

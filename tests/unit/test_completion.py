@@ -64,6 +64,7 @@ def test_what_cannot_be_read_offers_nothing(folder):
     assert completion.signals(typed(), "m") == []
 
 
+@pytest.mark.slow
 def test_a_shell_is_offered_the_same():
     words = "fairlead check mine.yaml --set m"
     given = {**os.environ, "_FAIRLEAD_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": "4"}

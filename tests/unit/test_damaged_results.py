@@ -19,6 +19,7 @@ from fairlead.results.damage import DamagedResultsError
 from tests.fuzz import results
 
 
+@pytest.mark.slow
 def test_a_damaged_folder_is_answered_in_words(tmp_path: Path) -> None:
     assert list(results.play(tmp_path, seed=5, count=8)) == []
 

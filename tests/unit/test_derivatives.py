@@ -40,6 +40,7 @@ def test_a_derivative_has_the_form_that_sympy_gives_it(expression):
         assert sympy.srepr(derivative(expression, by)) == sympy.srepr(sympy.diff(expression, by))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["PositionServo", "LoopedCore", "Contact"])
 def test_so_have_those_of_laws_of_the_library(name):
     member, words = next(iter(families(known_types()[name])))

@@ -153,6 +153,7 @@ def test_every_type_has_a_page_with_its_parameters_and_traced_equations(name: st
     assert not re.search(r"\b(p|T|own|port|in):\w", page)  # keys of the tracer, not names of the author
 
 
+@pytest.mark.slow
 def test_every_guard_of_a_kind_is_in_the_table_of_contact() -> None:
     assert all(guard in page_of("Contact") for guard in Hold.declaration.guards)
 

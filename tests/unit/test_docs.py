@@ -82,6 +82,7 @@ def test_the_page_on_coupling_runs_from_the_top(tmp_path: pathlib.Path, monkeypa
     exec("\n".join(code), {})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bungee.py", "bumper.py", "gap.py", "relaxing.py", "chain.py"])
 def test_a_component_in_a_users_file_is_checked_described_in_the_schema_and_runs(
     name: str, tmp_path: pathlib.Path
@@ -102,6 +103,7 @@ def test_a_component_in_a_users_file_is_checked_described_in_the_schema_and_runs
     assert model.run(out=tmp_path / "results").run["status"] == "finished"
 
 
+@pytest.mark.slow
 def test_a_curve_in_a_users_file_is_known_to_every_contact(tmp_path: pathlib.Path) -> None:
     files("components", tmp_path)
     script = """

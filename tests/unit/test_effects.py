@@ -150,6 +150,7 @@ def test_a_wrong_switch_is_told(scene, parts, settings, told):
     assert len(caught.value.faults) == 1
 
 
+@pytest.mark.slow
 def test_the_schema_and_the_description_know_the_effects(parts):
     from fairlead.simulate import describe_type, json_schema
 

@@ -38,6 +38,7 @@ def record(said):
     return json.loads(said.output)
 
 
+@pytest.mark.slow
 def test_friction_of_a_scene_uses_its_numbers(answer, tmp_path):
     (pad,) = record(answer("friction", "block_and_spring", "--json"))
     assert pad["contacts"] == "pad"
@@ -59,11 +60,13 @@ def test_friction_tells_the_creep_of_the_formula(answer, method, creep):
     assert told == pytest.approx(creep, rel=0.02)  # three digits, and a capacity met only to 0.02 %
 
 
+@pytest.mark.slow
 def test_bristles_tell_their_stiffness(answer):
     (found,) = record(answer("friction", TUSTIN, "--method", "lugre", "--normal", "10 N", "--json"))
     assert found["stiffness"] == "2.5e+05 N/m (bristles)"  # 5 N in 20 um
 
 
+@pytest.mark.slow
 def test_a_curve_needs_no_braces(answer):
     with_braces, without = (
         record(answer("friction", curve, "--method", "binding", "--normal", "10 N", "--json"))
@@ -84,6 +87,7 @@ def test_a_text_that_is_no_curve_and_a_method_that_is_none_are_usage_errors(answ
     assert "binding" in wrong.output
 
 
+@pytest.mark.slow
 def test_compare_shows_error_creep_and_cost_and_failures_with_their_reason(answer, tmp_path):
     vary = "pad.method=hold,binding,naive_zone"
     found = record(answer("compare", "block_and_spring", "--vary", vary, "--set", "run.stop=3", "--json", "--out", "c"))

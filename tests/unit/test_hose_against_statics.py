@@ -115,6 +115,7 @@ def test_the_lowest_hose_is_compared_where_the_total_cannot_be(scene, tmp_path):
     assert "not compared" in told(found)["against statics"]
 
 
+@pytest.mark.slow
 def test_the_table_of_statics_marks_what_is_an_estimate():
     answer = CliRunner().invoke(app, ["statics", "guidance_route_ideal", "--set", "mu=0.6"])
     (bend, *_) = [line.split() for line in answer.output.splitlines() if line.strip().startswith("bend_a")]

@@ -165,6 +165,7 @@ def test_hover_texts_say_what_and_how(schema: dict[str, Any]) -> None:
     assert "Linear spring" in schema["definitions"]["Spring"]["description"]
 
 
+@pytest.mark.slow
 def test_a_class_of_the_user_is_in_the_schema() -> None:
     class Sticker(Component):
         """Made up for this test."""

@@ -201,6 +201,7 @@ def test_an_acceleration_can_be_recorded_and_not_fed_to_a_law(tmp_path):
     assert fairlead.load(path, libraries=libraries).check() == []
 
 
+@pytest.mark.slow
 def test_functions_and_powers_say_in_machine_code_what_they_say_in_python(tmp_path):
     from fairlead.component.registry import load_library
     from fairlead.testing import contract

@@ -1,5 +1,6 @@
 """A guard told to be mirrored is two guards: as written, and between the paired zones in the other direction."""
 
+import pytest
 import sympy
 
 from fairlead.component import Component, Law, Parameter, Translational, Zones, guard, zone
@@ -83,6 +84,7 @@ def test_a_class_that_replaces_a_guard_replaces_its_mirror():
     assert list(Late.declaration.guards) == ["meets", "meets_astern", "parts", "ends_astern"]
 
 
+@pytest.mark.slow
 def test_friction_that_knows_both_directions_lets_go_by_mirrored_limits():
     """Of every treatment with one curve for both: what leads out of a zone backward is what leads out of it forward,
     with slip and force reversed. Reversed symbols are an independent way to write it."""

@@ -217,6 +217,7 @@ def test_a_change_in_another_file_compiles_again(tmp_path, process, before, afte
     assert process()() == {"flow": pytest.approx(-10.0), "cached": True, "warned": []}
 
 
+@pytest.mark.slow
 def test_of_two_processes_at_once_one_compiles_and_the_other_waits_for_it(process, cache):
     answers = [start() for start in [process(), process()]]
     assert [answer["flow"] for answer in answers] == [pytest.approx(-10.0)] * 2

@@ -87,6 +87,7 @@ def test_the_ledger_adds_up(result: Result) -> None:
     assert bars == [10.0, 7.0, 2.0, 0.5, 0.5]  # the last is what nothing accounts for
 
 
+@pytest.mark.slow
 def test_the_prism_of_figure_5_is_that_of_the_law() -> None:
     """From the forces of the class: T - S over slip, with S the line of transit (docs/physics.md 1)."""
     from fairlead.analysis.characteristic import characteristic
@@ -133,6 +134,7 @@ def test_the_figures_of_the_paper_are_made(tmp_path: Path) -> None:
     assert names == [f"figure{k}.{ending}" for k in (3, 5, 6) for ending in ("pdf", "png")]
 
 
+@pytest.mark.slow
 def test_friction_of_a_model_is_drawn_for_every_kind_of_contact(tmp_path: Path) -> None:
     file = tmp_path / "friction.svg"
     answer = CliRunner().invoke(app, ["plot", "single_bend", "friction", "--out", str(file)])

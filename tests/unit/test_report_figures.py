@@ -46,6 +46,7 @@ def test_plots_with_one_title_get_different_files(result: Result) -> None:
     assert [path.name for path in figures.draw(result, plots)] == ["Pull_N.png", "Pull_N_2.png"]
 
 
+@pytest.mark.slow
 def test_without_plots_every_quantity_gets_a_figure(result: Result) -> None:
     assert [path.name for path in figures.draw(result)] == ["force.png", "v.png", "tension.png"]
 
@@ -104,6 +105,7 @@ def test_thinning_keeps_every_extreme_value() -> None:
     assert (few_t[0], few_t[-1]) == (0.0, 1.0)
 
 
+@pytest.mark.slow
 def test_a_run_without_rows_is_drawn_empty(tmp_path: Path) -> None:
     RunDirectory.create(tmp_path / "run", SIGNALS, {}).finish("failed", {})
     assert all(is_picture(path) for path in figures.draw(Result.open(tmp_path / "run")))

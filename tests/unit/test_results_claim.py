@@ -73,6 +73,7 @@ def in_a_copy_killed_at(path: Path, operation: int, action: Callable[[], None]) 
     return code == KILLED
 
 
+@pytest.mark.slow
 @forks
 def test_a_kill_at_any_file_operation_leaves_the_old_or_the_new_results(tmp_path: Path) -> None:
     prepared(tmp_path / "prepared")

@@ -101,6 +101,7 @@ def test_xarray_reads_names_units_and_times_from_the_file_itself(tmp_path: Path)
         np.testing.assert_array_equal(data["time"], np.arange(5.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("period", ["0", "0.05"])
 def test_a_killed_run_is_readable_up_to_its_last_flush(tmp_path: Path, period: str) -> None:
     path = tmp_path / "run"

@@ -75,6 +75,7 @@ def test_more_and_more_elements_that_ruck_are_not_called_steady_either(scene, tm
     assert "0 %, then 50 % of its elements ruck" in dict(told(result)["The hose rucks"].points)["Not settled"]
 
 
+@pytest.mark.slow
 def test_a_tick_says_what_it_compares_and_none_stands_for_a_hose_that_statics_misses(scene, tmp_path):
     result = written(scene(ARRAY), tmp_path / "run", drifts=40.0)
     said = told(result)
@@ -114,6 +115,7 @@ def test_an_instant_of_a_long_run_keeps_its_seconds():
     assert [moment(t) for t in (7.6584, 19.2416, 1234.5, 0.0)] == ["7.66", "19.2", "1234", "0"]
 
 
+@pytest.mark.slow
 def test_the_box_of_trust_stays_folded_where_the_verdict_says_what_is_wrong(scene, tmp_path):
     spells = [(k, 4.0, 5.0) for k in range(28)]
     said = told(written(scene(ARRAY), tmp_path / "run", drifts=40.0, rucks=spells))

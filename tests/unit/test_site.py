@@ -108,6 +108,7 @@ def cells() -> list[str]:
     return ["".join(cell["source"]) for cell in made["cells"] if cell["cell_type"] == "code"]
 
 
+@pytest.mark.slow
 def test_the_notebook_runs_and_every_value_shown_has_a_picture_or_a_table_of_its_own() -> None:
     names: dict[str, object] = {}
     shown = []

@@ -40,6 +40,7 @@ def test_every_element_of_a_rope_begins_with_the_tension_of_the_capstan(simulate
     np.testing.assert_allclose(told, 100 * np.exp(-sense * 0.3 * left), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_both_layers_of_an_array_begin_with_one_strain(simulate):
     result = simulate(text("ArrayModule", ARRAY, "-0.2 m/s"))
     hose, core = (result.columns([f"line.{layer}[{k}].tension" for k in range(96)])[0] for layer in ("hose", "core"))

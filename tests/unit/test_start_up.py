@@ -42,6 +42,7 @@ def test_starting_loads_nothing_heavy(statement: str) -> None:
     assert loaded_by(statement) & HEAVY == set()
 
 
+@pytest.mark.slow
 def test_a_model_of_known_classes_runs_without_what_traces_and_compiles_them() -> None:
     run = "import fairlead; fairlead.load('belt').run(out=None, stop=0.1)"
     loaded_by(run)

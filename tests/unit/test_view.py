@@ -288,6 +288,7 @@ def test_a_run_leaves_its_page_and_the_file_alone(view: View, folder: Path, monk
     assert (folder / "results" / "belt" / "run.json").exists()
 
 
+@pytest.mark.slow
 def test_a_run_that_cannot_begin_says_why(view: View) -> None:
     does(view, "run", text=WRONG)
     state = ended(view)
