@@ -32,8 +32,8 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import defect, midpoint_defect
 from fairlead.integrate.point.meters import judge_meters
+from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
-from fairlead.integrate.record.between import find_stiff
 
 ROUGH = 10.0
 """Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
@@ -115,7 +115,7 @@ def up_to_crossing(m, h):
         return mend_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and run.adaptive == 1 and cut_too_rough(m, h):
         return GO_ON
-    recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
+    recorder.any_stiff = mark_stiff(problem, m.linear.matrices, recorder, h)
     accept(m, h, found == CROSSING)
     return GO_ON
 

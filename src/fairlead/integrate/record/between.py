@@ -9,8 +9,8 @@ The slip r of held contacts, whatever network they form, is taken away by an imp
 
     (M/(h theta) - J) (dv, Lambda) = r/(h theta)    r = -slip in the rows that hold
 
-with the factors the step has left; dv is added, Lambda dropped. Slip is linear in the speeds. So where surfaces keep
-their speed this is done once for the start of the step and once for its bend, else in every row.
+with the factors the step has left; dv is added, Lambda dropped. Where surfaces keep their speed that was done for the
+whole step at its end (stepping/dense_output.py), else it is done in every row.
 """
 
 from __future__ import annotations
@@ -19,55 +19,8 @@ from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 
-STIFF = 100.0
-"""An unknown follows its law within a step when h |df/dy| is so many times its inertia."""
 FURTHEST = 10.0
 """Times the move that the factors of a step ask for, where a law is less stiff at the point than in the step."""
-
-
-@compiled
-def prepare_rows(m):
-    """Of an accepted step with rows inside: take slip out of its start and its bend; see `rows_slip`."""
-    run, recorder = m.run, m.recorder
-    recorder.rows_slip = 0
-    beyond = run.t_piece - 1e-12 * max(abs(run.t_piece), recorder.every)
-    gridless = recorder.on_grid == 0 or run.start + recorder.grid_next * recorder.every >= beyond
-    if not gridless or recorder.inside > 0:
-        hold_inside(m)
-
-
-@compiled
-def hold_inside(m):
-    """Take slip out of the start and the bend of a step, or have every point inside it done (`rows_slip`).
-
-    The start has slip in contacts that a settlement has just caught, by rounding: `stops_little` has settled what is
-    more. A step that is taken again from there begins without it.
-    """
-    point, linear, matrices, recorder = m.point, m.linear, m.linear.matrices, m.recorder
-    exchange = m.stepping.exchange
-    recorder.rows_slip = 0
-    row, caught = indices(exchange.at_hold_mass_row, exchange.n_hold_mass), indices(exchange.at_caught, point.n)
-    holds, any_holds, any_caught = indices(exchange.at_holds, point.n), False, False
-    for e in range(exchange.n_hold_mass):
-        if holds[row[e]] == 1:
-            any_holds = True
-            any_caught = any_caught or caught[row[e]] == 1
-    if not any_holds:
-        return
-    if exchange.driven == 1 or exchange.massless == 1:
-        recorder.rows_slip = 1
-        return
-    if any_caught:
-        take_slip_away(m.problem, point, linear, exchange, point.t, point.at_y)
-    entry = indices(exchange.at_hold_mass, exchange.n_hold_mass)
-    column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
-    values, bend = reals(matrices.at_mass, matrices.n_mass), reals(point.at_D, point.n)
-    slip = reals(point.at_residual, point.n)
-    for k in range(point.n):
-        slip[k] = 0.0
-    for e in range(exchange.n_hold_mass):
-        slip[row[e]] -= values[entry[e]] * bend[column[e]]
-    remove_slip(point, linear, exchange, point.at_D)
 
 
 @compiled
@@ -108,35 +61,6 @@ def take_slip_away(problem, point, linear, exchange, t, at_y):
 
 
 @compiled
-def end_massless(problem, point, linear, exchange, h):
-    """Give nodes without mass that are held the speed they have at the end of a step, for their mean over it."""
-    factors = linear.factors
-    row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
-    column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
-    holds, of_massless, differential = (
-        indices(exchange.at_holds, problem.n), indices(exchange.at_of_massless, problem.n),
-        indices(problem.at_differential, problem.n),
-    )  # fmt: skip
-    field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_residual))
-    slip, b, y_end = reals(point.at_residual, problem.n), reals(point.at_b, problem.n), reals(point.at_y_end, problem.n)
-    found = False
-    for k in range(problem.n):
-        b[k] = 0.0
-    for e in range(exchange.n_hold_mass):
-        k = row[e]
-        if holds[k] == 1 and of_massless[k] == 1 and slip[k] != 0.0:
-            b[k] = slip[k] * factors.mass_factor
-            found = True
-    if not found:
-        return
-    solve(linear, point.at_b)
-    for e in range(exchange.n_hold_mass):
-        if differential[column[e]] == 0:
-            y_end[column[e]] += b[column[e]]
-            b[column[e]] = 0.0
-
-
-@compiled
 def remove_slip(point, linear, exchange, at_v):
     """Add to the speeds in v what takes away the slip whose negative is in `residual`, in rows that hold."""
     factors = linear.factors
@@ -155,24 +79,6 @@ def remove_slip(point, linear, exchange, at_v):
     for e in range(exchange.n_hold_mass):
         v[speeds[e]] += b[speeds[e]]
         b[speeds[e]] = 0.0
-
-
-@compiled
-def find_stiff(problem, matrices, recorder, h):
-    """Mark the speeds that follow a stiff law within the step; 1 if there is any.
-
-    Speeds alone: what they hold of the energy is nothing. A pressure that is shown elsewhere has another energy.
-    """
-    slope, mass = indices(matrices.at_diagonal_slope, problem.n), indices(matrices.at_diagonal_mass, problem.n)
-    values, inertia = reals(matrices.at_jacobian, matrices.n_jacobian), reals(matrices.at_mass, matrices.n_mass)
-    stiff, position, found = indices(recorder.at_is_stiff, problem.n), indices(problem.at_position_of, problem.n), 0
-    for k in range(problem.n):
-        stiff[k] = 0
-        moved = position[k] >= 0 and slope[k] >= 0 and mass[k] >= 0
-        if moved and -values[slope[k]] * h > STIFF * inertia[mass[k]] > 0.0:
-            stiff[k] = 1
-            found = 1
-    return found
 
 
 @compiled

@@ -18,7 +18,8 @@ from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
-from fairlead.integrate.record.between import STIFF, take_slip_away
+from fairlead.integrate.point.stiff import follows_within
+from fairlead.integrate.record.between import take_slip_away
 
 CAREFUL = 10.0
 """A step is allowed a tenth of a weight: errors of one sign add up, and energy is to be right to ten accuracies of what
@@ -102,20 +103,10 @@ def balance_end(m, h):
             y_end[k] += b[k]
         elif watched[k] == 1:
             error[k] = b[k]
-            if follows(matrices, k, h):
+            if follows_within(matrices, k, h):
                 y_end[k] += b[k]
                 error[k] *= FOLLOWED
     return weighted_norm(point, point.at_error_vector)
-
-
-@compiled
-def follows(matrices, k, h):
-    """True if unknown k follows what drives it within the step h."""
-    place, mass = indices(matrices.at_diagonal_slope, matrices.n)[k], indices(matrices.at_diagonal_mass, matrices.n)[k]
-    if place < 0 or mass < 0:
-        return False
-    inertia = reals(matrices.at_mass, matrices.n_mass)[mass]
-    return -reals(matrices.at_jacobian, matrices.n_jacobian)[place] * h > STIFF * inertia > 0.0
 
 
 @compiled

@@ -46,9 +46,9 @@ from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import cut_too_rough
 from fairlead.integrate.point.controller import step_after_rejection
 from fairlead.integrate.point.even_steps import FINE, rounded
+from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
-from fairlead.integrate.record.between import end_massless, find_stiff, hold_inside, prepare_rows
-from fairlead.integrate.record.rows import rows_inside
+from fairlead.integrate.stepping.dense_output import end_massless, hold_inside, show_inside
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, note_rejection, remember_slope
 from fairlead.integrate.stepping.located_step import (
     ARRANGED,
@@ -159,7 +159,7 @@ def finish_located(m, h):
     verdict = judge_guards(m, h)
     if verdict == ARRANGED or (verdict == CUT and run.cut_at < 1.0 and cut_too_rough(m, h)):
         return GO_ON
-    recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
+    recorder.any_stiff = mark_stiff(problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     recorder.meters_off = 1 if problem.n_quadratures > 0 else 0
     repeated = run.retried > 0
@@ -185,15 +185,6 @@ def end_located(m, h):
 
 
 @compiled
-def show_inside(m):
-    """How many rows the accepted step has inside, and what its dense output needs."""
-    recorder = m.recorder
-    if recorder.on_grid == 1 or recorder.between == 1:
-        recorder.inside, recorder.inside_next = rows_inside(m.run, m.point, m.events.settling, recorder), 1
-        prepare_rows(m)
-
-
-@compiled
 def over_kink(run, point, rule, h):
     """The step over a kink that the one before ended short of: as long again behind it, and implicit (theta = 1).
 
@@ -213,7 +204,7 @@ def over_kink(run, point, rule, h):
 def accept_step(m, h):
     """To the end of the step; how long the next is."""
     run, recorder, rule = m.run, m.recorder, m.stepping.rule
-    recorder.any_stiff = find_stiff(m.problem, m.linear.matrices, recorder, h)
+    recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > 1e-3 else 0.0
     repeated = run.retried > 0

@@ -1,0 +1,33 @@
+"""Which unknowns follow a stiff law within a step: it brings them to its balance, whatever they were at the start.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.memory.foreign import compiled, indices, reals
+
+STIFF = 100.0
+"""An unknown follows its law within a step when h |df/dy| is so many times its inertia."""
+
+@compiled
+def follows_within(matrices, k, h):
+    """True if unknown k follows its law within the step h."""
+    place, mass = indices(matrices.at_diagonal_slope, matrices.n)[k], indices(matrices.at_diagonal_mass, matrices.n)[k]
+    if place < 0 or mass < 0:
+        return False
+    inertia = reals(matrices.at_mass, matrices.n_mass)[mass]
+    return -reals(matrices.at_jacobian, matrices.n_jacobian)[place] * h > STIFF * inertia > 0.0
+
+
+@compiled
+def mark_stiff(problem, matrices, recorder, h):
+    """Mark in `is_stiff` the speeds that follow a stiff law within the step; 1 if there is any.
+
+    Speeds alone: what they hold of the energy is nothing. A pressure that is shown elsewhere has another energy.
+    """
+    stiff, position, found = indices(recorder.at_is_stiff, problem.n), indices(problem.at_position_of, problem.n), 0
+    for k in range(problem.n):
+        stiff[k] = 0
+        if position[k] >= 0 and follows_within(matrices, k, h):
+            stiff[k] = 1
+            found = 1
+    return found
