@@ -1,5 +1,4 @@
-"""Which unknowns follow a stiff law within a step: it brings them to its balance, whatever they were at the start.
-"""
+"""Which unknowns follow a stiff law within a step: it brings them to its balance, whatever they were at the start."""
 
 from __future__ import annotations
 
@@ -7,6 +6,10 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 
 STIFF = 100.0
 """An unknown follows its law within a step when h |df/dy| is so many times its inertia."""
+FURTHEST = 10.0
+"""Times that a law may be less stiff at a place in the step than the factors of the step have it; beyond, it counts as
+none. So many times the move that they give is made at most."""
+
 
 @compiled
 def follows_within(matrices, k, h):

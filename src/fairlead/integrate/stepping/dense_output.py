@@ -24,15 +24,16 @@ def end_massless(problem, point, linear, exchange, h):
         indices(exchange.at_holds, problem.n), indices(exchange.at_of_massless, problem.n),
         indices(problem.at_differential, problem.n),
     )  # fmt: skip
-    field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_residual))
-    slip, b, y_end = reals(point.at_residual, problem.n), reals(point.at_b, problem.n), reals(point.at_y_end, problem.n)
+    field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
+    minus_slip, b = reals(point.at_minus_slip, problem.n), reals(point.at_b, problem.n)
+    y_end = reals(point.at_y_end, problem.n)
     found = False
     for k in range(problem.n):
         b[k] = 0.0
     for e in range(exchange.n_hold_mass):
         k = row[e]
-        if holds[k] == 1 and of_massless[k] == 1 and slip[k] != 0.0:
-            b[k] = slip[k] * factors.mass_factor
+        if holds[k] == 1 and of_massless[k] == 1 and minus_slip[k] != 0.0:
+            b[k] = minus_slip[k] * factors.mass_factor
             found = True
     if not found:
         return
@@ -49,12 +50,12 @@ def show_inside(m):
     recorder = m.recorder
     if recorder.on_grid == 1 or recorder.between == 1:
         recorder.inside, recorder.inside_next = rows_inside(m.run, m.point, m.events.settling, recorder), 1
-        prepare_rows(m)
+        prepare_dense_output(m)
 
 
 @compiled
-def prepare_rows(m):
-    """Of an accepted step with rows inside: take slip out of its start and its bend; see `rows_slip`."""
+def prepare_dense_output(m):
+    """Of an accepted step with rows inside: take slip out of its start and its bulge; see `rows_slip`."""
     run, recorder = m.run, m.recorder
     recorder.rows_slip = 0
     beyond = run.t_piece - 1e-12 * max(abs(run.t_piece), recorder.every)
@@ -65,7 +66,7 @@ def prepare_rows(m):
 
 @compiled
 def hold_inside(m):
-    """Take slip out of the start and the bend of a step, or have every point inside it done (`rows_slip`).
+    """Take slip out of the start and the bulge of a step, or have every point inside it done (`rows_slip`).
 
     The start has slip in contacts that a settlement has just caught, by rounding: what is more was
     settled (located_step.py). A step that is taken again from there begins without it.
@@ -88,10 +89,10 @@ def hold_inside(m):
         take_slip_away(m.problem, point, linear, exchange, point.t, point.at_y)
     entry = indices(exchange.at_hold_mass, exchange.n_hold_mass)
     column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
-    values, bend = reals(matrices.at_mass, matrices.n_mass), reals(point.at_D, point.n)
-    slip = reals(point.at_residual, point.n)
+    values, bulge = reals(matrices.at_mass, matrices.n_mass), reals(point.at_D, point.n)
+    minus_slip = reals(point.at_minus_slip, point.n)
     for k in range(point.n):
-        slip[k] = 0.0
+        minus_slip[k] = 0.0
     for e in range(exchange.n_hold_mass):
-        slip[row[e]] -= values[entry[e]] * bend[column[e]]
+        minus_slip[row[e]] -= values[entry[e]] * bulge[column[e]]
     remove_slip(point, linear, exchange, point.at_D)
