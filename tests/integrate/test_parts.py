@@ -2,7 +2,7 @@
 
 from fairlead.integrate.counters import COUNTS
 from fairlead.integrate.memory.layout import INTEGERS, NUMBERS
-from fairlead.integrate.parts import NUMBERS as CARRIED
+from fairlead.integrate.parts import CARRIED
 
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
@@ -24,8 +24,8 @@ OF_A_SETTLEMENT = {
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
     "core_kind",
-    "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "guessed",
-    "distrusted",
+    "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "assumed",
+    "invalidated",
     "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
     "searched", "frozen", "instant", "midway", "replanned", "theta_now",
 }  # fmt: skip

@@ -27,7 +27,7 @@ def line():
 
 @functools.cache
 def located():
-    from fairlead.integrate.stepping.switch_inside import locate_guard
+    from fairlead.integrate.stepping.jump_at_end import locate_guard
 
     return entry(locate_guard, ("problem", "run", "point", "events.guards"), "di", "d")
 
@@ -52,9 +52,9 @@ def test_six_evaluations_find_a_guard_within_two_thousandths_of_a_step(due, bend
 
 @functools.cache
 def jump():
-    from fairlead.integrate.stepping.switch_inside import find_jump
+    from fairlead.integrate.stepping.jump_at_end import place_jump
 
-    return entry(find_jump, ("point", "events.guards", "stepping.contacts", "stepping.rule"), "d")
+    return entry(place_jump, ("point", "events.guards", "stepping.contacts", "stepping.rule"), "d")
 
 
 def chain(order, margins, excess):
@@ -115,7 +115,7 @@ def test_the_next_in_a_row_is_on_the_other_side_and_an_end_has_none():
 @pytest.mark.parametrize("change", [0.1, 0.3, 0.6])
 def test_four_tries_find_a_jump_to_a_thousandth_of_a_step_where_the_load_changes_its_rate_by_less_than_07(change):
     """Load a t + b t^2, of which a step shows the value in its middle; its rate changes by `change` on the way."""
-    from fairlead.integrate.stepping.trial import AT_PLACE, TRIES
+    from fairlead.integrate.stepping.repeated import AT_PLACE, TRIES
 
     gap, due, rate = 0.5, 0.8, 3.0
     curve = change * rate / (2 * (gap + due))

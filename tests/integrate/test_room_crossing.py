@@ -20,10 +20,10 @@ BUMPS = ("left", "left_g", "top", "top_g", "right", "right_g", "asks", "rise", "
 
 @functools.cache
 def crossed():
-    """call(memory, h) -> what `first_crossing` says."""
-    from fairlead.integrate.events.crossing import first_crossing
+    """call(memory, h) -> what `find_first_crossing` says."""
+    from fairlead.integrate.events.crossing import find_first_crossing
 
-    return entry(first_crossing, ("",), "d", "i")
+    return entry(find_first_crossing, ("",), "d", "i")
 
 
 @functools.cache
@@ -35,9 +35,9 @@ def proposed():
 
 @functools.cache
 def short():
-    from fairlead.integrate.events.growth import short_of_growth
+    from fairlead.integrate.events.growth import shorten_for_growth
 
-    return entry(short_of_growth, ("run", "point"), "d", "d")
+    return entry(shorten_for_growth, ("run", "point"), "d", "d")
 
 
 @functools.cache
@@ -60,7 +60,7 @@ def step_of(*guards, tolerance=1e-9):
     """A trial step from t = 0 to 1 in which y = theta, with these guards of y; and what must be kept."""
     count = len(guards)
     given = {"g_left": [f(0.0) for f in guards], "g_right": [f(1.0) for f in guards], "g": [f(0.0) for f in guards]}
-    others = {name: np.zeros(count) for name in ("g_probe", "g_early", "g_late", "g_since", "g_end", "g_ahead")}
+    others = {name: np.zeros(count) for name in ("g_probe", "g_early", "g_late", "g_since", "g_end", "g_later")}
     others |= {f"bump_{of}": np.zeros(count) for of in BUMPS}
     at = memory(
         {"n": 1, "n_guards": count, "h": 1.0, "t_release": np.inf}, y=[0.0], y_end=[1.0], D=np.zeros(3),

@@ -12,9 +12,9 @@ from tests.integrate.rooms import entry, memory
 
 @functools.cache
 def met_before():
-    from fairlead.integrate.events.patterns import recurs
+    from fairlead.integrate.events.patterns import note_pattern
 
-    return entry(recurs, ("run", "events.settling"), "", "b")
+    return entry(note_pattern, ("run", "events.settling"), "", "b")
 
 
 @functools.cache

@@ -19,8 +19,8 @@ TINY = 1e-9  # error weight of a speed [m/s]
 
 @functools.cache
 def struck():
-    """call(memory) -> what `impact` says, with the factors of the consistent point."""
-    from fairlead.integrate.events.impulse import impact
+    """call(memory) -> what `resolve_impact` says, with the factors of the consistent point."""
+    from fairlead.integrate.events.impulse import resolve_impact
     from fairlead.integrate.linear.systems import assemble_consistent, factorise_dense
     from fairlead.integrate.memory.foreign import compiled
 
@@ -28,7 +28,7 @@ def struck():
     def strike(m):
         assemble_consistent(m.linear)
         status = factorise_dense(m.linear.factors)
-        return status if status != 0 else impact(m)
+        return status if status != 0 else resolve_impact(m)
 
     return entry(strike, ("",), "", "i")
 

@@ -34,9 +34,9 @@ def rejected():
 
 @functools.cache
 def bend():
-    from fairlead.integrate.point.curvature import bend_beyond_rounding
+    from fairlead.integrate.point.curvature import curvature_beyond_rounding
 
-    return entry(bend_beyond_rounding, ("point", "linear.matrices"), "", "d")
+    return entry(curvature_beyond_rounding, ("point", "linear.matrices"), "", "d")
 
 
 @pytest.mark.parametrize("seed", range(5))

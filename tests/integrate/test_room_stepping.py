@@ -59,31 +59,31 @@ def forgotten():
 
 @functools.cache
 def wrong_by(name):
-    from fairlead.integrate.stepping import step_error
+    from fairlead.integrate.stepping import response
 
     kinds = "didd" if name == "error_of_speed" else "did"
-    return entry(getattr(step_error, name), ("point", "linear.matrices", "stepping.contacts"), kinds, "d")
+    return entry(getattr(response, name), ("point", "linear.matrices", "stepping.contacts"), kinds, "d")
 
 
 @functools.cache
 def unseen():
-    from fairlead.integrate.stepping.step_error import unseen_slip
+    from fairlead.integrate.stepping.limit_violation import unseen_slip
 
     return entry(unseen_slip, ("point", "linear.matrices", "events.guards", "stepping"), "d", "d")
 
 
 @functools.cache
 def error():
-    from fairlead.integrate.stepping.step_error import error_of_step
+    from fairlead.integrate.stepping.step_error import find_error
 
-    return entry(error_of_step, ("",), "d", "d")
+    return entry(find_error, ("",), "d", "d")
 
 
 @functools.cache
 def turned():
-    from fairlead.integrate.stepping.switch_inside import first_turned
+    from fairlead.integrate.stepping.switch_inside import find_turn
 
-    return entry(first_turned, ("point", "linear.matrices", "stepping.contacts"), "d", "d")
+    return entry(find_turn, ("point", "linear.matrices", "stepping.contacts"), "d", "d")
 
 
 @functools.cache
@@ -229,7 +229,7 @@ def test_a_row_of_another_contact_of_the_kind_is_taken_where_laws_are_linear_and
     network.zones[:] = (1, 0)
     assert exchanged()(network.at) == bool(linear)
     if linear:
-        assert int(network.at.number["guessed"]) & 4
+        assert int(network.at.number["assumed"]) & 4
         of_second = network.problem.pattern.rows == network.rows[1]
         wanted = network.by_zone[0][0][network.rows[1], columns_of(network.problem.pattern)[of_second]]
         np.testing.assert_array_equal(network.at.array["jacobian"][of_second], wanted)
@@ -275,7 +275,7 @@ def test_a_contact_that_lets_go_inside_a_step_hides_the_speed_of_the_page_on_the
     early, before, middle = (rate * (t - share * H) for t in (-1.5 * H, -0.5 * H, 0.5 * H))
     lets_go = share < 0.5
     at = one_body(
-        numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_early=[early], limit_guard=[1],
+        numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_before=[early], limit_guard=[1],
         guard_machine=[0], guard_tolerance=[1e-9], rested=[2, 2, 2], holds=[0, 0, int(not lets_go)],
         mean_slope=[0.0, 0.0, rate], slope_before=[0.0, 0.0, rate], own_kind=[0], kind_is_smooth=[int(smooth)],
     )  # fmt: skip
@@ -292,7 +292,7 @@ def test_the_unknown_to_blame_is_the_one_with_the_largest_error(bend, worst, spe
     early, before, middle = (rate * (t - share * H) for t in (-1.5 * H, -0.5 * H, 0.5 * H))
     hidden = rate * H**2 / (2 * MASS) * (1 - share) ** 2 / OF_SPEED
     at = one_body(
-        numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_early=[early], limit_guard=[1],
+        numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_before=[early], limit_guard=[1],
         guard_machine=[0], guard_tolerance=[1e-9], rested=[2, 2, 2], holds=[0, 0, 1], own_kind=[0], kind_is_smooth=[0],
         slope_before=[speed, 0.0, rate], slope_earlier=[speed + bend, 0.0, 0.0], mean_slope=np.zeros(3),
         y=np.zeros(3), y_end=[speed * H, 0.0, rate * H], D=np.zeros(3), mean_before=np.zeros(3), differential=[1, 1, 0],
@@ -310,7 +310,7 @@ def test_a_contact_whose_load_falls_or_that_has_just_been_caught_hides_nothing()
     for rate, rested in ((-40.0, 2), (40.0, 1)):
         early, before, middle = (rate * t - 0.7 * H * abs(rate) for t in (-1.5 * H, -0.5 * H, 0.5 * H))
         at = one_body(
-            numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_early=[early],
+            numbers={"gap": 0.5 * H, "gap_before": H}, g=[before], g_end=[middle], g_before=[early],
             limit_guard=[1], guard_machine=[0], guard_tolerance=[1e-9], rested=[2, 2, rested], holds=[0, 0, 1],
             mean_slope=[0.0, 0.0, rate], slope_before=[0.0, 0.0, rate], own_kind=[0], kind_is_smooth=[0],
         )  # fmt: skip
@@ -349,7 +349,7 @@ def test_a_slip_that_its_friction_stops_has_not_turned_round():
 
 @functools.cache
 def halved():
-    from fairlead.integrate.stepping.trial import halve_unsolved
+    from fairlead.integrate.stepping.repeated import halve_unsolved
 
     return entry(halve_unsolved, ("",), "di", "i")
 
@@ -390,7 +390,7 @@ def test_slip_that_a_search_leaves_in_a_row_that_was_caught_is_in_its_residual()
         hold_mass_row=[1], of_massless=np.zeros(3), differential=[1, 0, 1], controlled=np.zeros(3),
         quadrature=np.zeros(3), row_scale=[0.0, 1.0, 1.0], mass_starts=[0, 2, 2, 3], mass_rows=[0, 1, 2],
         mass_columns=[0, 0, 2], mass=np.ones(3), jacobian_starts=np.zeros(4), jacobian_rows=np.zeros(3),
-        jacobian=np.zeros(3), **{name: np.zeros(3) for name in ("kick", "b", "v", "f", "u", "residual")},
+        jacobian=np.zeros(3), **{name: np.zeros(3) for name in ("kick", "b", "v", "f", "u", "minus_slip")},
     )  # fmt: skip
 
     def forces(_t, u, f):

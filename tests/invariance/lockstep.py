@@ -33,7 +33,7 @@ CAUSES = ("rejected_error", "rejected_nan", "rejected_companion", "rejected_swit
           "rejected_diverged", "rejected_singular")  # fmt: skip
 FACTS = (
     "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now", "massless", "driven",
-    "limits_vary", "expecting", "guessed", "distrusted", "allowed", "allowed_before", "block_steps", "n_switched",
+    "limits_vary", "expecting", "assumed", "invalidated", "allowed", "allowed_before", "block_steps", "n_switched",
     "t_cut", "localising", "h_wanted", "growth", "landing", "crossed", "cut_at", "stalls", "look",
     "nearness", "linearised", "searched",
 )  # fmt: skip

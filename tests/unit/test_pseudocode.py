@@ -53,7 +53,7 @@ def test_pseudocode_calls_what_the_code_calls_in_its_order(file: str, name: str,
 
 def test_the_loop_a_trial_step_a_settlement_and_both_ways_of_stepping_are_shown() -> None:
     assert {"loop_of", "trial_of", "up_to_crossing", "settle", "attempt_stepping", "finish_inside",
-            "finish_located"} <= {name for _, name, _ in shown()}  # fmt: skip
+            "finish_located", "find_error", "error_inside"} <= {name for _, name, _ in shown()}  # fmt: skip
 
 
 def test_a_renamed_or_reordered_call_is_found() -> None:
@@ -101,6 +101,6 @@ def test_functions_and_constants_that_the_page_of_stepping_names_exist() -> None
 def test_every_measure_in_stepping_has_its_reason_on_the_page() -> None:
     room = [file for file in FILES.values() if file.parent.name == "stepping"]
     measures = {(file.stem, name) for file in room for name, value in defined(file) if value and is_measure(value)}
-    assert {("trial", "AT_PLACE"), ("step_error", "BEYOND")} <= measures
+    assert {("repeated", "AT_PLACE"), ("limit_violation", "BEYOND")} <= measures
     missing = {one for one in measures - named() if one[1] not in CODES}
     assert not missing

@@ -15,11 +15,12 @@ from math import inf, isfinite
 from typing import Any, NamedTuple
 
 from fairlead.integrate.codes import GO_ON, NOT_FINITE, REPLAN, SINGULAR_MATRIX, STEP_FLOOR
-from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossing
+from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_up import TOO_LONG, mend_start, settle_at_start, take_again, take_much_shorter
 from fairlead.integrate.events.pace import (
     DOUBT,
     accept,
+    arrive_at_instant,
     is_instant,
     not_finite_here,
     over_budget,
@@ -30,14 +31,14 @@ from fairlead.integrate.events.position import way_back
 from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
-from fairlead.integrate.point.defect import defect, midpoint_defect
+from fairlead.integrate.point.defect import find_defect, find_midpoint_defect
 from fairlead.integrate.point.meters import judge_meters
+from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
-from fairlead.integrate.record.between import find_stiff
 
 ROUGH = 10.0
 """Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
-LEAST_SHARE = 1e-6
+NEGLIGIBLE = 1e-6
 """Share of the absolute weight of a force below which it is nothing in its scene, whatever its limit: rounding of
 others would else be asked of."""
 MOST_KEPT = 0.8
@@ -66,7 +67,8 @@ def trial_of(method: OneStep) -> Any:
         if spent != GO_ON:
             return spent
         h = propose(run, point)
-        if is_instant(run, point, m.events.guards, h):
+        if is_instant(run, point, h):
+            arrive_at_instant(run, point, m.events.guards)
             return GO_ON
         run.h = h
         status = take(m, h)
@@ -98,7 +100,7 @@ def judge_inside(m, h):
     """Error of the dense output, where the end of a step does not tell."""
     problem, run, point, linear, method = m.problem, m.run, m.point, m.linear, m.method
     if method.n_watched > 0 and run.adaptive == 1:
-        midpoint_defect(problem, point, linear, method, h)
+        find_midpoint_defect(problem, point, linear, method, h)
         run.error = max(run.error, weighted_norm(point, point.at_error_vector))
     if problem.n_accelerated > 0 and run.adaptive == 1:
         run.error = max(run.error, way_back(problem, point, linear, h))
@@ -108,43 +110,51 @@ def judge_inside(m, h):
 def up_to_crossing(m, h):
     """Accept a step whose error is small enough, up to its first crossing; or give it up for what that shows."""
     problem, run, guards, recorder = m.problem, m.run, m.events.guards, m.recorder
-    found = first_crossing(m, h)
+    found = find_first_crossing(m, h)
     if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, guards, h):
         return take_much_shorter(run, guards, h)
     if found == COMPANION:
         return mend_start(m, h)
-    if found == CROSSING and run.cut_at < 1.0 and run.adaptive == 1 and cut_too_rough(m, h):
-        return GO_ON
-    recorder.any_stiff = find_stiff(problem, m.linear.matrices, recorder, h)
+    if found == CROSSING and run.cut_at < 1.0 and run.adaptive == 1 and piece_is_rough(m, h):
+        return take_piece(m, h)
+    recorder.any_stiff = mark_stiff(problem, m.linear.matrices, recorder, h)
     accept(m, h, found == CROSSING)
     return GO_ON
 
 
 @compiled
-def cut_too_rough(m, h):
-    """True if the piece up to a crossing is to be taken as a step of its own, which the next trial then is."""
+def piece_is_rough(m, h):
+    """True if the piece up to a crossing misses the equations, and is long enough to be a step of its own."""
     run, point = m.run, m.point
-    piece = min(run.cut_at, MOST_KEPT) * h
-    if piece < smallest_step(run, point) or not rough(m.problem, run, point, m.events.guards, m.linear, h):
+    if length_of_piece(run, h) < smallest_step(run, point):
         return False
-    m.events.guards.n_fired = 0
-    take_again(run, piece, TOO_LONG)
-    return True
+    return is_rough(m.problem, run, point, m.events.guards, m.linear, h)
 
 
 @compiled
-def rough(problem, run, point, guards, linear, h):
+def take_piece(m, h):
+    """Have the piece up to a crossing taken as a step of its own, which the next trial then is."""
+    m.events.guards.n_fired = 0
+    m.run.rejected_switch += 1
+    return take_again(m.run, length_of_piece(m.run, h), TOO_LONG)
+
+
+@compiled
+def length_of_piece(run, h):
+    """How long the piece up to a crossing is as a step of its own."""
+    return min(run.cut_at, MOST_KEPT) * h
+
+
+@compiled
+def is_rough(problem, run, point, guards, linear, h):
     """True if the dense output does not satisfy the equations at `cut_at`, where the step is to be cut.
 
     The error of a step is that of its end. A law may change much between the last stage before a crossing and the one
     after it, as friction does that rises while a contact comes to rest: beyond rest the law in force is mirrored, so
     all stages may lie beside the rise, and the piece of the step up to rest misses it.
     """
-    defect(problem, point, linear, h, run.cut_at)
-    if weighted_norm(point, point.at_error_vector) <= ROUGH and not limits_are_rough(problem, point, guards):
-        return False
-    run.rejected_switch += 1
-    return True
+    find_defect(problem, point, linear, h, run.cut_at)
+    return not weighted_norm(point, point.at_error_vector) <= ROUGH or limits_are_rough(problem, point, guards)
 
 
 @compiled
@@ -161,7 +171,7 @@ def limits_are_rough(problem, point, guards):
     for k in range(guards.n_fired):
         row = bounded[fired[k]]
         if limit[fired[k]] == 1 and row >= 0:
-            own = max(relative[row] * max(abs(y[row]), abs(y_end[row])), LEAST_SHARE * absolute[row])
+            own = max(relative[row] * max(abs(y[row]), abs(y_end[row])), NEGLIGIBLE * absolute[row])
             if abs(error[row]) > ROUGH * own:
                 return True
     return False

@@ -33,24 +33,24 @@ WORTH = 4
 """A part that served for as many steps as this many cuts cost was worth it."""
 FEWER, SURELY_FEWER = 0.6, 0.85
 """A part is cut anew when that leaves this share of it; and where what is left out can only come back by the rim."""
-AGAIN = 2
+WAIT_AGAIN = 2
 """Steps of the whole after the rim of such a part has changed, if it had been worth it."""
 FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
-NEVER = 1e300
+BLOCKED = 1e300
 
-NUMBERS = (
+CARRIED = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
     "total_events", "stop_asked", "failed", "localising", "locates", "damps", "driven", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
-    "theta_raise", "gap", "gap_before", "t_cut", "t_bent", "growth", "t_growth", "swing_step", "allowed",
+    "theta_raise", "gap", "gap_before", "t_cut", "t_kink", "growth", "t_growth", "swing_step", "allowed",
     "allowed_before", "block_steps",
     *COUNTS,
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""
 BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost", "not_given_back")
 SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier", "mean_before")
-BY_GUARD = ("g", "g_early", "g_end", "continuous")
+BY_GUARD = ("g", "g_before", "g_end", "continuous")
 BY_MACHINE = (
     "zones", "last_toggle", "blocked_until", "streak", "chatters", "switches_by_machine", "released", "released_by",
 )  # fmt: skip
@@ -107,7 +107,7 @@ class Scope:
         steps, number = int(self.memory.number["steps"]), self.whole.number
         self._spread()
         switched = self.whole.array["switches_by_machine"].copy()
-        blocked = number["t_release"] < NEVER  # a machine that is kept from switching is not at rest
+        blocked = number["t_release"] < BLOCKED  # a machine that is kept from switching is not at rest
         t, y = float(self.whole.number["t"]), self.whole.array["y"]
         found = None if blocked else self.narrowing.moving(t, y, self._margin, MOST, self.part)
         sure = found is not None and found.sure
@@ -140,7 +140,7 @@ class Scope:
         self.memory, self.problem, self.part, self._seen = self.whole, self.whole_problem, None, None
         self._make_fresh(self.whole)
         worth = steps - self._since >= WORTH * self._cost
-        wait = (AGAIN if sure else self._cost) if worth else self._pause
+        wait = (WAIT_AGAIN if sure else self._cost) if worth else self._pause
         self.whole.number["narrow_at"] = steps + wait
         self._pause = self._cost if worth else 2 * self._pause
         self._margin = MARGIN if worth else 2 * self._margin
@@ -173,7 +173,7 @@ class Scope:
             for name in names:
                 if name != "zones":
                     memory.array[name][:] = self.whole.array[name][places]
-        for name in NUMBERS:
+        for name in CARRIED:
             memory.number[name] = self.whole.number[name]
         memory.array["rim"][:] = part.rim
         memory.number["narrowed"], memory.number["narrow_at"] = 1, steps + WORTH * self._cost
@@ -227,7 +227,7 @@ class Scope:
         for names, places in self._places(self.part):
             for name in names:
                 self.whole.array[name][places] = self.memory.array[name]
-        for name in NUMBERS:
+        for name in CARRIED:
             self.whole.number[name] = self.memory.number[name]
         self.part.give_back(float(self.whole.number["t"]), self.whole.array["y"])
         for name in SLOPES:

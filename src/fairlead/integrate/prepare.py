@@ -103,6 +103,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "balanced_speed": np.ascontiguousarray(problem.balanced[:, 1], np.int64),
         "light": light, "speed_of": speed_of(problem), "position_of": position_of(problem),
         "diagonal_slope": diagonal(problem.pattern, n), "diagonal_mass": diagonal(problem.mass_pattern, n),
+        "of_balance": of_balance(problem),
         **plan.arrays,
     }  # fmt: skip
     numbers["n_integrals"] = int(given["integral"].sum())
@@ -130,6 +131,17 @@ def diagonal(pattern: AnyPattern, n: int) -> Integers:
     found = np.full(n, -1, dtype=np.int64)
     on_it = np.flatnonzero(np.asarray(pattern.rows) == columns_of(pattern))
     found[np.asarray(pattern.rows)[on_it]] = on_it
+    return found
+
+
+def of_balance(problem: Problem) -> Integers:
+    """[n]: 1 for unknowns without inertia that a balance gives at each instant, as the voltage of a node, or a sum.
+
+    Not for forces of contacts, whose rows tell slip while they hold, nor for what moves without inertia in such rows.
+    """
+    found = 1 - np.asarray(problem.differential, dtype=np.int64)
+    found[np.asarray(problem.mass_pattern.rows)] = found[columns_of(problem.mass_pattern)] = 0
+    found[diagonal(problem.pattern, len(found)) < 0] = 0
     return found
 
 

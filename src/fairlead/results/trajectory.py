@@ -14,7 +14,6 @@ How it is used:
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -25,17 +24,17 @@ from numpy.typing import ArrayLike, NDArray
 
 import fairlead.results.run_file as run_file
 from fairlead.arguments import keywords_told
-from fairlead.errors import FairleadError, RunWarning, UsageError, did_you_mean, listing, shown
-from fairlead.renamed import of_today
-from fairlead.results.asked import instead_of, not_names, refuse_no_file, times_of
+from fairlead.errors import FairleadError, UsageError, shown
+from fairlead.results.asked import refuse_no_file, times_of
 from fairlead.results.curves import Curves
 from fairlead.results.damage import DamagedResultsError
 from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.kept import earlier
 from fairlead.results.kept_lists import Events, RunRecord, Signals
+from fairlead.results.named import Names
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import require_intact
-from fairlead.results.signal import Signal, matching
+from fairlead.results.signal import Signal
 from fairlead.results.store import SERIES_FILE
 
 if TYPE_CHECKING:
@@ -46,13 +45,6 @@ if TYPE_CHECKING:
     from fairlead.results.table import Table
 
 T = TypeVar("T")
-
-
-class UnknownSignalError(FairleadError, KeyError):
-    """A name that was not recorded."""
-
-    def __str__(self) -> str:
-        return str(self.args[0])  # KeyError would show the message in quotes.
 
 
 class Extremes(NamedTuple):
@@ -96,7 +88,7 @@ class Result:
         self.run: dict[str, Any] = RunRecord(run)
         self._series = series
         self._given_events = events
-        self._signals = {signal.name: signal for signal in series.signals}
+        self._names = Names({signal.name: signal for signal in series.signals}, self._place)
         self._cache: dict[str, NDArray[np.float64]] = {}
         self._own = None if path is None else run_file.Watched(path, run)
 
@@ -158,7 +150,7 @@ class Result:
 
         They come from the dense output of every step, whatever was recorded; of a run that was killed, from its rows.
         """
-        self._signal(name)
+        self._names.one(name)
         if name in self._extremes:
             return Extremes(*self._extremes[name])
         values = self[name]
@@ -206,36 +198,25 @@ class Result:
         return self.status == "finished"
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
-        return self._columns([self._signal(name).name])[:, 0]
+        return self._columns([self._names.one(name).name])[:, 0]
 
     def __contains__(self, name: object) -> bool:
-        return name in self._signals
+        return name in self._names.signals
 
     def __len__(self) -> int:
-        return len(self._signals)
+        return len(self._names.signals)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._signals)
+        return iter(self._names.signals)
 
     def unit(self, name: str) -> str:
         """Return the SI unit of the signal `name`. Raises UnknownSignalError."""
-        return self._signal(name).unit
+        return self._names.one(name).unit
 
     @keywords_told
     def match(self, pattern: str) -> list[str]:
         """Return the recorded names that fit a pattern such as `line.*.tension` (see `signal.matching`)."""
-        if not isinstance(pattern, str):
-            raise UnknownSignalError(f"match: pattern = {shown(pattern)} is not a text.\n    Write it as \"block.*\".")
-        return matching(self._signals, pattern) or self._of_old(pattern)
-
-    def _of_old(self, pattern: str) -> list[str]:
-        """The signals that an old name of an output means; it warns of that."""
-        fit = {one: matching(self._signals, one) for one in (of_today(pattern) if isinstance(pattern, str) else ())}
-        found = {name for names in fit.values() for name in names}
-        if found:
-            today = " or ".join(one for one, names in fit.items() if names)
-            warnings.warn(f"{pattern} is called {today} now; write that.", RunWarning, stacklevel=4)
-        return [name for name in self._signals if name in found]
+        return self._names.match(pattern)
 
     @keywords_told
     def at(self, name: str, t: ArrayLike, side: Side = "right") -> Any:
@@ -277,7 +258,7 @@ class Result:
         """
         from fairlead.results.export import to_xarray
 
-        return to_xarray(self, self.chosen(names), side)
+        return to_xarray(self, self._names.chosen(names), side)
 
     @keywords_told
     def to_pandas(self, names: str | Iterable[str] | None = None, side: Side = "both") -> pandas.DataFrame:
@@ -287,7 +268,7 @@ class Result:
         """
         from fairlead.results.export import to_pandas
 
-        return to_pandas(self, self.chosen(names), side)
+        return to_pandas(self, self._names.chosen(names), side)
 
     @keywords_told
     def to_excel(self, path: str | Path, names: str | Iterable[str] | None = None, side: Side = "both") -> None:
@@ -300,7 +281,7 @@ class Result:
 
         refuse_no_file("to_excel", path, names)
         self._refuse_another()
-        to_excel(self, path, self.chosen(names), side)
+        to_excel(self, path, self._names.chosen(names), side)
 
     @keywords_told
     def elements(self, pattern: str, side: Side = "both") -> xarray.DataArray:
@@ -335,19 +316,19 @@ class Result:
 
         refuse_no_file("to_csv", path, names)
         if self.path is None or Path(path).parent.resolve() != self.path.resolve():
-            to_csv(self, path, self.chosen(names))
+            to_csv(self, path, self._names.chosen(names))
             return
         self._refuse_another()
         with placing(Path(path)) as part:
-            to_csv(self, part, self.chosen(names))
+            to_csv(self, part, self._names.chosen(names))
 
     @keywords_told
     def columns(self, names: str | Iterable[str] | None = None) -> NDArray[np.float64]:
         """Return several signals (all, or those of `names` or patterns) side by side, shape (rows, signals), in SI."""
-        return self._columns(self.chosen(names))
+        return self._columns(self._names.chosen(names))
 
     def _columns(self, names: list[str]) -> NDArray[np.float64]:
-        missing = list(dict.fromkeys(self._signal(name).name for name in names if name not in self._cache))
+        missing = list(dict.fromkeys(self._names.one(name).name for name in names if name not in self._cache))
         if missing:
             values = np.asfortranarray(self._mine(lambda: self._series.values(missing)))
             values.flags.writeable = False  # The cache is handed out; a caller must not change it.
@@ -374,33 +355,7 @@ class Result:
 
     def chosen(self, names: str | Iterable[str] | None) -> list[str]:
         """The names of signals: all, one or several, each a name or a pattern. Raises UnknownSignalError."""
-        if names is None:
-            return list(self._signals)
-        if way_out := not_names(names):
-            raise UnknownSignalError(f"names = {shown(names)} is neither a text nor a list of texts.\n    {way_out}")
-        given = [names] if isinstance(names, str) else list(names)
-        found = [one for each in given
-                 for one in ([each] if each in self._signals else self._fitting(each))]  # fmt: skip
-        return list(dict.fromkeys(found))
-
-    def _fitting(self, pattern: str) -> list[str]:
-        if not isinstance(pattern, str) or not (found := self.match(pattern)):
-            return [self._signal(pattern).name]
-        return found
-
-    def _signal(self, name: str) -> Signal:
-        if not isinstance(name, str):
-            raise UnknownSignalError(f"{shown(name)} is not the name of a signal, which is a text.{instead_of(name)}")
-        if name in self._signals:
-            return self._signals[name]
-        if len(old := self._of_old(name)) == 1:
-            return self._signals[old[0]]
-        several = matching(self._signals, name)
-        if several:
-            advice = f'It stands for {len(several)} signals: use result.match("{name}").'
-        else:
-            advice = did_you_mean(name, self._signals) or f"Recorded are {listing(self._signals)}."
-        raise UnknownSignalError(f"{name} was not recorded in {self._place}. {advice}")
+        return self._names.chosen(names)
 
     def __repr__(self) -> str:
         """Never raises: a prompt shows it also when the files are gone, and says so."""

@@ -25,22 +25,16 @@ from fairlead.integrate.events.first_sample import settle_for_sample, take_first
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RUBBED
-from fairlead.integrate.events.limits import ROUNDING, goes_no_further
+from fairlead.integrate.events.limits import AT_LIMIT, goes_no_further
 from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
 from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import (
-    NO_ROOM,
-    NOT_SETTLED,
-    begin_settling,
-    distance_to_look,
-    move_ahead,
-    settle,
-)
+from fairlead.integrate.events.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
+from fairlead.integrate.events.violators import distance_to_look, move_ahead
 from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.point.controller import restart, weigh, weighted_norm
-from fairlead.integrate.point.curvature import bend_beyond_rounding
+from fairlead.integrate.point.curvature import curvature_beyond_rounding
 from fairlead.integrate.record.rows import shown_end, write_row
 
 START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
@@ -53,7 +47,7 @@ MOST_DROPPED = 4
 EARLY = 4.0
 """The look ahead, in the time by which a crossing is early: after twice that time the mean load is at its limit."""
 FARTHER = 100.0
-"""How much farther than else that may be: a tenth of an error weight, with the bend of the motion taken along."""
+"""How much farther than else that may be: a tenth of an error weight, with the curvature of the motion taken along."""
 
 
 @compiled
@@ -110,7 +104,7 @@ def arrive(m, located):
         run.phase = SETTLE
     elif event_due:
         write_row(problem, recorder, point.t, point.at_y, BEFORE)
-        if time_event(problem, run, point, events):
+        if take_time_event(problem, run, point, events):
             guards.n_fired = 0
             begin_settling(problem, run, point, events)
             run.phase = SETTLE
@@ -196,7 +190,7 @@ def judge_again(problem, run, point, events):
         run.dropped = 0
         return
     g, tolerance = reals(guards.at_g, problem.n_guards), reals(guards.at_guard_tolerance, problem.n_guards)
-    fired, kept, ahead = indices(guards.at_fired, problem.n_guards), 0, reals(guards.at_g_probe, problem.n_guards)
+    fired, kept, later = indices(guards.at_fired, problem.n_guards), 0, reals(guards.at_g_probe, problem.n_guards)
     d, tied = 0.0, False  # whether a load turns at its limit
     if problem.n_accelerated == 0:
         d = distance_to_look(run, point)
@@ -204,10 +198,10 @@ def judge_again(problem, run, point, events):
     evaluate_guards(problem, run, guards, point.t + d, point.at_y_probe if d > 0.0 else point.at_y, guards.at_g_probe)
     for k in range(guards.n_fired):
         i = fired[k]
-        near = g[i] >= -ROUNDING * tolerance[i]
-        if not near and FARTHER * (ahead[i] - g[i]) >= EARLY * -g[i]:
+        near = g[i] >= -AT_LIMIT * tolerance[i]
+        if not near and FARTHER * (later[i] - g[i]) >= EARLY * -g[i]:
             near = True
-            settling.least_look = max(settling.least_look, d * EARLY * -g[i] / (ahead[i] - g[i]))
+            settling.least_look = max(settling.least_look, d * EARLY * -g[i] / (later[i] - g[i]))
         tops_out = goes_no_further(guards, i)
         tied = tied or tops_out
         if near and not tops_out:
@@ -223,7 +217,7 @@ def judge_again(problem, run, point, events):
 
 
 @compiled
-def time_event(problem, run, point, events):
+def take_time_event(problem, run, point, events):
     """Tell the problem of its time event, release machines whose dwell is over; True if that matters."""
     changed = False
     remember(problem, point, events.loads)
@@ -275,7 +269,7 @@ def settle_here(m):
         return CHATTER
     if run.crossed == 1 and run.landing == 1 and point.t < run.stop:
         run.crossed = 0
-        if point.t >= min(run.t_next, run.t_release) and time_event(problem, run, point, events):
+        if point.t >= min(run.t_next, run.t_release) and take_time_event(problem, run, point, events):
             begin_settling(problem, run, point, events)
             return GO_ON
     finish_settling(m, starting)
@@ -290,9 +284,9 @@ def finish_settling(m, starting):
         weigh(point, point.at_y)
         keep_differential(problem, point.at_slope, point.at_u)
         speed = weighted_norm(point, point.at_u)
-        bend = bend_beyond_rounding(point, matrices)
+        curvature = curvature_beyond_rounding(point, matrices)
         keep_algebraic(problem, point.at_curvature, point.at_u)
-        run.h_next = restart(run, speed, bend, weighted_norm(point, point.at_u))
+        run.h_next = restart(run, speed, curvature, weighted_norm(point, point.at_u))
         if starting and run.first_step > 0.0:
             run.h_next = run.first_step
         run.h_next = max(min(run.h_next, 0.1 * (run.stop - run.start)), 4.0 * smallest_step(run, point))

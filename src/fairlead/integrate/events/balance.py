@@ -20,37 +20,37 @@ from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
-CLOSE = 1e-9
+BALANCED = 1e-9
 """A way below this, in error weights, is none: a guard on a force is known far better than a position is."""
-MOVES = 20
+MOST_JUMPS = 20
 """Jumps at one instant at most; of a stiff spring that bends, Newton takes a few."""
 ROUNDS = 2
 """Moves by the error of the dense output; the second is rounding, which may not get less."""
 
 
 @compiled
-def off_balance(problem, point, linear):
+def find_way_to_balance(problem, point, linear):
     """Set v to the way of every position to where the forces balance; the largest, in error weights."""
     n = problem.n
-    r, way, u = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_u, n)
+    change, way, to_weigh = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_u, n)
     field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_b))
     solve(linear, point.at_b)
     position = indices(problem.at_balanced_position, problem.n_balanced)
     speed = indices(problem.at_balanced_speed, problem.n_balanced)
     weigh(point, point.at_y)
     way[:] = 0.0
-    u[:] = 0.0
+    to_weigh[:] = 0.0
     for k in range(problem.n_balanced):
-        way[position[k]] = r[speed[k]]
-        u[position[k]] = r[speed[k]]
+        way[position[k]] = change[speed[k]]
+        to_weigh[position[k]] = change[speed[k]]
     return weighted_norm(point, point.at_u)
 
 
 @compiled
 def close_balance(problem, point, linear):
     """Take away what is left of balances by the error of the dense output; True if there was any."""
-    size = off_balance(problem, point, linear)
-    if not (CLOSE < size <= 1.0):
+    size = find_way_to_balance(problem, point, linear)
+    if not (BALANCED < size <= 1.0):
         return False
     move(problem, point)
     return True
@@ -60,7 +60,7 @@ def close_balance(problem, point, linear):
 def jump_to_balance(m):
     """Move nodes to where their forces balance, at once, and book what that takes; True if they moved."""
     problem, point, recorder = m.problem, m.point, m.recorder
-    size = off_balance(problem, point, m.linear) if problem.n_balanced > 0 else 0.0
+    size = find_way_to_balance(problem, point, m.linear) if problem.n_balanced > 0 else 0.0
     if not isfinite(size) or size <= 1.0:
         return False
     before = stored_energy(problem, point, recorder)

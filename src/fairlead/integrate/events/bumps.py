@@ -21,15 +21,15 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from fairlead.integrate.events.guards import guards_at
-from fairlead.integrate.events.limits import ROUNDING
-from fairlead.integrate.events.settling import RISE, look_ahead
+from fairlead.integrate.events.limits import AT_LIMIT
+from fairlead.integrate.events.violators import RISE, look_ahead
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 
 NEAR = 2.0**-10
-"""Distance in theta over which the slope of a guard at an end of the step is taken."""
+"""Distance in s over which the slope of a guard at an end of the step is taken."""
 HIGHEST = 4.0 / 27.0
 """Largest value of x (1 - x)^2, which is how far a cubic rises above its ends for a unit of slope at one of them."""
-MARGIN = 0.25
+UNSEEN_BUMP = 0.25
 """Share of a bump that may be missing from the cubic through its ends."""
 MOST_PLACES = 9
 """Places that one guard asks for before it counts as one that does not reach zero."""
@@ -41,8 +41,8 @@ asked for. Slopes over less would be those of rounding."""
 
 
 @compiled
-def earliest_bump(m, h):
-    """The first interior point (theta) found at which a guard negative at both ends is not; 1 if none.
+def find_earliest_bump(m, h):
+    """The first interior point (s) found at which a guard negative at both ends is not; 1 if none.
 
     A guard at its limit that falls by y' and y'' of the point, as settled, and is below it at the end does not rise:
     the interpolant of a long step is rough at its start.
@@ -51,29 +51,29 @@ def earliest_bump(m, h):
     ng = guards.n_guards
     end = reals(guards.at_g_end, ng)
     g, early, late = reals(guards.at_g, ng), reals(guards.at_g_early, ng), reals(guards.at_g_late, ng)
-    tolerance, ahead = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_ahead, ng)
+    tolerance, later = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_later, ng)
     below = False
     for i in range(ng):
-        below = below or (g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0)
+        below = below or (g[i] <= AT_LIMIT * tolerance[i] and end[i] < 0.0)
     if not below:
         return 1.0
     guards_at(m, 1.0 - NEAR, h, guards.at_g_late)
     followed, looked = 0, False
     for i in range(ng):
         rise, fall = (early[i] - g[i]) / NEAR, (end[i] - late[i]) / NEAR
-        if g[i] <= ROUNDING * tolerance[i] and end[i] < 0.0 and (rise > 0.0 or fall < 0.0):
+        if g[i] <= AT_LIMIT * tolerance[i] and end[i] < 0.0 and (rise > 0.0 or fall < 0.0):
             higher_end = max(g[i], end[i])
-            if higher_end + (1.0 + MARGIN) * HIGHEST * (max(rise, 0.0) + max(-fall, 0.0)) < 0.0:
+            if higher_end + (1.0 + UNSEEN_BUMP) * HIGHEST * (max(rise, 0.0) + max(-fall, 0.0)) < 0.0:
                 continue
-            if rise > 0.0 and run.judged == 1 and g[i] >= -ROUNDING * tolerance[i]:
+            if rise > 0.0 and run.judged == 1 and g[i] >= -AT_LIMIT * tolerance[i]:
                 if not looked:
                     look_ahead(m.problem, run, m.point, m.events)
-                    copy(reals(guards.at_g_probe, ng), ahead)
+                    copy(reals(guards.at_g_probe, ng), later)
                     looked = True
-                if g[i] - ahead[i] > RISE * tolerance[i]:
+                if g[i] - later[i] > RISE * tolerance[i]:
                     continue
             top, height = hermite_top(g[i], end[i], rise, fall)
-            if 0.0 < top < 1.0 and height + MARGIN * (height - higher_end) >= 0.0:
+            if 0.0 < top < 1.0 and height + UNSEEN_BUMP * (height - higher_end) >= 0.0:
                 follow(guards, followed, i, top, rise, fall)
                 followed += 1
     return climb(m, h, followed) if followed > 0 else 1.0
@@ -132,15 +132,15 @@ def climb(m, h, followed):
             if probe[which[k]] >= floor_of(guards, which[k]):
                 found = x
                 break
-            if does(guards, k, x):
+            if is_asked_for(guards, k, x):
                 places[k] += 1
-            tell(guards, k, x, probe[which[k]])
+            narrow_bracket(guards, k, x, probe[which[k]])
             if places[k] >= MOST_PLACES:
                 asked[k] = 1.0
 
 
 @compiled
-def does(guards, k, x):
+def is_asked_for(guards, k, x):
     """Whether x is as good as the place that the k-th guard asks for."""
     ng = guards.n_guards
     width = reals(guards.at_bump_right, ng)[k] - reals(guards.at_bump_left, ng)[k]
@@ -159,16 +159,16 @@ def floor_of(guards, i):
 
 
 @compiled
-def tell(guards, k, x, value):
+def narrow_bracket(guards, k, x, value):
     """What the k-th guard that is followed has at x: a narrower bracket, and the next place it asks for; 1 for none."""
     ng = guards.n_guards
     left, left_g = reals(guards.at_bump_left, ng), reals(guards.at_bump_left_g, ng)
     right, right_g = reals(guards.at_bump_right, ng), reals(guards.at_bump_right_g, ng)
     top, top_g, asked = reals(guards.at_bump_top, ng), reals(guards.at_bump_top_g, ng), reals(guards.at_bump_asks, ng)
-    own, floor = does(guards, k, x), floor_of(guards, indices(guards.at_bump_guard, ng)[k])
+    own, floor = is_asked_for(guards, k, x), floor_of(guards, indices(guards.at_bump_guard, ng)[k])
     if top[k] < 0.0 and value <= max(left_g[k], right_g[k]):
         if own:
-            asked[k] = leave_higher_end(guards, k, x, value, floor)
+            asked[k] = keep_higher_side(guards, k, x, value, floor)
         return
     if top[k] < 0.0:
         top[k], top_g[k] = x, value
@@ -187,7 +187,7 @@ def tell(guards, k, x, value):
 
 
 @compiled
-def leave_higher_end(guards, k, x, value, floor):
+def keep_higher_side(guards, k, x, value, floor):
     """Keep that side of x on which the parabola from an end, by its slope there, to x is higher; its top, or 1.
 
     Where x is not above an end, the top that the slope there promises is on the way to x. An end that is cut off here
@@ -197,12 +197,12 @@ def leave_higher_end(guards, k, x, value, floor):
     left, left_g = reals(guards.at_bump_left, ng), reals(guards.at_bump_left_g, ng)
     right, right_g = reals(guards.at_bump_right, ng), reals(guards.at_bump_right_g, ng)
     rise, fall = reals(guards.at_bump_rise, ng), reals(guards.at_bump_fall, ng)
-    ahead, up = top_after_end(left_g[k], rise[k], value, x - left[k])
+    way, up = top_after_end(left_g[k], rise[k], value, x - left[k])
     back, up_there = top_after_end(right_g[k], -fall[k], value, right[k] - x)
     if max(left_g[k] + 2.0 * up, right_g[k] + 2.0 * up_there) < floor:
         return 1.0
     if left_g[k] + up >= right_g[k] + up_there:
-        place = left[k] + ahead
+        place = left[k] + way
         right[k], right_g[k], fall[k] = x, value, 0.0
     else:
         place = right[k] - back
@@ -227,9 +227,9 @@ def next_place(a, ga, x, gx, b, gb, floor):
     if not p - q > 0.0:
         return 1.0
     left, right = (gx - ga) / (x - a), (gb - gx) / (b - x)
-    slope, bend = (left * (b - x) + right * (x - a)) / (b - a), (left - right) / (b - a)
-    # The parabola through the points rises above the middle one by slope^2/(4 bend); what it does not see, no more.
-    if gx + 0.5 * slope * slope / bend < floor:
+    slope, curve = (left * (b - x) + right * (x - a)) / (b - a), (left - right) / (b - a)
+    # The parabola through the points rises above the middle one by slope^2/(4 curve); what it does not see, no more.
+    if gx + 0.5 * slope * slope / curve < floor:
         return 1.0
     new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
     new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))

@@ -16,8 +16,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.events.balance import ROUNDS, close_balance
-from fairlead.integrate.events.impulse import ROUNDED as ROUNDED_IMPULSE
-from fairlead.integrate.events.impulse import change_of_speed, impact
+from fairlead.integrate.events.impulse import NO_IMPACT, find_change_of_speed, resolve_impact
 from fairlead.integrate.events.position import in_units_of_light, project_positions
 from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
 from fairlead.integrate.linear.systems import (
@@ -33,14 +32,14 @@ from fairlead.integrate.point.controller import weigh, weighted_norm
 NOT_CONSISTENT = 3
 OF_POSITIONS = 3
 """What a row takes that keeps a relation of positions: any impulse, see `Facts.takes_impulse`."""
-HANDED_ON = 1e-6
+SLIP_LEFT = 1e-6
 """Share of the slip of contacts that relations of positions may be left with: more would be an impact on the next."""
 SETTLED_UPDATE = 1e-6
 """A Newton update of the algebraic unknowns below this, in units of their weights, is the last."""
 
 REFRESHED = 3
 """Newton updates after which the weights are those of the forces found so far; most settle in two."""
-ROUNDED = 1e-3
+LAST_DIGITS = 1e-3
 """An update below this that no longer halves is rounding: of a force of 3e5 N, 1e-11 N is."""
 DAMPED_UPDATES, LEAST_FRACTION = 50, 1e-4
 """Most damped updates, and the least share of one that is tried: those of the code NLEQ1 for highly nonlinear problems
@@ -68,25 +67,25 @@ def project(problem, point, linear):
     n = problem.n
     if problem.call_slip == 0:
         return
-    r = reals(point.at_b, n)
-    r[:] = 0.0
+    taken_away = reals(point.at_b, n)
+    taken_away[:] = 0.0
     slip_at(problem.call_slip, (problem.context, point.t, point.at_y, point.at_b))
     at_rest = True
     for k in range(n):
-        at_rest = at_rest and r[k] == 0.0
+        at_rest = at_rest and taken_away[k] == 0.0
     if at_rest:
         return
     if problem.n_accelerated > 0:
-        copy(r, reals(point.at_v, n))
+        copy(taken_away, reals(point.at_v, n))
     solve(linear, point.at_b)
     y, differential = reals(point.at_y, n), indices(problem.at_differential, n)
     relations = problem.n_accelerated > 0
-    if relations and (change_of_speed(problem, point) > ROUNDED_IMPULSE or hands_slip_on(problem, point)):
+    if relations and (find_change_of_speed(problem, point) > NO_IMPACT or hands_slip_on(problem, point)):
         return
     is_speed, quadrature = indices(problem.at_is_speed, n), indices(problem.at_quadrature, n)
     for k in range(n):
         if differential[k] == 1 and is_speed[k] + quadrature[k] > 0:  # for a place that would be the change of its rate
-            y[k] += r[k]
+            y[k] += taken_away[k]
 
 
 @compiled
@@ -105,7 +104,7 @@ def hands_slip_on(problem, point):
             after = max(after, abs(left[k]))
         else:
             taken = max(taken, abs(slip[k]))
-    return after > max(before, HANDED_ON * taken)
+    return after > max(before, SLIP_LEFT * taken)
 
 
 @compiled
@@ -125,14 +124,14 @@ def keep_positions(problem, point, linear):
     if problem.n_balanced > 0:
         close_balance(problem, point, linear)
     project(problem, point, linear)
-    residual_here(problem, point, linear.matrices, point.at_x)
+    find_residual(problem, point, linear.matrices, point.at_x)
     solve(linear, point.at_x)
     update(point, 1.0)
     if problem.n_moves > 0:
         point.projections += 1
         point.most_moved = max(point.most_moved, point.moved)
     if problem.n_accelerated == 0:
-        slope_change(point, linear)
+        find_slope_change(point, linear)
     return DONE
 
 
@@ -146,23 +145,23 @@ def correct_forces(problem, point, linear):
     if status == SINGULAR:
         return DONE
     if status == DONE:
-        residual_here(problem, point, linear.matrices, point.at_x)
+        find_residual(problem, point, linear.matrices, point.at_x)
         solve(linear, point.at_x)
         update(point, 1.0)
-        slope_change(point, linear)
+        find_slope_change(point, linear)
     return status
 
 
 @compiled
-def residual_here(problem, point, matrices, at_r):
+def find_residual(problem, point, matrices, at_r):
     """Set r = f(t, y) - M y' at the point."""
     n = problem.n
     field_at(problem.call_rhs, (problem.context, point.t, point.at_y, point.at_f))
     problem.rhs += 1
-    v, slope, r, f = reals(point.at_v, n), reals(point.at_slope, n), reals(at_r, n), reals(point.at_f, n)
+    minus_rate, slope, r, f = reals(point.at_v, n), reals(point.at_slope, n), reals(at_r, n), reals(point.at_f, n)
     differential = indices(problem.at_differential, n)
     for k in range(n):
-        v[k] = -slope[k] if differential[k] == 1 else 0.0
+        minus_rate[k] = -slope[k] if differential[k] == 1 else 0.0
         r[k] = f[k]
     add_mass_times(matrices, point.at_v, at_r)
     if problem.n_light > 0:
@@ -197,7 +196,7 @@ def slip_of_light(problem, point, matrices, at_r):
 
 
 @compiled
-def consistent(m, iterations):
+def make_consistent(m, iterations):
     """Make the point consistent for the zones in force, and compute its rate of change.
 
     Returns DONE, SINGULAR, INACCURATE, NOT_CONSISTENT or RELEASED (impulse.py).
@@ -213,7 +212,7 @@ def consistent(m, iterations):
 
 @compiled
 def solve_point(m, iterations):
-    """As `consistent`, with nodes without inertia where they are."""
+    """As `make_consistent`, with nodes without inertia where they are."""
     problem, point, linear, matrices = m.problem, m.point, m.linear, m.linear.matrices
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
     status = prepare_consistent(problem, point, linear)
@@ -222,7 +221,7 @@ def solve_point(m, iterations):
     if status == DONE and problem.n_light > 0:
         status = follow_what_holds(problem, point, linear)
     if status == DONE:
-        status = impact(m)
+        status = resolve_impact(m)
     if status != DONE:
         return status
     project(problem, point, linear)
@@ -249,7 +248,7 @@ def newton(m, iterations):
             # The force that would keep the slider of a crank from passing its dead centre is huge, as that is which
             # would hold a wheel at full speed: it is known to rounding of itself, not of what was there before.
             weigh(point, point.at_y)
-        residual_here(problem, point, matrices, point.at_x)
+        find_residual(problem, point, matrices, point.at_x)
         if iteration == 0:
             status = solve_watched(linear, point.at_x)
             if status != DONE:
@@ -259,8 +258,8 @@ def newton(m, iterations):
         size = update(point, 1.0)
         if not isfinite(size):
             return NOT_CONSISTENT
-        if problem.n_algebraic == 0 or size <= SETTLED_UPDATE or (size <= ROUNDED and size > 0.5 * previous):
-            slope_change(point, linear)
+        if problem.n_algebraic == 0 or size <= SETTLED_UPDATE or (size <= LAST_DIGITS and size > 0.5 * previous):
+            find_slope_change(point, linear)
             return DONE
         if iterations > 12 and size > 0.9 * previous:  # nor as large: the root of a root is stepped over for ever
             size = damp(point, size)
@@ -283,7 +282,7 @@ def damped_newton(m):
         if status != DONE:
             return status
         weigh(point, point.at_y)
-        residual_here(problem, point, matrices, point.at_x)
+        find_residual(problem, point, matrices, point.at_x)
         if iteration == 0:
             status = solve_watched(linear, point.at_x)
             if status != DONE:
@@ -293,13 +292,13 @@ def damped_newton(m):
         size = algebraic_size(point, point.at_x)
         if not isfinite(size):
             return NOT_CONSISTENT
-        if size > ROUNDED:
+        if size > LAST_DIGITS:
             if not take_share(m, size):
                 return NOT_CONSISTENT
         else:
             update(point, 1.0)
             if size <= SETTLED_UPDATE or size > 0.5 * previous:
-                slope_change(point, linear)
+                find_slope_change(point, linear)
                 return DONE
         previous = size
     return NOT_CONSISTENT
@@ -313,7 +312,7 @@ def take_share(m, size):
     share = 1.0
     while share >= LEAST_FRACTION:
         update(point, share)
-        residual_here(problem, point, linear.matrices, point.at_b)
+        find_residual(problem, point, linear.matrices, point.at_b)
         solve(linear, point.at_b)
         if algebraic_size(point, point.at_b) <= (1.0 - share / 4.0) * size:
             return True
@@ -342,9 +341,9 @@ def give_back(point):
 def algebraic_size(point, at_update):
     """The weighted size of the algebraic part of an update; not finite where any of it is not."""
     n = point.n
-    x, u, differential = reals(at_update, n), reals(point.at_u, n), indices(point.at_differential, n)
+    given, to_weigh, differential = reals(at_update, n), reals(point.at_u, n), indices(point.at_differential, n)
     for k in range(n):
-        u[k] = x[k] if differential[k] == 0 or not isfinite(x[k]) else 0.0
+        to_weigh[k] = given[k] if differential[k] == 0 or not isfinite(given[k]) else 0.0
     return weighted_norm(point, point.at_u)
 
 
@@ -352,17 +351,17 @@ def algebraic_size(point, at_update):
 def update(point, fraction):
     """Add `fraction` of the Newton update in x; the weighted size of its algebraic part."""
     n = point.n
-    x, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
-    differential, u = indices(point.at_differential, n), reals(point.at_u, n)
+    change, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
+    differential, to_weigh = indices(point.at_differential, n), reals(point.at_u, n)
     for k in range(n):
-        u[k] = 0.0
+        to_weigh[k] = 0.0
         if differential[k] == 1:
-            slope[k] += fraction * x[k]
-            if not isfinite(x[k]):
-                u[k] = x[k]
+            slope[k] += fraction * change[k]
+            if not isfinite(change[k]):
+                to_weigh[k] = change[k]
         else:
-            y[k] += fraction * x[k]
-            u[k] = x[k]
+            y[k] += fraction * change[k]
+            to_weigh[k] = change[k]
     return weighted_norm(point, point.at_u)
 
 
@@ -374,7 +373,7 @@ def damp(point, size):
 
 
 @compiled
-def slope_change(point, linear):
+def find_slope_change(point, linear):
     """Rate of change of the consistent point: `curvature` = y'' where differential, y' where algebraic.
 
     Differentiating M y' = f:  C (y''_d, y'_a) = J y'_d + f_t, with J and C of the point.

@@ -7,17 +7,17 @@ it is tested (bumps.py). Companion rule: a guard above its tolerance that never 
 the zones at t0 were wrong (the caller settles from there).
 The limit of a force that holds fires where it goes on beyond its tolerance: a load that comes to its limit and no
 further is held (limits.py).
-Zero at t0 is what a settlement counts as at a limit (limits.ROUNDING): the slip of a contact that has just broken
+Zero at t0 is what a settlement counts as at a limit (limits.AT_LIMIT): the slip of a contact that has just broken
 away is 1e-20 m/s of either sign, and the sign must not tell whether the contact stops again or never slipped.
 
-All is judged on the interpolant, in theta = (t - t0)/h, for the whole vector of guards at once.
+All is judged on the interpolant, in s = (t - t0)/h, for the whole vector of guards at once.
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.events.bumps import NEAR, earliest_bump
+from fairlead.integrate.events.bumps import NEAR, find_earliest_bump
 from fairlead.integrate.events.guards import guards_at
-from fairlead.integrate.events.limits import ROUNDING, weigh_limits
+from fairlead.integrate.events.limits import AT_LIMIT, weigh_limits
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 
 NONE, CROSSING, COMPANION = 0, 1, 2
@@ -26,7 +26,7 @@ ALWAYS = 2.0
 
 
 @compiled
-def first_crossing(m, h):
+def find_first_crossing(m, h):
     """NONE, CROSSING (at `run.cut_at`, guards in `fired`) or COMPANION (guards in `fired`)."""
     guards = m.events.guards
     ng = guards.n_guards
@@ -44,11 +44,11 @@ def first_crossing(m, h):
     since = reals(guards.at_g_since, ng)
     for i in range(ng):
         left[i], since[i] = g[i], 0.0
-        if g[i] >= -ROUNDING * tolerance[i]:
-            left[i] = early[i] if early[i] < -ROUNDING * tolerance[i] else max(g[i], 0.0)
+        if g[i] >= -AT_LIMIT * tolerance[i]:
+            left[i] = early[i] if early[i] < -AT_LIMIT * tolerance[i] else max(g[i], 0.0)
             since[i] = NEAR if left[i] < 0.0 else 0.0
     copy(end, right)
-    bump = earliest_bump(m, h)
+    bump = find_earliest_bump(m, h)
     if bump < 1.0:
         right_end = bump
         guards_at(m, bump, h, guards.at_g_right)
@@ -105,20 +105,20 @@ def look_further(m, h, right_end):
     left, end = reals(guards.at_g_left, ng), reals(guards.at_g_end, ng)
     probe, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
     since = reals(guards.at_g_since, ng)
-    theta, found = 2.0 * NEAR, False
-    while theta < right_end and not found:
-        guards_at(m, theta, h, guards.at_g_probe)
+    s, found = 2.0 * NEAR, False
+    while s < right_end and not found:
+        guards_at(m, s, h, guards.at_g_probe)
         for i in range(ng):
-            if left[i] >= 0.0 and end[i] > tolerance[i] and probe[i] < -ROUNDING * tolerance[i]:
-                left[i], since[i] = probe[i], theta
+            if left[i] >= 0.0 and end[i] > tolerance[i] and probe[i] < -AT_LIMIT * tolerance[i]:
+                left[i], since[i] = probe[i], s
                 found = True
-        theta *= 2.0
+        s *= 2.0
     return found
 
 
 @compiled
 def look_closer(m, h):
-    """Look for a dip shorter than NEAR in guards that start at zero; theta by which it is over, 2 if none."""
+    """Look for a dip shorter than NEAR in guards that start at zero; s by which it is over, 2 if none."""
     guards = m.events.guards
     ng = guards.n_guards
     left, right = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng)
@@ -131,7 +131,7 @@ def look_closer(m, h):
         guards_at(m, inner, h, guards.at_g_probe)
         found = False
         for i in range(ng):
-            if left[i] >= 0.0 and probe[i] < -ROUNDING * tolerance[i]:
+            if left[i] >= 0.0 and probe[i] < -AT_LIMIT * tolerance[i]:
                 left[i], since[i] = probe[i], inner
                 found = True
         if found:

@@ -10,7 +10,8 @@ from __future__ import annotations
 from fairlead.integrate.codes import BEFORE, GO_ON, SETTLE
 from fairlead.integrate.events.pace import DOUBT, smallest_step
 from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import all_fall, begin_settling
+from fairlead.integrate.events.settling import begin_settling
+from fairlead.integrate.events.violators import all_decrease
 from fairlead.integrate.memory.foreign import compiled
 from fairlead.integrate.record.rows import write_row
 
@@ -51,6 +52,6 @@ def mend_start(m, h):
     run, point = m.run, m.point
     run.rejected_companion += 1
     doubtful = run.judged == 1 and run.adaptive == 1 and DOUBT * h >= smallest_step(run, point)
-    if doubtful and all_fall(m.problem, run, point, m.events):
+    if doubtful and all_decrease(m.problem, run, point, m.events):
         return take_much_shorter(run, m.events.guards, h)
     return settle_at_start(m)

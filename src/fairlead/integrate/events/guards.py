@@ -25,13 +25,13 @@ def evaluate_guards(problem, run, guards, t, at_y, at_g):
 
 
 @compiled
-def guards_at(m, theta, h, at_g):
-    """Guards at theta on the interpolant."""
+def guards_at(m, s, h, at_g):
+    """Guards at s on the interpolant."""
     problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
-    if theta == 1.0:
+    if s == 1.0:
         evaluate_guards(problem, run, guards, run.t_land if run.landing == 1 else point.t + h, point.at_y_end, at_g)
     else:
-        interpolate(point, theta, point.at_y_probe)
+        interpolate(point, s, point.at_y_probe)
         if m.recorder.rows_slip == 1:
-            take_slip_away(problem, point, m.linear, m.stepping.exchange, point.t + theta * h, point.at_y_probe)
-        evaluate_guards(problem, run, guards, point.t + theta * h, point.at_y_probe, at_g)
+            take_slip_away(problem, point, m.linear, m.stepping.exchange, point.t + s * h, point.at_y_probe)
+        evaluate_guards(problem, run, guards, point.t + s * h, point.at_y_probe, at_g)

@@ -39,13 +39,13 @@ from math import isfinite, sqrt
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse_changes import (
     any_support_moves,
-    change_of_speed,
     change_speeds,
+    find_change_of_speed,
     integrate_impulses,
 )
 from fairlead.integrate.events.impulse_load import LIMITED, SHORT, UNLIMITED, least_impulse, load, takes_any
 from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
-from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, rebound
+from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, find_rebound
 from fairlead.integrate.linear.systems import DONE, factorise_consistent, solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh
@@ -53,7 +53,7 @@ from fairlead.integrate.point.controller import weigh
 RELEASED, RUBBED = 6, 7
 CONTRADICTS = 3
 """No impulse is that under which the laws have the slopes it follows from: as where no values are consistent."""
-ROUNDED = 1.0
+NO_IMPACT = 1.0
 """Change of speed, in error weights, below which a slip is no impact."""
 SOLVES, SAME = 12, 1e-9
 """How often it is solved with the slopes under the load at most, and the change of impulses that ends it."""
@@ -63,7 +63,7 @@ here; also the error left by the parts in which these are followed, of which the
 
 
 @compiled
-def impact(m):
+def resolve_impact(m):
     """DONE when there is no impact, or it is over; RELEASED with the guards in `fired` of those who change first."""
     problem, point, matrices, guards = m.problem, m.point, m.linear.matrices, m.events.guards
     if problem.call_slip == 0 or problem.takes_impulses == 0 or not slip_to_stop(problem, point):
@@ -72,7 +72,7 @@ def impact(m):
     if status != DONE:
         return status
     weigh(point, point.at_y)
-    if change_of_speed(problem, point) <= ROUNDED:
+    if find_change_of_speed(problem, point) <= NO_IMPACT:
         return DONE
     status = solve_under_load(m)
     parts = count_parts(m) if status == DONE else 0
@@ -84,7 +84,9 @@ def impact(m):
     if guards.n_fired > 0:
         return RELEASED
     supports = any_support_moves(problem, point)
-    back = NO_REBOUND if problem.rebounds == 0 else rebound(problem, point, matrices, least_impulse(problem, point))
+    back = NO_REBOUND
+    if problem.rebounds != 0:
+        back = find_rebound(problem, point, matrices, least_impulse(problem, point))
     if back == RUBS:
         return RUBBED
     if back == REBOUND:
@@ -93,7 +95,7 @@ def impact(m):
     if problem.n_integrals > 0:
         integrate_impulses(m)
     turn_round(problem, m.run, point, guards)
-    return RELEASED if guards.n_fired > 0 else factors_at(problem, point, m.linear, point.at_y, point.at_ft)
+    return RELEASED if guards.n_fired > 0 else factorise_at(problem, point, m.linear, point.at_y, point.at_ft)
 
 
 @compiled
@@ -132,15 +134,15 @@ def solve_under_load(m):
     """
     problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
-    b, r, before = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_x, n)
+    b, taken, before = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_x, n)
     settled = False
     for _ in range(SOLVES):
         load(m)
-        status = factors_at(problem, point, linear, point.at_y_probe, point.at_x)
+        status = factorise_at(problem, point, linear, point.at_y_probe, point.at_x)
         if status != DONE:
             return status
         copy(b, before)
-        copy(r, b)
+        copy(taken, b)
         status = solve_to_rounding(problem, point, linear)
         if status != DONE:
             return status
@@ -151,7 +153,7 @@ def solve_under_load(m):
         if change <= SAME * most:
             settled = True
             break
-    change_of_speed(problem, point)
+    find_change_of_speed(problem, point)
     return DONE if settled else CONTRADICTS
 
 
@@ -167,7 +169,7 @@ def count_parts(m):
     b, whole = reals(point.at_b, n), reals(problem.at_impulse, n)
     copy(b, whole)
     most = change = 0.0
-    if not halfway(m, 0.5):
+    if not factorise_halfway(m, 0.5):
         change = 0.0
     elif slip_to_stop(problem, point) and solve_to_rounding(problem, point, linear) == DONE:
         for k in range(n):
@@ -177,13 +179,13 @@ def count_parts(m):
     parts = min(MOST_PARTS, int(change / most / sqrt(12.0 * BENDS)) + 1) if found else 0
     slip_to_stop(problem, point)
     copy(whole, b)
-    change_of_speed(problem, point)
+    find_change_of_speed(problem, point)
     return parts
 
 
 @compiled
-def halfway(m, share):
-    """The slopes under the impulses in b and with that share of their change of speed; False if they are singular."""
+def factorise_halfway(m, share):
+    """Factorise C under the impulses in b and with that share of their change of speed; False where it is singular."""
     problem, point = m.problem, m.point
     n = problem.n
     b, loaded, struck = reals(point.at_b, n), reals(point.at_y_probe, n), indices(problem.at_struck, n)
@@ -191,7 +193,7 @@ def halfway(m, share):
     for k in range(problem.n):
         if struck[k] == 1:
             loaded[k] += share * b[k]
-    return factors_at(problem, point, m.linear, point.at_y_probe, point.at_x) == DONE
+    return factorise_at(problem, point, m.linear, point.at_y_probe, point.at_x) == DONE
 
 
 @compiled
@@ -209,7 +211,7 @@ def follow_slopes(m, parts):
     status = DONE
     for left in range(parts, 0, -1):
         for share in (0.0, 0.5 / left):
-            if status == DONE and halfway(m, share):
+            if status == DONE and factorise_halfway(m, share):
                 slip_to_stop(problem, point)
                 status = solve_to_rounding(problem, point, linear)
             else:
@@ -222,12 +224,12 @@ def follow_slopes(m, parts):
     slip_to_stop(problem, point)
     for k in range(n):
         b[k] = whole[k]
-    change_of_speed(problem, point)
+    find_change_of_speed(problem, point)
     return status
 
 
 @compiled
-def factors_at(problem, point, linear, at_y, at_drift):
+def factorise_at(problem, point, linear, at_y, at_drift):
     """The slopes at y and the factors of C with them."""
     jacobian_at(problem.call_jacobian, (problem.context, point.t, at_y, linear.matrices.at_jacobian, at_drift))
     problem.jacobians += 1

@@ -17,11 +17,11 @@ from fairlead.integrate.point.controller import weighted_norm
 
 
 @compiled
-def change_of_speed(problem, point):
+def find_change_of_speed(problem, point):
     """Set u = dV and tell its weighted norm; the ledger has its own account of an impact, and positions stand still."""
-    b, u, struck = reals(point.at_b, problem.n), reals(point.at_u, problem.n), indices(problem.at_struck, problem.n)
+    b, dv, struck = reals(point.at_b, problem.n), reals(point.at_u, problem.n), indices(problem.at_struck, problem.n)
     for k in range(problem.n):
-        u[k] = b[k] if struck[k] == 1 else 0.0
+        dv[k] = b[k] if struck[k] == 1 else 0.0
     return weighted_norm(point, point.at_u)
 
 

@@ -13,7 +13,7 @@ from fairlead.integrate.events.impulse_load import UNLIMITED, load, load_forces
 from fairlead.integrate.events.least_index import keep_first
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 
-LATER = 1e-6
+PROBE_TIME = 1e-6
 """Share of the span after which it is asked which stops come nearer: long enough to be more than rounding of places."""
 LEAST_APPROACH = 1e-8
 """Share of the largest change of speed at which stops that touch must approach to take part: less is rounding."""
@@ -36,9 +36,9 @@ def change_zones_for(m):
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
     least = LEAST_APPROACH * move_on(m)
     load(m)
-    evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_ahead)
+    evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_later)
     g, under, tolerance = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
-    ahead, before = reals(settling.at_wrong, ng), reals(guards.at_g_ahead, ng)
+    later, before = reals(settling.at_wrong, ng), reals(guards.at_g_later, ng)
     asked = indices(problem.at_blow_guard, ng)
     may_hold, fired = indices(problem.at_may_hold, ng), indices(guards.at_fired, ng)
     guards.n_fired = 0
@@ -48,7 +48,7 @@ def change_zones_for(m):
         else:
             changes = may_hold[i] > 0 and under[i] > tolerance[i] and under[i] != g[i]
         touches = may_hold[i] == UNLIMITED and abs(under[i]) <= tolerance[i]
-        if changes or (touches and ahead[i] - under[i] > least):
+        if changes or (touches and later[i] - under[i] > least):
             fired[guards.n_fired] = i
             guards.n_fired += 1
     if settling.stage > 0 and guards.n_fired > 1:
@@ -64,7 +64,7 @@ def move_on(m):
     differential, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
     values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
     columns = indices(matrices.at_mass_columns, matrices.n_mass)
-    later, most = LATER * (run.stop - run.start), 0.0
+    later, most = PROBE_TIME * (run.stop - run.start), 0.0
     for k in range(n):
         moved[k] = loaded[k]
         most = max(most, abs(dv[k]))

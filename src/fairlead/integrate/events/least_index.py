@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from fairlead.integrate.events.limits import ROUNDING
+from fairlead.integrate.events.limits import AT_LIMIT
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.even_steps import FINE, rounded
 
@@ -31,7 +31,7 @@ def number_machines(events, at_g):
         rank[z] = 0.0
     for i in range(guards.n_guards):
         far = g[i] / tolerance[i]
-        if machine[i] >= 0 and abs(far) > ROUNDING:
+        if machine[i] >= 0 and abs(far) > AT_LIMIT:
             rank[machine[i]] += sqrt(far) if far > 0.0 else -sqrt(-far)
     for z in range(settling.n_zones):
         rank[z] = rounded(rank[z], FINE)

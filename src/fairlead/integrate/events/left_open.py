@@ -20,7 +20,7 @@ from fairlead.integrate.memory.foreign import compiled, indices, mass_at
 
 
 @compiled
-def near_pattern(m):
+def change_to_near_pattern(m):
     """Put a pattern in force near the one that leaves an unknown open; False, and the same as before, without one."""
     nz, settling = m.problem.n_zones, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
@@ -32,7 +32,7 @@ def near_pattern(m):
                 return False
     if changed == 0 or determines(m):
         return False
-    return keep_one(m) if changed > 1 else exchange(m)
+    return change_one(m) if changed > 1 else exchange_one(m)
 
 
 @compiled
@@ -54,8 +54,8 @@ def determines(m):
 
 
 @compiled
-def keep_one(m):
-    """Of several that changed only one does."""
+def change_one(m):
+    """Of several that changed only one does; False, and all of them, where no one determines all."""
     nz, settling = m.problem.n_zones, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     wanted = indices(settling.at_zones_history + 8 * settling.passes * nz, nz)
@@ -73,8 +73,8 @@ def keep_one(m):
 
 
 @compiled
-def exchange(m):
-    """One that changed before goes back to the zone it began in, and the one that has just changed stays."""
+def exchange_one(m):
+    """One that changed before goes back to the zone it began in, and the last one stays; False without one."""
     nz, settling = m.problem.n_zones, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     first = indices(settling.at_zones_history, nz)

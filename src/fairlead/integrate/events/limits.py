@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-ROUNDING = 1e-3
+AT_LIMIT = 1e-3
 """How far below zero, in guard tolerances, a guard still counts as at its limit: further down it is inside
 its zone and will cross by itself. A contact at rest just inside a border would else be sent to and fro."""
 

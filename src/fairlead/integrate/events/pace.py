@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import ARRIVE, GO_ON, MAX_EVENTS, MAX_STEPS, NOT_FINITE, RECORD
-from fairlead.integrate.events.growth import short_of_growth
+from fairlead.integrate.events.growth import shorten_for_growth
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, reals
 from fairlead.integrate.point.controller import step_after_acceptance
 from fairlead.integrate.point.interpolant import interpolate
@@ -32,7 +32,7 @@ def propose(run, point):
     """The next step size: what control wants, clipped to land on the next time event or the stop."""
     run.t_land = min(run.stop, min(run.t_next, run.t_release))
     rest = run.t_land - point.t
-    h = short_of_growth(run, point, min(run.h_next, run.max_step))
+    h = shorten_for_growth(run, point, min(run.h_next, run.max_step))
     run.h_wanted = h
     run.landing = 0
     if h >= rest * (0.99 if run.adaptive == 1 else 1.0 - 1e-9):
@@ -44,17 +44,20 @@ def propose(run, point):
 
 
 @compiled
-def is_instant(run, point, guards, h):
+def is_instant(run, point, h):
     """True if the next time event is this very instant but for rounding: nothing moves until then."""
-    if run.landing == 0 or run.t_land >= run.stop or h > INSTANT * max(abs(point.t), run.stop - run.start):
-        return False
+    return run.landing == 1 and run.t_land < run.stop and not h > INSTANT * max(abs(point.t), run.stop - run.start)
+
+
+@compiled
+def arrive_at_instant(run, point, guards):
+    """Arrive at a time event that is this very instant, without a step."""
     run.crossed = 0
     run.t_piece = run.t_land
     copy(reals(point.at_y, point.n), reals(point.at_y_piece, point.n))
     copy(reals(point.at_y, point.n), reals(point.at_y_end, point.n))
     copy(reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards))
     run.phase = ARRIVE
-    return True
 
 
 @compiled

@@ -35,8 +35,8 @@ def keep(run, settling, number):
 
 
 @compiled
-def recurs(run, settling):
-    """True if the zones in force were so after an earlier pass of this stage; remembers them."""
+def note_pattern(run, settling):
+    """Remember the zones in force; True if they were so after an earlier pass of this stage."""
     met, now, found = reals(settling.at_patterns_met, run.max_passes + 1), number_of_zones(settling), False
     for k in range(settling.stage_from, min(settling.passes, run.max_passes)):
         found = found or met[k] == now

@@ -19,9 +19,9 @@ from fairlead.integrate.linear.systems import DONE, solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
-MOVES = 4
+MOST_MOVES = 4
 """Moves at most; two do, and after four what is left is what the positions are known to."""
-CLOSE = 1e-6
+LAST_MOVE = 1e-6
 """A move below this, in error weights, is the last."""
 
 
@@ -29,15 +29,15 @@ CLOSE = 1e-6
 def way_back(problem, point, linear, h):
     """How far, in error weights, the positions at the end of a trial step are off what is kept."""
     n = problem.n
-    off, u = reals(point.at_b, n), reals(point.at_u, n)
+    off, to_weigh = reals(point.at_b, n), reals(point.at_u, n)
     field_at(problem.call_gap, (problem.context, point.t + h, point.at_y_end, point.at_b))
     solve(linear, point.at_b)
     position = indices(problem.at_move_position, problem.n_moves)
     acceleration = indices(problem.at_move_acceleration, problem.n_moves)
-    u[:] = 0.0
+    to_weigh[:] = 0.0
     for k in range(problem.n_moves):
         if acceleration[k] >= 0:
-            u[position[k]] = off[acceleration[k]]
+            to_weigh[position[k]] = off[acceleration[k]]
     return weighted_norm(point, point.at_u)
 
 
@@ -79,14 +79,15 @@ def project_positions(problem, point, linear):
     `moved` is then how far they moved, in error weights.
     """
     n = problem.n
-    r, y, way, u = reals(point.at_b, n), reals(point.at_y, n), reals(point.at_v, n), reals(point.at_u, n)
+    change, y, way = reals(point.at_b, n), reals(point.at_y, n), reals(point.at_v, n)
+    moved_in_all = reals(point.at_u, n)
     position = indices(problem.at_move_position, problem.n_moves)
     speed = indices(problem.at_move_speed, problem.n_moves)
     weigh(point, point.at_y)
-    u[:] = 0.0
-    for move in range(MOVES):
+    moved_in_all[:] = 0.0
+    for move in range(MOST_MOVES):
         field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_v))
-        copy(way, r)
+        copy(way, change)
         if problem.n_light > 0:
             in_units_of_light(problem, linear.matrices, point.at_v, point.at_b)
         if move == 0:
@@ -97,14 +98,14 @@ def project_positions(problem, point, linear):
             solve(linear, point.at_b)
         way[:] = 0.0
         for k in range(problem.n_moves):
-            way[position[k]] = r[speed[k]]
+            way[position[k]] = change[speed[k]]
         size = weighted_norm(point, point.at_v)
         if not isfinite(size):
             break
         for k in range(problem.n_moves):
             y[position[k]] += way[position[k]]
-            u[position[k]] += way[position[k]]
-        if size <= CLOSE:
+            moved_in_all[position[k]] += way[position[k]]
+        if size <= LAST_MOVE:
             break
     point.moved = weighted_norm(point, point.at_u)
     return DONE

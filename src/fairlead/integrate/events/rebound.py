@@ -16,6 +16,7 @@ along the surface by this law; that is refused.
 
 from __future__ import annotations
 
+from fairlead.integrate.events.impulse_load import LIMITED, UNLIMITED
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weighted_norm
 
@@ -26,13 +27,12 @@ REST = 10.0
 """Rebound, in error weights, below which there is none."""
 KNOWN = 1.0
 """Rebound, in error weights, above which it is more than its error."""
-ROUNDING = 1e-9
+SLIP_ROUNDING = 1e-9
 """Share of the largest slip of an instant below which a row did not meet, but held: that much is rounding."""
-LIMITED, UNLIMITED = 1, 2
 
 
 @compiled
-def rebound(problem, point, matrices, floor):
+def find_rebound(problem, point, matrices, floor):
     """Set `y_probe` = e of every unknown, and say whether anything rebounds; RUBS if friction takes part in that.
 
     b holds dV and P, u holds dV, v the slip that is taken, of which rounding is struck out; `floor` is the least
@@ -46,7 +46,7 @@ def rebound(problem, point, matrices, floor):
         most = max(most, abs(r[k])) if takes[k] == UNLIMITED else most
     for k in range(n):
         e[k] = OPEN
-        if takes[k] == UNLIMITED and abs(r[k]) <= ROUNDING * most:
+        if takes[k] == UNLIMITED and abs(r[k]) <= SLIP_ROUNDING * most:
             r[k] = 0.0
         elif takes[k] == UNLIMITED and abs(b[k]) > floor:
             e[k] = given[k]

@@ -32,23 +32,24 @@ At the start of a run nothing was before: forces that hold are built up from zer
 
 from __future__ import annotations
 
-from math import sqrt
-
 from fairlead.integrate.codes import LEVELS
-from fairlead.integrate.events.consistent import prepare_consistent, residual_here
+from fairlead.integrate.events.consistent import find_residual, prepare_consistent
+from fairlead.integrate.events.fast_way import (
+    NOT_REACHED,
+    TIE,
+    find_reached,
+    first_reached,
+    go_along,
+    hardly_changes,
+    look_along,
+)
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.patterns import remember_pattern
+from fairlead.integrate.events.violators import RISE
 from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import DONE, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
-from fairlead.integrate.point.controller import weigh, weighted_norm
-
-NUDGE, RISE = 1e-3, 1e-6
-"""How far, in weights, speeds are moved to see a guard rise; the rise, in its tolerances, that is above rounding."""
-NEVER = 2.0
-"""Share of the way after which nothing is reached: there are only shares up to 1."""
-TIE = 1e-6
-"""Shares of the way that count as one, of slips that come to zero; change of forces, in weights, that is none."""
+from fairlead.integrate.point.controller import weigh
 
 
 @compiled
@@ -152,7 +153,8 @@ def accelerations_before(problem, point, linear, events):
     n = problem.n
     zones, now = indices(problem.at_zones, problem.n_zones), indices(events.settling.at_zones_before, problem.n_zones)
     y, after, before = reals(point.at_y, n), reals(point.at_y_probe, n), reals(loads.at_y_before, n)
-    slope, v, differential = reals(point.at_slope, n), reals(point.at_v, n), indices(problem.at_differential, n)
+    slope, differential = reals(point.at_slope, n), indices(problem.at_differential, n)
+    minus_rate = reals(point.at_v, n)
     copy(zones, now)
     copy(y, after)
     copy(indices(loads.at_zones_just_before, problem.n_zones), zones)
@@ -162,18 +164,18 @@ def accelerations_before(problem, point, linear, events):
     if status == DONE:
         copy(reals(loads.at_f_before, n), reals(point.at_x, n))
         for k in range(n):
-            v[k] = -slope[k] if differential[k] == 1 else 0.0
+            minus_rate[k] = -slope[k] if differential[k] == 1 else 0.0
         add_mass_times(matrices, point.at_v, point.at_x)
         status = solve_watched(linear, point.at_x)
-    x = reals(point.at_x, n)
+    change = reals(point.at_x, n)
     copy(now, zones)
     for k in range(n):
         if differential[k] == 1:
             y[k] = after[k]
         elif status == DONE:
-            y[k] += x[k]
+            y[k] += change[k]
         if differential[k] == 1 and status == DONE:
-            slope[k] += x[k]
+            slope[k] += change[k]
     return status
 
 
@@ -200,7 +202,7 @@ def release(m):
             return status
         guards.n_fired = 0
         look_along(problem, run, point, events)
-        s = NEVER if hardly_changes(point) else first_reached(problem, events)
+        s = NOT_REACHED if hardly_changes(point) else first_reached(problem, events)
         go_along(problem, point, events, min(s, 1.0))
         if s <= 1.0:
             find_reached(problem, run, point, events)
@@ -226,7 +228,7 @@ def open_level(problem, point, matrices, events):
     holder, born = indices(problem.at_holder, n), indices(loads.at_born, problem.n_guards)
     machine = indices(problem.at_guard_machine, problem.n_guards)
     slips = reals(loads.at_fast_slip, problem.n_guards)
-    residual_here(problem, point, matrices, point.at_x)
+    find_residual(problem, point, matrices, point.at_x)
     r = reals(point.at_x, n)
     circle, circle_changed = indices(problem.at_circle, n), indices(loads.at_circle_changed, n)
     for k in range(n):
@@ -264,139 +266,3 @@ def close_level(problem, loads):
         if born[i] == loads.levels:
             born[i], slips[i] = 0, 0.0
     loads.levels -= 1
-
-
-@compiled
-def hardly_changes(point):
-    """True if no force changes by more than rounding on the way x, as where a law goes over without a jump."""
-    x, u, differential = reals(point.at_x, point.n), reals(point.at_u, point.n), indices(point.at_differential, point.n)
-    for k in range(point.n):
-        u[k] = 0.0 if differential[k] == 1 else x[k]
-    return weighted_norm(point, point.at_u) <= TIE
-
-
-@compiled
-def look_along(problem, run, point, events):
-    """Guards at both ends of the way x, and their rates in the fast time there, by the slips of the accelerations."""
-    guards, loads = events.guards, events.loads
-    n, ng = problem.n, problem.n_guards
-    x, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
-    probe, u, fast = reals(point.at_y_probe, n), reals(point.at_u, n), indices(problem.at_is_speed, n)
-    largest = 0.0
-    for end in range(2):
-        for k in range(n):
-            u[k] = (slope[k] + end * x[k]) if fast[k] == 1 else 0.0
-        largest = max(largest, weighted_norm(point, point.at_u))
-    loads.fastest = max(largest, loads.fastest)
-    largest = max(largest, TIE * loads.fastest)  # what is so much slower than all before is rounding
-    d = NUDGE / largest if largest > 0.0 else 1.0
-    differential = indices(problem.at_differential, n)
-    tolerance = reals(guards.at_guard_tolerance, ng)
-    for end in range(2):
-        at_g, at_rate = (guards.at_g, loads.at_rate) if end == 0 else (guards.at_g_probe, loads.at_rate_end)
-        for k in range(n):
-            probe[k] = y[k] + (end * x[k] if differential[k] == 0 else 0.0)
-        evaluate_guards(problem, run, guards, point.t, point.at_y_probe, at_g)
-        for k in range(n):
-            if fast[k] == 1:
-                probe[k] = y[k] + d * (slope[k] + end * x[k])
-        evaluate_guards(problem, run, guards, point.t, point.at_y_probe, at_rate)
-        g, rate = reals(at_g, ng), reals(at_rate, ng)
-        for i in range(ng):
-            rise = rate[i] - g[i]
-            rate[i] = rise / d if abs(rise) > RISE * tolerance[i] else 0.0
-
-
-@compiled
-def first_reached(problem, events):
-    """Share of the way after which the first guard of a contact comes to zero; NEVER if none does."""
-    may_hold, least = indices(problem.at_may_hold, problem.n_guards), NEVER
-    for i in range(problem.n_guards):
-        if may_hold[i] > 0:
-            least = min(least, min(reached_by_load(events.guards, i), reached_by_slip(events, i)))
-    return least
-
-
-@compiled
-def reached_by_load(guards, i):
-    """Share of the way after which the forces bring guard i to zero."""
-    now, then = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_probe, guards.n_guards)[i]
-    tolerance = reals(guards.at_guard_tolerance, guards.n_guards)[i]
-    if now >= 0.0:
-        return 0.0 if then - now > RISE * tolerance else NEVER
-    return now / (now - then) if now < 0.0 < then else NEVER
-
-
-@compiled
-def reached_by_slip(events, i):
-    """Share of the way after which the fast slip brings guard i back to zero; of one that slips by more, NEVER."""
-    guards, loads = events.guards, events.loads
-    born = indices(loads.at_born, guards.n_guards)[i]
-    now, tolerance = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_guard_tolerance, guards.n_guards)[i]
-    if abs(now) > tolerance or 0 < born < loads.levels:
-        return NEVER
-    slip = reals(loads.at_fast_slip, guards.n_guards)[i] / reals(loads.at_left, LEVELS)[loads.levels - 1]
-    return first_root(slip, reals(loads.at_rate, guards.n_guards)[i], reals(loads.at_rate_end, guards.n_guards)[i])
-
-
-@compiled
-def first_root(value, rate, rate_end):
-    """Where value + rate s + (rate_end - rate) s^2/2, at most zero at s = 0, rises through zero; NEVER beyond 1."""
-    bend = rate_end - rate
-    if value >= 0.0:
-        if rate > 0.0 or (rate == 0.0 and bend > 0.0):
-            return 0.0
-        s = -2.0 * rate / bend if bend > 0.0 else NEVER
-    else:
-        under = rate * rate - 2.0 * bend * value
-        if under < 0.0:
-            return NEVER
-        below = rate + sqrt(under)  # of the two roots that one where it rises
-        s = -2.0 * value / below if below > 0.0 else NEVER
-    return s if s <= 1.0 else NEVER
-
-
-@compiled
-def find_reached(problem, run, point, events):
-    """Fill `fired` with the guards of contacts that are reached here, and with those that tie with them."""
-    guards, settling = events.guards, events.settling
-    ng, back = problem.n_guards, indices(events.loads.at_came_back, problem.n_guards)
-    g, g_end, here = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(settling.at_wrong, ng)
-    tolerance, fired = reals(guards.at_guard_tolerance, ng), indices(guards.at_fired, ng)
-    may_hold = indices(problem.at_may_hold, ng)
-    evaluate_guards(problem, run, guards, point.t, point.at_y, settling.at_wrong)
-    for i in range(ng):
-        if may_hold[i] == 0:
-            continue
-        rises = g_end[i] - g[i] > RISE * tolerance[i]
-        if back[i] == 1 or (rises and here[i] >= -tolerance[i]):
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
-
-
-@compiled
-def go_along(problem, point, events, s):
-    """Move by the share s of the way; add up the slips, and mark those that have come back to zero."""
-    guards, loads = events.guards, events.loads
-    n, ng, top = problem.n, problem.n_guards, loads.levels - 1
-    x, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
-    out = reals(loads.at_out + 8 * top * n, n)
-    g, tolerance = reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng)
-    may_hold = indices(problem.at_may_hold, ng)
-    rate, rate_end, slips = reals(loads.at_rate, ng), reals(loads.at_rate_end, ng), reals(loads.at_fast_slip, ng)
-    born, back = indices(loads.at_born, ng), indices(loads.at_came_back, ng)
-    left = reals(loads.at_left, LEVELS)
-    for i in range(ng):
-        back[i] = 0
-        if may_hold[i] > 0 and abs(g[i]) <= tolerance[i] and (born[i] == 0 or born[i] == loads.levels):
-            back[i] = 1 if reached_by_slip(events, i) <= s + TIE else 0
-            slips[i] = min(slips[i] + left[top] * s * (rate[i] + 0.5 * s * (rate_end[i] - rate[i])), 0.0)
-            born[i] = loads.levels if slips[i] < 0.0 else 0
-    differential = indices(problem.at_differential, n)
-    for k in range(n):
-        if differential[k] == 1:
-            slope[k] += s * x[k]
-        else:
-            y[k] += s * x[k]
-        out[k] *= 1.0 - s
-    left[top] *= 1.0 - s

@@ -7,11 +7,7 @@
     a pattern that leaves an unknown open, as a node without inertia of which all contacts slide: one near it
     no settlement within `max_passes` is an error that names what still switches
 
-Judged at (t, y, y') right after a switch: a guard above its tolerance violates; one within its
-tolerance violates if it is about to rise through zero along (y', y''), so a slide guard at v_rel = 0 is the
-sign of a_rel. How wrong a zone is, is a force: what a contact that holds carries beyond its limit, and what
-must be added to a contact that slides to keep it from going against its friction, m a_rel (the problem says
-with which inertia; where it does not, the least index follows at once). The least index always comes to an end
+How wrong a zone is, is a force (violators.py). The least index always comes to an end
 (least_index.py), while all at once may not. It is the last because it takes many passes: 300 contacts in a
 random tree with 300 more, 240 on average, where half as wrong as the worst took 58 (and re-holding one by one while
 all that must break, as many as the least index).
@@ -20,32 +16,20 @@ all that must break, as many as the least index).
 from __future__ import annotations
 
 from fairlead.integrate.codes import SETTLING_FOR_IT
-from fairlead.integrate.events.balance import MOVES, jump_to_balance
-from fairlead.integrate.events.consistent import consistent
-from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.balance import MOST_JUMPS, jump_to_balance
+from fairlead.integrate.events.chatter import watch_chatter, watch_progress
+from fairlead.integrate.events.consistent import make_consistent
 from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
-from fairlead.integrate.events.left_open import near_pattern
-from fairlead.integrate.events.limits import ROUNDING, weigh_limits
-from fairlead.integrate.events.patterns import recurs, remember_pattern
+from fairlead.integrate.events.left_open import change_to_near_pattern
+from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
+from fairlead.integrate.events.violators import fire_violators
 from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
-from fairlead.integrate.point.controller import weighted_norm
 from fairlead.integrate.record.rows import there_is_room, write_event
 
 NOT_SETTLED, NO_ROOM = 4, 5
-CHATTER_STREAK = 8
-"""Toggles in a row, each within a dwell of the one before, that make a machine chatter."""
-STALL_LIMIT = 5
-"""Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
-HOLD, STOP = 1, 2
-"""What `on_chatter` says, but for 0: warn."""
-NUDGE, RISE = 1e-3, 1e-6
-"""How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
-tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
-PLACE_ROUNDING = 4 * 2.0**-52
-"""What a place is known to, as a share of itself and of speed times time, the phase of x(t): four ulps each."""
 NEARER, LOOKS = 0.1, 3
 """How much less far guards are looked ahead for when single switches go in a circle, and how often. Nearer still no
 guard would be seen to rise, and laws that contradict each other would pass for settled."""
@@ -53,8 +37,6 @@ ALL, HALF_AS_WRONG, LEAST_INDEX = 0, 1, 3
 """What `stage` says; between the last two it is the worst alone."""
 PATIENCE = 10
 """Passes in which the number of violators need not fall below what it was."""
-SLIP_TIME = 1e-3
-"""A slip beyond its tolerance counts as the acceleration that would undo it in this time, s."""
 
 
 @compiled
@@ -66,7 +48,7 @@ def settle(m, iterations):
     problem, run, point, events, guards = m.problem, m.run, m.point, m.events, m.events.guards
     settling = m.events.settling
     moves = 0
-    while moves <= MOVES:
+    while moves <= MOST_JUMPS:
         if guards.n_fired > 0:
             if settling.passes >= run.max_passes:
                 return NOT_SETTLED
@@ -79,13 +61,13 @@ def settle(m, iterations):
         if status == DONE and guards.n_fired > 0:
             continue
         if status == DONE:
-            status = consistent(m, iterations)
+            status = make_consistent(m, iterations)
         status = settle_nearby(m, status)
         if status == RELEASED:
             continue
         if status != DONE:
             return status
-        judge(problem, run, point, events)
+        fire_violators(problem, run, point, events)
         if guards.n_fired > 0 and order_matters(problem, events):
             status = begin_release(problem, point, m.linear, events)
             if status != DONE:
@@ -133,24 +115,6 @@ def begin_settling(problem, run, point, events):
 
 
 @compiled
-def watch_progress(problem, run, point, events):
-    """Count switches that do not advance; when there are too many, hold the machines for a dwell."""
-    guards, settling = events.guards, events.settling
-    if guards.n_fired == 0:
-        return
-    settling.stalls = settling.stalls + 1 if point.t - settling.t_last_switch < run.progress_floor else 0
-    settling.t_last_switch = point.t
-    if settling.stalls >= STALL_LIMIT:
-        fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
-        chatters = indices(settling.at_chatters, settling.n_zones)
-        for k in range(guards.n_fired):
-            z = machine[fired[k]]
-            if z >= 0:
-                block(problem, run, point, guards, z)
-                chatters[z] += 1
-
-
-@compiled
 def change_zones(m):
     """Switch on the guards in `fired`, log what changed, see whether the pattern of zones recurs."""
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
@@ -165,7 +129,7 @@ def change_zones(m):
     if m.events.loads.levels > 0:
         settling.stage_from = settling.passes
         remember_pattern(run, settling)
-    elif recurs(run, settling):
+    elif note_pattern(run, settling):
         next_stage(problem, m.events)
 
 
@@ -180,12 +144,12 @@ def settle_nearby(m, status):
         return status
     if not there_is_room(m.problem, m.recorder):
         return NO_ROOM
-    if settling.passes == 0 or settling.passes >= m.run.max_passes or not near_pattern(m):
+    if settling.passes == 0 or settling.passes >= m.run.max_passes or not change_to_near_pattern(m):
         return SINGULAR
     log_changes(m)
     settling.passes += 1
     settling.settling_passes += 1
-    if recurs(m.run, settling):
+    if note_pattern(m.run, settling):
         next_stage(m.problem, m.events)
     return RELEASED
 
@@ -243,8 +207,8 @@ def all_at_limits(events):
     within = True
     for k in range(guards.n_fired):
         i = fired[k]
-        ahead = g[i] + (probe[i] - g[i]) / events.settling.nearness
-        within = within and g[i] <= tolerance[i] and ahead <= tolerance[i]
+        later = g[i] + (probe[i] - g[i]) / events.settling.nearness
+        within = within and g[i] <= tolerance[i] and later <= tolerance[i]
     return within
 
 
@@ -277,154 +241,3 @@ def log_changes(m):
             if run.narrowed == 1 and rim[z] == 1:
                 run.woken = 1
             watch_chatter(m, z)
-
-
-@compiled
-def watch_chatter(m, z):
-    """Count toggles of machine z that follow each other within a dwell; react when they become a streak."""
-    run, point, settling = m.run, m.point, m.events.settling
-    last, streak = reals(settling.at_last_toggle, settling.n_zones), indices(settling.at_streak, settling.n_zones)
-    if point.t > last[z]:
-        streak[z] = streak[z] + 1 if point.t - last[z] < run.dwell else 0
-        last[z] = point.t
-        if streak[z] >= CHATTER_STREAK:
-            indices(settling.at_chatters, settling.n_zones)[z] += 1
-            if run.on_chatter == HOLD:
-                block(m.problem, run, point, m.events.guards, z)
-            elif run.on_chatter == STOP:
-                m.linear.factors.culprit = z
-                run.stop_asked = 1
-
-
-@compiled
-def block(problem, run, point, guards, z):
-    """Hold machine z in its zone for one dwell."""
-    reals(guards.at_blocked_until, problem.n_zones)[z] = point.t + run.dwell
-    run.t_release = min(run.t_release, point.t + run.dwell)
-
-
-@compiled
-def judge(problem, run, point, events):
-    """Fill `fired` with the guards that violate at the point, `wrong` with how much, `g` with their values."""
-    guards, settling = events.guards, events.settling
-    ng = guards.n_guards
-    guards.n_fired = 0
-    if ng == 0:
-        return
-    weigh_limits(problem, guards, point.at_y)
-    evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
-    g, tolerance, probe = reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng), reals(guards.at_g_probe, ng)
-    known_to = place_rounding(problem, point) if problem.n_met_guards > 0 else 0.0
-    met = indices(problem.at_met_guard, problem.n_met_guards)
-    for i in met:
-        if tolerance[i] < g[i] <= known_to:
-            g[i] = 0.0  # a time is no better known than that, so the stop is not passed
-    at_limit = False
-    for i in range(ng):
-        at_limit = at_limit or abs(g[i]) <= tolerance[i]
-    if at_limit:
-        look_ahead(problem, run, point, events)
-        for i in met:
-            if abs(probe[i] - g[i]) <= known_to:
-                probe[i] = g[i]
-    fired, wrong = indices(guards.at_fired, ng), reals(settling.at_wrong, ng)
-    inertia = reals(guards.at_guard_inertia, ng)
-    for i in range(ng):
-        close = at_limit and -ROUNDING * tolerance[i] <= g[i] <= tolerance[i]
-        rises = close and probe[i] >= 0.0 and probe[i] - g[i] > RISE * tolerance[i]
-        if g[i] > tolerance[i] or rises:
-            wrong[i] = g[i] if g[i] > tolerance[i] else probe[i] - g[i]
-            if inertia[i] > 0.0:
-                wrong[i] *= inertia[i] / (SLIP_TIME if g[i] > tolerance[i] else settling.look)
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
-
-
-@compiled
-def place_rounding(problem, point):
-    """What places at which stops are met are known to: by rounding of places, and of a given one by that of the time.
-
-    Without this a body that leaves a stop on a shaker, or late in a run, met it again at once, and left it, some times
-    over.
-    """
-    position, y, known_to = indices(problem.at_position_of, problem.n), reals(point.at_y, problem.n), 0.0
-    for v in range(problem.n):
-        if position[v] >= 0:
-            known_to = max(known_to, PLACE_ROUNDING * (abs(y[position[v]]) + abs(y[v] * point.t)))
-    return known_to
-
-
-@compiled
-def look_ahead(problem, run, point, events):
-    """Guards a little later, along (y', y''), into `g_probe`; algebraic unknowns move as the equations say.
-
-    A contact held at its limit under a growing load and the same contact just sliding, under a load a hair
-    below it, must not each send to the other. The slip of the one after a time d is the mean over that time of what
-    the other's load is beyond its limit; so guards of slips are taken at d, all others at d/2. And d is the same for
-    all zones of a settlement. Where no guard is known for a slip, forces alone are taken at d/2.
-    """
-    guards, settling = events.guards, events.settling
-    if settling.look == 0.0:
-        settling.look = max(distance_to_look(run, point), settling.least_look)
-    if problem.weighs_guards == 0:
-        move_ahead(point, settling.look, 0.5 * settling.look)
-        evaluate_guards(problem, run, guards, point.t + settling.look, point.at_y_probe, guards.at_g_probe)
-        return
-    inertia, probe = reals(guards.at_guard_inertia, problem.n_guards), reals(guards.at_g_probe, problem.n_guards)
-    late = reals(guards.at_g_ahead, problem.n_guards)
-    move_ahead(point, settling.look, settling.look)
-    evaluate_guards(problem, run, guards, point.t + settling.look, point.at_y_probe, guards.at_g_ahead)
-    move_ahead(point, 0.5 * settling.look, 0.5 * settling.look)
-    evaluate_guards(problem, run, guards, point.t + 0.5 * settling.look, point.at_y_probe, guards.at_g_probe)
-    for i in range(problem.n_guards):
-        if inertia[i] > 0.0:
-            probe[i] = late[i]
-
-
-@compiled
-def move_ahead(point, d, forces):
-    """Set `y_probe` to the point moved by the time d along (y', y''), algebraic unknowns by the time `forces`."""
-    n = point.n
-    y, slope, ahead = reals(point.at_y, n), reals(point.at_slope, n), reals(point.at_y_probe, n)
-    curvature, differential = reals(point.at_curvature, n), indices(point.at_differential, n)
-    for k in range(n):
-        if differential[k] == 1:
-            ahead[k] = y[k] + d * (slope[k] + 0.5 * d * curvature[k])
-        else:
-            ahead[k] = y[k] + forces * curvature[k]
-
-
-@compiled
-def all_fall(problem, run, point, events):
-    """True if every guard in `fired` falls along (y', y'') from the point, as it was settled."""
-    guards = events.guards
-    look_ahead(problem, run, point, events)
-    g, probe = reals(guards.at_g, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
-    tolerance, fired = reals(guards.at_guard_tolerance, guards.n_guards), indices(guards.at_fired, guards.n_guards)
-    falling = True
-    for k in range(guards.n_fired):
-        falling = falling and g[fired[k]] - probe[fired[k]] > RISE * tolerance[fired[k]]
-    return falling
-
-
-@compiled
-def distance_to_look(run, point):
-    """How far ahead: NUDGE weights, but no further than y'' leaves y' its direction, nor than 1e-6 of the span."""
-    n = point.n
-    slope, curvature, u = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
-    differential = indices(point.at_differential, n)
-    for k in range(n):
-        u[k] = curvature[k] if differential[k] == 0 else 0.0
-    speed = weighted_norm(point, point.at_u)
-    for k in range(n):
-        u[k] = slope[k] if differential[k] == 1 else 0.0
-    motion = weighted_norm(point, point.at_u)
-    for k in range(n):
-        u[k] = curvature[k] if differential[k] == 1 else 0.0
-    bend = weighted_norm(point, point.at_u)
-    distance = 1e-6 * (run.stop - run.start)
-    if max(speed, motion) > 0.0:
-        distance = min(distance, NUDGE / max(speed, motion))
-    if motion > 0.0 and bend > 0.0:
-        distance = min(distance, motion / bend)
-    return max(distance, 1e-13 * abs(point.t))

@@ -11,14 +11,14 @@ from __future__ import annotations
 from math import inf
 
 from fairlead.integrate.codes import RECORD, STEP_FLOOR
-from fairlead.integrate.events.crossing import COMPANION, NONE, first_crossing, guards_at
+from fairlead.integrate.events.crossing import COMPANION, NONE, find_first_crossing, guards_at
 from fairlead.integrate.events.given_up import settle_at_start
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import not_finite_here
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
 from fairlead.integrate.linear.systems import factorise_step, solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, memory_at, reals
-from fairlead.integrate.one_step import rough
+from fairlead.integrate.one_step import is_rough
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.point.interpolant import interpolate
 from fairlead.integrate.point.swings import largest_turn
@@ -85,9 +85,9 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     run.h = h
     run.landing = 1 if t_end >= run.t_land else 0
     prepare_cubic(point, h, at_y_end, at_rate_end)
-    if turns_too_far(problem, run, point, h) and h > 2.0 * floor:
+    if note_swings(problem, run, point, h) and h > 2.0 * floor:
         return 1
-    found = first_crossing(m, h)
+    found = find_first_crossing(m, h)
     if found == COMPANION:
         run.rejected_companion += 1
         settle_at_start(m)
@@ -100,7 +100,8 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     crossed = guards.n_fired > 0
     if crossed and h > 2.0 * floor:
         weigh(point, point.at_y_end)
-        if rough(problem, run, point, guards, m.linear, h):
+        if is_rough(problem, run, point, guards, m.linear, h):
+            run.rejected_switch += 1
             guards.n_fired = 0
             return 1
     accept(run, point, h, crossed)
@@ -109,8 +110,8 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
 
 
 @compiled
-def turns_too_far(problem, run, point, h):
-    """True if the step turns an angle by more than twice what it should; `swing_step` is how long it should be.
+def note_swings(problem, run, point, h):
+    """Set `swing_step`, how long the step should be for the angles it turns; True if it turns one by twice as much.
 
     Steps of a multistep method grow without being asked, so the bound on them comes with the next start.
     """
@@ -139,9 +140,9 @@ def look_beyond(m, h, rest):
     for k in range(guards.n_fired):
         i = fired[k]
         slope = (3.0 * end[i] - 4.0 * near[i] + half[i]) / 0.5
-        bend = (end[i] - 2.0 * near[i] + half[i]) / 0.0625
-        top = min(s, -slope / bend) if bend < 0.0 else s
-        height[i] = max(end[i], end[i] + slope * top + 0.5 * bend * top * top)
+        curve = (end[i] - 2.0 * near[i] + half[i]) / 0.0625
+        top = min(s, -slope / curve) if curve < 0.0 else s
+        height[i] = max(end[i], end[i] + slope * top + 0.5 * curve * top * top)
         if limit[i] == 0 or height[i] > tolerance[i]:
             fired[kept] = i
             kept += 1

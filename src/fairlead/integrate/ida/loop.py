@@ -51,7 +51,7 @@ START_ERROR = 0.1
 """Error of the first step after a restart, in weights: it is of order one and has no estimate to correct it."""
 RETREAT = 1e-3
 """After a failure IDA is started again from the last good point, with this share of the step that failed."""
-AGAIN = 0.5
+RETRIED = 0.5
 """A step that is cut at a switch where it does not satisfy the equations is taken again with this share of it."""
 GROWTH_STRIDE = 0.2
 """Step in times 1/w where a slip grows by e^(w t) from nothing (growth.py). A long one damps what grows: the contact
@@ -154,8 +154,8 @@ class SundialsLoop:
         number, array = self.memory.number, self.memory.array
         if number["growth"] == 0.0:
             return False
-        bend = np.where(array["differential"] == 1, array["slope"] - self.slope_before, 0.0) * self.last_step
-        if number["t"] < number["t_growth"] and np.max(np.abs(bend) / self.weights.at(array["y"])) < GROWTH_SEEN:
+        change = np.where(array["differential"] == 1, array["slope"] - self.slope_before, 0.0) * self.last_step
+        if number["t"] < number["t_growth"] and np.max(np.abs(change) / self.weights.at(array["y"])) < GROWTH_SEEN:
             return False
         number["growth"] = 0.0
         return True
@@ -168,15 +168,15 @@ class SundialsLoop:
             return min(self.run.first_step, rest)
         weight = self.weights.at(array["y"])
         differential = array["differential"] == 1
-        bend = np.where(differential, array["curvature"], 0.0) / weight
-        size = float(np.sqrt(np.sum(bend * bend)))
+        curvature = np.where(differential, array["curvature"], 0.0) / weight
+        size = float(np.sqrt(np.sum(curvature * curvature)))
         h = np.sqrt(2.0 * START_ERROR / size) if size > 0.0 else rest
         least = max(LEAST_STEP * (self.run.stop - self.run.start), 4e-15 * abs(number["t"]))
         return float(min(max(min(h, 0.1 * (self.run.stop - self.run.start)), least), rest))
 
     def take_again(self) -> None:
         """A step missed what happens shortly before a switch: start again at the point with a part of it."""
-        self.restart(max(AGAIN * self.last_step, self.floor))
+        self.restart(max(RETRIED * self.last_step, self.floor))
 
     @property
     def floor(self) -> float:

@@ -14,11 +14,11 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 GROWTH_LIMIT = 1e8
 """Largest entry of L that is still trusted: with pivots this small a residual of rounding size is luck."""
 
-NOTHING = 1e-200
+DROPPED = 1e-200
 """Below this a number is zero. Along a chain of which one end rests the solution decays to numbers that
 processors handle a hundred times slower than others; none of them matters."""
 NO_SIZE = 1e-180
-"""A right-hand side smaller than this everywhere is no test of a factorisation: what `NOTHING` drops of its
+"""A right-hand side smaller than this everywhere is no test of a factorisation: what `DROPPED` drops of its
 solution would count as an error (a chain that came to rest once ended a run as singular, with 1e-209)."""
 
 
@@ -126,14 +126,14 @@ def substitute_planned(factors, at_x):
     pivot, x = reals(factors.at_pivot, n), reals(at_x, n)
     for k in range(n):
         value = x[k]
-        if abs(value) <= NOTHING:
+        if abs(value) <= DROPPED:
             x[k] = 0.0
         else:
             for p in range(lower_starts[k], lower_starts[k + 1]):
                 x[lower_rows[p]] -= lower[p] * value
     for k in range(n - 1, -1, -1):
         value = x[k] * pivot[k]
-        if abs(value) <= NOTHING:
+        if abs(value) <= DROPPED:
             x[k] = 0.0
         else:
             x[k] = value

@@ -8,7 +8,7 @@ import numpy as np
 
 from fairlead.integrate.memory.of_events import GUARDS, LOADS, SETTLING
 from fairlead.integrate.memory.of_linear import CORE, FACTORS, MATRICES
-from fairlead.integrate.memory.of_methods import CONTACTS, EXCHANGE, METHOD, RULE
+from fairlead.integrate.memory.of_methods import CONTACTS, EXCHANGE, RULE, TABLEAU
 from fairlead.integrate.memory.of_problem import PROBLEM
 from fairlead.integrate.memory.of_run import POINT, RECORDER, RUN
 from fairlead.integrate.memory.struct import Struct
@@ -23,7 +23,7 @@ ROOMS: Mapping[str, Struct | Mapping[str, Struct]] = {
     "linear": {"matrices": MATRICES, "core": CORE, "factors": FACTORS},
     "events": {"guards": GUARDS, "settling": SETTLING, "loads": LOADS},
     "recorder": RECORDER,
-    "method": METHOD,
+    "method": TABLEAU,
     "stepping": {"rule": RULE, "exchange": EXCHANGE, "contacts": CONTACTS},
 }
 """A struct, or the structs of a room by name: a function is given what it reads, of one or of some owners."""

@@ -10,9 +10,13 @@ GUARDS = Struct(
         "n_fired",
     ),
     reals={
-        # at the point, at both ends of a bracket, at a probe
-        "g": "n_guards", "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
-        "g_ahead": "n_guards", "g_late": "n_guards", "g_since": "n_guards", "g_end": "n_guards",
+        # at the point, at the end of the step
+        "g": "n_guards", "g_end": "n_guards",
+        # scratch: at both ends of a bracket, where they are asked now, shortly after the start and before the end of a
+        # step (g_late: also how high they rise behind a crossing), a little later than the point, and the place from
+        # which on they count in a step
+        "g_left": "n_guards", "g_right": "n_guards", "g_probe": "n_guards", "g_early": "n_guards",
+        "g_late": "n_guards", "g_later": "n_guards", "g_since": "n_guards",
         "guard_tolerance": "n_guards", "guard_inertia": "n_guards", "blocked_until": "n_zones",
         # guards whose tops are looked for: three places, what they have there, the next place (bumps.py)
         "bump_left": "n_guards", "bump_left_g": "n_guards", "bump_top": "n_guards", "bump_top_g": "n_guards",
@@ -23,7 +27,10 @@ GUARDS = Struct(
         "fired": "n_guards", "bump_guard": "n_guards", "bump_places": "n_guards",
     },
 )  # fmt: skip
-"""Guards at the point, along a step and at its end; which of them fired."""
+"""Guards at the point, along a step and at its end; which of them fired.
+
+Scratch holds nothing from one trial step or pass to the next, but `g_late` from a crossing to the settlement there.
+"""
 
 SETTLING = Struct(
     copies=("n_guards", "n_zones", "guard_machine", "zones",),
@@ -43,7 +50,11 @@ SETTLING = Struct(
         "streak": "n_zones", "chatters": "n_zones", "switches_by_machine": "n_zones",
     },
 )  # fmt: skip
-"""A settlement: which violators change, since which pass, who chatters."""
+"""A settlement: which violators change, since which pass, who chatters.
+
+`wrong` is by how much guards are violated; impulse_zones.py and the order of release keep guards there that they ask
+meanwhile. `zones_before` are the zones before the pass, `zones_given` those of the start, `zones_history` all since.
+"""
 
 LOADS = Struct(
     integers=(

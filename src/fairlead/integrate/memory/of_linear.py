@@ -15,6 +15,7 @@ MATRICES = Struct(
     indices={
         "jacobian_starts": "n_plus_1", "jacobian_rows": "n_jacobian", "mass_starts": "n_plus_1",
         "mass_rows": "n_mass", "mass_columns": "n_mass", "diagonal_slope": "n", "diagonal_mass": "n",
+        "of_balance": "n",
     },
 )  # fmt: skip
 """J and M along their patterns."""

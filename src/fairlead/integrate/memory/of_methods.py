@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fairlead.integrate.memory.struct import Struct
 
-METHOD = Struct(
+TABLEAU = Struct(
     copies=("n",),
     integers=(
         "n_watched", "stages",
@@ -41,7 +41,7 @@ RULE = Struct(
         "least_theta", "theta_raise", "theta_now",
         # time from the middle of the last step to now, half of it, or 0 right after a settlement; that between the
         # middles of the two before
-        "gap", "gap_before", "t_cut", "t_bent",
+        "gap", "gap_before", "t_cut", "t_kink",
         # what was allowed in the last steps (history.py)
         "allowed", "allowed_before",
     ),
@@ -63,8 +63,8 @@ EXCHANGE = Struct(
     integers=(
         "driven", "massless", "newly_held", "unchecked", "n_hold_mass", "n_hold_slope", "n_hold_share",
         # whether zones may not be those of J and M, in how many machines they differ, if only known rows were
-        # exchanged, what was guessed in a step, what has turned out wrong, whether such a row caught
-        "zones_differ", "n_exchanged", "rows_alone", "guessed", "distrusted", "caught_by_row", "n_own_slopes",
+        # exchanged, what was assumed in a step, what has turned out wrong, whether such a row caught
+        "zones_differ", "n_exchanged", "rows_alone", "assumed", "invalidated", "caught_by_row", "n_own_slopes",
         "n_own_masses", "n_known",
     ),
     reals={
@@ -92,6 +92,8 @@ CONTACTS = Struct(
     ),
     reals={
         "switched_after": "n_zones", "jump_at": "n_zones", "held_inertia": "n_zones",
+        # guards where the step before began
+        "g_before": "n_guards",
     },
     indices={
         "rested": "n", "zones_at_start": "n_zones", "body_starts": "n_zones_plus_1", "body_speed": "n_body_speed",

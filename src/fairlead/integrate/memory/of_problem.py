@@ -11,7 +11,7 @@ PROBLEM = Struct(
         "call_ahead", "call_swings",
     ),
     integers=(
-        # sizes
+        # sizes; n_zones is how many machines there are, each with one zone in force (`zones`)
         "n", "n_algebraic", "n_guards", "n_zones", "n_outputs",
         # whether guards have inertias
         "weighs_guards",

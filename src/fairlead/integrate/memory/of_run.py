@@ -38,10 +38,13 @@ POINT = Struct(
         "t", "moved", "most_moved",
     ),
     reals={
-        # the point, its derivative, the trial end, a point inside the step
-        "y": "n", "slope": "n", "y_end": "n", "y_piece": "n", "y_probe": "n", "f": "n", "ft": "n", "b": "n", "x": "n",
-        "u": "n", "v": "n", "residual": "n", "error_vector": "n", "weight": "n", "curvature": "n", "D": "three_n",
-        "absolute": "n", "relative": "n", "cap": "n",
+        # the point: y, y', y'' (y' of what is algebraic), df/dt of the last J; weights
+        "y": "n", "slope": "n", "curvature": "n", "ft": "n",
+        "weight": "n", "absolute": "n", "relative": "n", "cap": "n",
+        # the step from it: its end, the end of the piece that is accepted, the D of interpolant.py, its error
+        "y_end": "n", "y_piece": "n", "D": "three_n", "error_vector": "n",
+        # scratch, see below
+        "y_probe": "n", "f": "n", "b": "n", "x": "n", "u": "n", "v": "n", "minus_slip": "n", "asked": "n",
         # the point and its slopes before updates that may be taken back
         "y_kept": "n", "slope_kept": "n",
         # energy lost in impacts, by the row that held
@@ -55,7 +58,23 @@ POINT = Struct(
         "unweighed": "n",
     },
 )  # fmt: skip
-"""The point t, y that a run has reached, the end of the step from it, weights, and vectors to work with."""
+"""The point t, y that a run has reached, the end of the step from it, weights, and vectors to work with.
+
+Scratch holds nothing from one call by the loop to the next, and a function that calls another finds it overwritten.
+Whoever uses one gives it a local name that says what it holds there. Any room may use all of them, for
+
+    y_probe      unknowns at another place than the point or the end: laws and guards are asked there
+    f            f(t, y) of the last evaluation; of the stage before, while `rodas` takes a step
+    b            a right-hand side, and after `solve` the solution
+    x            a right-hand side, then the solution, of a point: of Newton's method, of a way on which load comes in
+    u            the theta point while `stepping` solves; else what a norm is wanted of, as a change of speed
+    v            what M is multiplied by, mostly -y'
+    minus_slip   what the callback `drift` gives: minus the slip of rows that hold
+    asked        how far a solve said before that unknowns are off (meters.py)
+
+`error_vector` is scratch too until the error of a step is estimated. `worst` is the unknown that the last norm, or the
+last error that was found, is due to.
+"""
 
 RECORDER = Struct(
     integers=(

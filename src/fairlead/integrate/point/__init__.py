@@ -2,6 +2,7 @@
 
 Given `point`: y, the trial end, error weights, D; `run` for what the last step was like.
 Does  the error norm and the next step (controller.py), y inside the step (interpolant.py), how far that is off the
-      equations (defect.py), y'' beyond its rounding (curvature.py), quadratures over a piece (meters.py).
+      equations (defect.py), y'' beyond its rounding (curvature.py), quadratures over a piece (meters.py), which speeds
+      follow a stiff law within the step (stiff.py).
 Changes no zone, and records nothing.
 """

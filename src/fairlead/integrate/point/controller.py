@@ -33,7 +33,7 @@ UNMOVED = 1e-3
 """What would not move by this share of a weight in the whole run is at rest, and its y' and y'' rounding."""
 NO_AMPLITUDE = 1e-6
 """A motion from rest: in its time scale it moves by less than this share of a weight."""
-UNLIMITED = (GROW_LIMIT / SAFETY) ** -5.0
+NO_LIMIT_BELOW = (GROW_LIMIT / SAFETY) ** -5.0
 """Of an error below this little more is known than that it is small: the step grows by all it may."""
 IDLE_ERROR = 1e-3
 """Below this a step was not limited by its error, and says nothing about the time scale."""
@@ -92,7 +92,7 @@ def step_after_rejection(run, h):
 def step_after_acceptance(run, h):
     """The next step by PI control; never longer right after a rejection."""
     error = max(run.error, 1e-10)
-    if error < UNLIMITED and run.retried == 0:
+    if error < NO_LIMIT_BELOW and run.retried == 0:
         return GROW_LIMIT * h
     if run.last_error > 0.0 and run.retried == 0:
         factor = SAFETY * error ** (-0.7 * run.error_exponent) * run.last_error ** (0.4 * run.error_exponent)

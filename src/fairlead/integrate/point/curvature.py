@@ -1,4 +1,4 @@
-"""How much y'' bends, in weights, beyond what rounding makes of it.
+"""The size of y'', in weights, beyond what rounding makes of it.
 
 y'' = (J y' + f_t)/M is a difference of large numbers where laws are stiff, and y' = f/M is one before it. A force
 of stiffness k between bodies at y is rounded by eps k y, so
@@ -18,26 +18,27 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weighted_norm
 from fairlead.integrate.point.meters import inertia_of
 
-ROUNDED = 1e-15
+FORCE_ROUNDING = 1e-15
 """Share by which a force is rounded: four to five units in the last place, for those of the terms it is a sum of."""
 
 
 @compiled
-def bend_beyond_rounding(point, matrices):
+def curvature_beyond_rounding(point, matrices):
     """Weighted norm of y'' of the differential unknowns, less rounding; J and M are those of the point."""
     n = point.n
     y, curvature, differential = reals(point.at_y, n), reals(point.at_curvature, n), indices(point.at_differential, n)
-    once, twice, u = reals(point.at_v, n), reals(point.at_x, n), reals(point.at_u, n)
+    of_y, of_slope, of_curvature = reals(point.at_u, n), reals(point.at_v, n), reals(point.at_x, n)
     for k in range(n):
-        u[k] = ROUNDED * abs(y[k])
+        of_y[k] = FORCE_ROUNDING * abs(y[k])
     sizes_through_jacobian(matrices, point.at_u, point.at_v)
     for k in range(n):
-        once[k] = once[k] / inertia_of(matrices, k) if differential[k] == 1 else 0.0
+        of_slope[k] = of_slope[k] / inertia_of(matrices, k) if differential[k] == 1 else 0.0
     sizes_through_jacobian(matrices, point.at_v, point.at_x)
+    beyond = of_y
     for k in range(n):
-        u[k] = 0.0
+        beyond[k] = 0.0
         if differential[k] == 1 and curvature[k] != 0.0:
-            u[k] = max(abs(curvature[k]) - twice[k] / inertia_of(matrices, k), 0.0)
-            if not u[k] >= 0.0:
-                u[k] = curvature[k]
+            beyond[k] = max(abs(curvature[k]) - of_curvature[k] / inertia_of(matrices, k), 0.0)
+            if not beyond[k] >= 0.0:
+                beyond[k] = curvature[k]
     return weighted_norm(point, point.at_u)

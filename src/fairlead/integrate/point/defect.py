@@ -8,7 +8,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 
 
 @compiled
-def midpoint_defect(problem, point, linear, method, h):
+def find_midpoint_defect(problem, point, linear, method, h):
     """Into `error_vector`: how far the dense output of the unknowns watched is off in the middle of the step.
 
     A stiffly accurate method meets the algebraic equations at the end of a step of any size, so its
@@ -18,7 +18,7 @@ def midpoint_defect(problem, point, linear, method, h):
     and anything in between. The residual of the interpolant, r = f - M y', through the factors of W, is the missing
     estimate (as in Rodas5Pr, Steinebach 2024); it behaves as the error of the dense output.
     """
-    defect(problem, point, linear, h, 0.5)
+    find_defect(problem, point, linear, h, 0.5)
     error, watched = reals(point.at_error_vector, point.n), indices(method.at_watched, point.n)
     for k in range(point.n):
         if watched[k] == 0:
@@ -26,18 +26,19 @@ def midpoint_defect(problem, point, linear, method, h):
 
 
 @compiled
-def defect(problem, point, linear, h, theta):
-    """Into `error_vector`: r = f - M y' of the dense output at theta, through the factors of W."""
+def find_defect(problem, point, linear, h, s):
+    """Into `error_vector`: r = f - M y' of the dense output at s, through the factors of W."""
     n = problem.n
     y, y_end, D = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n)
-    u, v, f, error = reals(point.at_u, n), reals(point.at_v, n), reals(point.at_f, n), reals(point.at_error_vector, n)
-    both = theta * (1.0 - theta)
+    inside, minus_rate = reals(point.at_u, n), reals(point.at_v, n)
+    f, error = reals(point.at_f, n), reals(point.at_error_vector, n)
+    both = s * (1.0 - s)
     for k in range(n):
         change = y_end[k] - y[k]
-        inner = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
-        u[k] = y[k] + theta * change + both * inner
-        v[k] = -(change + (1.0 - 2.0 * theta) * inner + both * (D[n + k] + 2.0 * theta * D[2 * n + k])) / h
-    field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_u, point.at_f))
+        inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
+        inside[k] = y[k] + s * change + both * inner
+        minus_rate[k] = -(change + (1.0 - 2.0 * s) * inner + both * (D[n + k] + 2.0 * s * D[2 * n + k])) / h
+    field_at(problem.call_rhs, (problem.context, point.t + s * h, point.at_u, point.at_f))
     problem.rhs += 1
     copy(f, error)
     add_mass_times(linear.matrices, point.at_v, point.at_error_vector)

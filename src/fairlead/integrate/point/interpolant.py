@@ -1,6 +1,6 @@
-"""The solution inside a step: y(theta) for 0 <= theta <= 1, from the dense output of the method.
+"""The solution inside a step: y(s) for 0 <= s <= 1, from the dense output of the method.
 
-y(theta) = (1 - theta) y0 + theta (y1 + (1 - theta)(D_0 + theta (D_1 + theta D_2)))
+y(s) = (1 - s) y0 + s (y1 + (1 - s)(D_0 + s (D_1 + s D_2)))
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from fairlead.integrate.memory.foreign import compiled, reals
 
 
 @compiled
-def interpolate(point, theta, at_result):
-    """Write y(theta) = (1 - theta) y0 + theta (y1 + (1 - theta)(D_0 + theta (D_1 + theta D_2)))."""
+def interpolate(point, s, at_result):
+    """Write y(s) = (1 - s) y0 + s (y1 + (1 - s)(D_0 + s (D_1 + s D_2)))."""
     n = point.n
     y, y_end, D, result = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n), reals(at_result, n)
-    rest = 1.0 - theta
+    rest = 1.0 - s
     for k in range(n):
-        inner = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
-        result[k] = rest * y[k] + theta * (y_end[k] + rest * inner)
+        inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
+        result[k] = rest * y[k] + s * (y_end[k] + rest * inner)

@@ -29,98 +29,97 @@ from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.point.stiff import FURTHEST
 
 OFF = 10.0
 """In weights for all of the run so far, of which a step may miss its share by time: then the ledger is off by some ten
 accuracies after however many steps that all err the same way. The method finds itself worse than it is where nothing
 is stiff; at one, such runs would pay for nothing."""
-LITTLE = 0.1
+LEAST_PASSED = 0.1
 """What has passed, in the unit of the quadrature, below which the error is no longer measured by it."""
 TURNS = 4
 """Most moves at a node; after the second the secants have met what is linear in its speed."""
-FURTHEST = 10.0
-"""Times that a law may be less stiff at the node than at the start of the step; beyond, it counts as none."""
-APART = 0.5 * 0.6**0.5
+NODE_DISTANCE = 0.5 * 0.6**0.5
 """Distance of the outer nodes from the middle of the piece, in pieces."""
 
 
 @compiled
 def meter_piece(m, h):
-    """Write the quadratures at the end of the piece [t, t + theta h] into `y_piece`, and follow it inside.
+    """Write the quadratures at the end of the piece [t, t + cut h] into `y_piece`, and follow it inside.
 
     Inside the piece the dense output becomes the cubic with the rates of the three nodes.
     """
     problem, point, linear, stepping = m.problem, m.point, m.linear, m.stepping
-    n, theta = point.n, m.run.cut_at
+    n, cut = point.n, m.run.cut_at
     quadrature = indices(point.at_quadrature, n)
     y, piece, y_end = reals(point.at_y, n), reals(point.at_y_piece, n), reals(point.at_y_end, n)
     D = reals(point.at_D, 3 * n)
     first, middle, last = reals(point.at_u, n), reals(point.at_v, n), reals(point.at_f, n)
     share = share_of(m.run, point)
-    rates_inside(problem, point, linear, stepping, theta * (0.5 - APART), h, share)
+    find_rates_inside(problem, point, linear, stepping, cut * (0.5 - NODE_DISTANCE), h, share)
     copy(last, first)
-    rates_inside(problem, point, linear, stepping, theta * 0.5, h, share)
+    find_rates_inside(problem, point, linear, stepping, cut * 0.5, h, share)
     copy(last, middle)
-    rates_inside(problem, point, linear, stepping, theta * (0.5 + APART), h, share)
+    find_rates_inside(problem, point, linear, stepping, cut * (0.5 + NODE_DISTANCE), h, share)
     for k in range(n):
         if quadrature[k] == 1:
-            size = theta * h / inertia_of(m.linear.matrices, k)
-            slope = size * (last[k] - first[k]) / (2.0 * APART)
-            bend = size * (last[k] - 2.0 * middle[k] + first[k]) / (2.0 * APART**2)
-            # The integral of middle + slope (s - 1/2) + bend (s - 1/2)^2 is a s + b s^2 + c s^3, s = 1 at the end.
-            a = size * middle[k] - 0.5 * slope + 0.25 * bend
-            b = 0.5 * (slope - bend)
-            c = bend / 3.0
+            size = cut * h / inertia_of(m.linear.matrices, k)
+            slope = size * (last[k] - first[k]) / (2.0 * NODE_DISTANCE)
+            curve = size * (last[k] - 2.0 * middle[k] + first[k]) / (2.0 * NODE_DISTANCE**2)
+            # The integral of middle + slope (s - 1/2) + curve (s - 1/2)^2 is a s + b s^2 + c s^3, s = 1 at the end.
+            a = size * middle[k] - 0.5 * slope + 0.25 * curve
+            b = 0.5 * (slope - curve)
+            c = curve / 3.0
             piece[k] = y[k] + a + b + c
-            a, b, c = a / theta, b / theta**2, c / theta**3
+            a, b, c = a / cut, b / cut**2, c / cut**3
             y_end[k] = y[k] + a + b + c
             D[k], D[n + k], D[2 * n + k] = -b - c, -c, 0.0
 
 
 @compiled
-def rates_inside(problem, point, linear, stepping, theta, h, share):
-    """Into `f`: the rates at theta of the step, of the dense output moved by its residual until the rates settle."""
+def find_rates_inside(problem, point, linear, stepping, s, h, share):
+    """Into `f`: the rates at s of the step, of the dense output moved by its residual until the rates settle."""
     n = problem.n
     y, y_end, D = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n)
     probe = reals(point.at_y_probe, n)
-    v, b, f = reals(point.at_x, n), reals(point.at_b, n), reals(point.at_f, n)
-    asked, moved = reals(point.at_residual, n), reals(point.at_error_vector, n)
+    minus_rate, asks, f = reals(point.at_x, n), reals(point.at_b, n), reals(point.at_f, n)
+    asked, moved = reals(point.at_asked, n), reals(point.at_error_vector, n)
     holds = indices(stepping.exchange.at_holds, n)
-    rest = 1.0 - theta
-    interpolate(point, theta, point.at_y_probe)
+    rest = 1.0 - s
+    interpolate(point, s, point.at_y_probe)
     for k in range(n):
-        inner = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
-        inner_slope = D[n + k] + 2.0 * theta * D[2 * n + k]
-        v[k] = -(y_end[k] - y[k] + (rest - theta) * inner + theta * rest * inner_slope) / h
-    field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_y_probe, point.at_f))
+        inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
+        inner_slope = D[n + k] + 2.0 * s * D[2 * n + k]
+        minus_rate[k] = -(y_end[k] - y[k] + (rest - s) * inner + s * rest * inner_slope) / h
+    field_at(problem.call_rhs, (problem.context, point.t + s * h, point.at_y_probe, point.at_f))
     problem.rhs += 1
     for turn in range(TURNS):
-        copy(f, b)
+        copy(f, asks)
         add_mass_times(linear.matrices, point.at_x, point.at_b)
         for k in range(n):
             if holds[k] == 1:
-                b[k] = 0.0
+                asks[k] = 0.0
         solve(linear, point.at_b)
         for k in range(n):
-            move = b[k] * (secant(asked[k], b[k], moved[k]) if turn > 0 else 1.0)
-            asked[k], moved[k] = b[k], move
+            move = asks[k] * (secant(asked[k], asks[k], moved[k]) if turn > 0 else 1.0)
+            asked[k], moved[k] = asks[k], move
             probe[k] += move
-        copy(f, b)
-        field_at(problem.call_rhs, (problem.context, point.t + theta * h, point.at_y_probe, point.at_f))
+        copy(f, asks)
+        field_at(problem.call_rhs, (problem.context, point.t + s * h, point.at_y_probe, point.at_f))
         problem.rhs += 1
-        if settled(point, linear.matrices, h, share):
+        if rates_settled(point, linear.matrices, h, share):
             break
 
 
 @compiled
-def settled(point, matrices, h, share):
+def rates_settled(point, matrices, h, share):
     """Whether the rates `f` of the quadratures give this step what `b`, those before, do, to a share of a weight."""
     quadrature, weight = indices(point.at_quadrature, point.n), reals(point.at_weight, point.n)
     y, f, before = reals(point.at_y_end, point.n), reals(point.at_f, point.n), reals(point.at_b, point.n)
     for k in range(point.n):
         if quadrature[k] == 1:
             change = h * abs(f[k] - before[k]) / inertia_of(matrices, k)
-            if not change <= share * weight[k] * max(LITTLE, abs(y[k])):
+            if not change <= share * weight[k] * max(LEAST_PASSED, abs(y[k])):
                 return False
     return True
 
@@ -152,7 +151,7 @@ def judge_meters(run, point, recorder):
     share = share_of(run, point)
     recorder.meters_off = 0
     for k in range(point.n):
-        if quadrature[k] == 1 and abs(error[k]) > share * weight[k] * max(LITTLE, abs(y[k])):
+        if quadrature[k] == 1 and abs(error[k]) > share * weight[k] * max(LEAST_PASSED, abs(y[k])):
             recorder.meters_off = 1
 
 

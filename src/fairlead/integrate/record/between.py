@@ -9,8 +9,8 @@ The slip r of held contacts, whatever network they form, is taken away by an imp
 
     (M/(h theta) - J) (dv, Lambda) = r/(h theta)    r = -slip in the rows that hold
 
-with the factors the step has left; dv is added, Lambda dropped. Slip is linear in the speeds. So where surfaces keep
-their speed this is done once for the start of the step and once for its bend, else in every row.
+with the factors the step has left; dv is added, Lambda dropped. Where surfaces keep their speed that was done for the
+whole step at its end (stepping/dense_output.py), else it is done in every row.
 """
 
 from __future__ import annotations
@@ -18,56 +18,7 @@ from __future__ import annotations
 from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-
-STIFF = 100.0
-"""An unknown follows its law within a step when h |df/dy| is so many times its inertia."""
-FURTHEST = 10.0
-"""Times the move that the factors of a step ask for, where a law is less stiff at the point than in the step."""
-
-
-@compiled
-def prepare_rows(m):
-    """Of an accepted step with rows inside: take slip out of its start and its bend; see `rows_slip`."""
-    run, recorder = m.run, m.recorder
-    recorder.rows_slip = 0
-    beyond = run.t_piece - 1e-12 * max(abs(run.t_piece), recorder.every)
-    gridless = recorder.on_grid == 0 or run.start + recorder.grid_next * recorder.every >= beyond
-    if not gridless or recorder.inside > 0:
-        hold_inside(m)
-
-
-@compiled
-def hold_inside(m):
-    """Take slip out of the start and the bend of a step, or have every point inside it done (`rows_slip`).
-
-    The start has slip in contacts that a settlement has just caught, by rounding: `stops_little` has settled what is
-    more. A step that is taken again from there begins without it.
-    """
-    point, linear, matrices, recorder = m.point, m.linear, m.linear.matrices, m.recorder
-    exchange = m.stepping.exchange
-    recorder.rows_slip = 0
-    row, caught = indices(exchange.at_hold_mass_row, exchange.n_hold_mass), indices(exchange.at_caught, point.n)
-    holds, any_holds, any_caught = indices(exchange.at_holds, point.n), False, False
-    for e in range(exchange.n_hold_mass):
-        if holds[row[e]] == 1:
-            any_holds = True
-            any_caught = any_caught or caught[row[e]] == 1
-    if not any_holds:
-        return
-    if exchange.driven == 1 or exchange.massless == 1:
-        recorder.rows_slip = 1
-        return
-    if any_caught:
-        take_slip_away(m.problem, point, linear, exchange, point.t, point.at_y)
-    entry = indices(exchange.at_hold_mass, exchange.n_hold_mass)
-    column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
-    values, bend = reals(matrices.at_mass, matrices.n_mass), reals(point.at_D, point.n)
-    slip = reals(point.at_residual, point.n)
-    for k in range(point.n):
-        slip[k] = 0.0
-    for e in range(exchange.n_hold_mass):
-        slip[row[e]] -= values[entry[e]] * bend[column[e]]
-    remove_slip(point, linear, exchange, point.at_D)
+from fairlead.integrate.point.stiff import FURTHEST
 
 
 @compiled
@@ -79,7 +30,7 @@ def zones_inside(m, t, at_y):
     """
     problem, guards, contacts = m.problem, m.events.guards, m.stepping.contacts
     zones, before = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_at_start, problem.n_zones)
-    rows, first = indices(contacts.at_hold_row, problem.n_zones), indices(contacts.at_first_guard, problem.n_zones)
+    hold_row, first = indices(contacts.at_hold_row, problem.n_zones), indices(contacts.at_first_guard, problem.n_zones)
     switched, g = indices(contacts.at_switched, problem.n_zones), reals(guards.at_g_probe, guards.n_guards)
     machine = indices(problem.at_guard_machine, guards.n_guards)
     copy(zones, indices(contacts.at_zones_probed, problem.n_zones))
@@ -88,7 +39,7 @@ def zones_inside(m, t, at_y):
     for k in range(contacts.n_switched):
         z = switched[k]
         i = first[z]
-        while rows[z] < 0 and i < guards.n_guards and machine[i] == z:
+        while hold_row[z] < 0 and i < guards.n_guards and machine[i] == z:
             if g[i] > 0.0:
                 zones[z] = before[z]
             i += 1
@@ -103,50 +54,21 @@ def zones_of_end(problem, contacts):
 @compiled
 def take_slip_away(problem, point, linear, exchange, t, at_y):
     """Correct the speeds at (t, y) by the slip of contacts that hold."""
-    field_at(problem.call_drift, (problem.context, t, at_y, point.at_residual))
+    field_at(problem.call_drift, (problem.context, t, at_y, point.at_minus_slip))
     remove_slip(point, linear, exchange, at_y)
 
 
 @compiled
-def end_massless(problem, point, linear, exchange, h):
-    """Give nodes without mass that are held the speed they have at the end of a step, for their mean over it."""
-    factors = linear.factors
-    row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
-    column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
-    holds, of_massless, differential = (
-        indices(exchange.at_holds, problem.n), indices(exchange.at_of_massless, problem.n),
-        indices(problem.at_differential, problem.n),
-    )  # fmt: skip
-    field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_residual))
-    slip, b, y_end = reals(point.at_residual, problem.n), reals(point.at_b, problem.n), reals(point.at_y_end, problem.n)
-    found = False
-    for k in range(problem.n):
-        b[k] = 0.0
-    for e in range(exchange.n_hold_mass):
-        k = row[e]
-        if holds[k] == 1 and of_massless[k] == 1 and slip[k] != 0.0:
-            b[k] = slip[k] * factors.mass_factor
-            found = True
-    if not found:
-        return
-    solve(linear, point.at_b)
-    for e in range(exchange.n_hold_mass):
-        if differential[column[e]] == 0:
-            y_end[column[e]] += b[column[e]]
-            b[column[e]] = 0.0
-
-
-@compiled
 def remove_slip(point, linear, exchange, at_v):
-    """Add to the speeds in v what takes away the slip whose negative is in `residual`, in rows that hold."""
+    """Add to the speeds in v what takes away the slip in `minus_slip`, in rows that hold."""
     factors = linear.factors
     row, holds = indices(exchange.at_hold_mass_row, exchange.n_hold_mass), indices(exchange.at_holds, point.n)
-    slip, b, found = reals(point.at_residual, point.n), reals(point.at_b, point.n), False
+    minus_slip, b, found = reals(point.at_minus_slip, point.n), reals(point.at_b, point.n), False
     for k in range(point.n):
         b[k] = 0.0
     for e in range(exchange.n_hold_mass):
-        if holds[row[e]] == 1 and slip[row[e]] != 0.0:
-            b[row[e]] = slip[row[e]] * factors.mass_factor
+        if holds[row[e]] == 1 and minus_slip[row[e]] != 0.0:
+            b[row[e]] = minus_slip[row[e]] * factors.mass_factor
             found = True
     if not found:
         return
@@ -158,59 +80,41 @@ def remove_slip(point, linear, exchange, at_v):
 
 
 @compiled
-def find_stiff(problem, matrices, recorder, h):
-    """Mark the speeds that follow a stiff law within the step; 1 if there is any.
-
-    Speeds alone: what they hold of the energy is nothing. A pressure that is shown elsewhere has another energy.
-    """
-    slope, mass = indices(matrices.at_diagonal_slope, problem.n), indices(matrices.at_diagonal_mass, problem.n)
-    values, inertia = reals(matrices.at_jacobian, matrices.n_jacobian), reals(matrices.at_mass, matrices.n_mass)
-    stiff, position, found = indices(recorder.at_is_stiff, problem.n), indices(problem.at_position_of, problem.n), 0
-    for k in range(problem.n):
-        stiff[k] = 0
-        moved = position[k] >= 0 and slope[k] >= 0 and mass[k] >= 0
-        if moved and -values[slope[k]] * h > STIFF * inertia[mass[k]] > 0.0:
-            stiff[k] = 1
-            found = 1
-    return found
-
-
-@compiled
-def balance_stiff(m, t, theta, at_y):
-    """Give unknowns that follow a stiff law at theta, in y, the values at which it balances: f(y) = M y'.
+def balance_stiff(m, t, s, at_y):
+    """Give unknowns in y that follow a stiff law, at s of the step, the values at which it balances: f(y) = M y'.
 
     The midpoint rule leaves a third of a difference ringing in them, and the dense output inside a step knows
     nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and what moves by d
-    gains s d in it, with W = s M - J: bodies that follow each other would else show the error of their acceleration.
+    gains r d in it, with W = r M - J: bodies that follow each other would else show the error of their acceleration.
     How far to go along the move that the factors of the step give follows from the residuals before and after it.
     """
     problem, point, core = m.problem, m.point, m.linear.core
     n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
     start, end, D, y = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n), reals(at_y, n)
-    f, v, b, inert, before = (
+    f, minus_rate, move, inert, before = (
         reals(point.at_f, n), reals(point.at_v, n), reals(point.at_b, n), reals(point.at_x, n),
-        reals(point.at_residual, n),
+        reals(point.at_u, n),
     )  # fmt: skip
     stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
     for k in range(n):
-        bend = D[k] + theta * (D[n + k] + theta * D[2 * n + k])
-        turn = theta * (1.0 - theta) * (D[n + k] + 2.0 * theta * D[2 * n + k])
-        slope = end[k] - start[k] + (1.0 - 2.0 * theta) * bend + turn
-        v[k] = -slope * per_step if differential[k] == 1 else 0.0
+        inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
+        inner_slope = D[n + k] + 2.0 * s * D[2 * n + k]
+        slope = end[k] - start[k] + (1.0 - 2.0 * s) * inner + s * (1.0 - s) * inner_slope
+        minus_rate[k] = -slope * per_step if differential[k] == 1 else 0.0
         inert[k] = 0.0
     add_mass_times(m.linear.matrices, point.at_v, point.at_x)
     field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
     for k in range(n):
-        b[k] = f[k] + inert[k] if stiff[k] == 1 else 0.0
-    copy(b, before)
+        move[k] = f[k] + inert[k] if stiff[k] == 1 else 0.0
+    copy(move, before)
     core.skip_meters = 1
     solve(m.linear, point.at_b)
     core.skip_meters = 0
     for k in range(n):
         inert[k] = 0.0
         if stiff[k] == 1:
-            y[k] += b[k]
-            v[k] -= gain * b[k]
+            y[k] += move[k]
+            minus_rate[k] -= gain * move[k]
     add_mass_times(m.linear.matrices, point.at_v, point.at_x)
     field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
     problem.rhs += 2
@@ -218,7 +122,7 @@ def balance_stiff(m, t, theta, at_y):
         if stiff[k] == 1:
             gone = before[k] - f[k] - inert[k]
             if before[k] * gone > 0.0:
-                y[k] += (min(before[k] / gone, FURTHEST) - 1.0) * b[k]
+                y[k] += (min(before[k] / gone, FURTHEST) - 1.0) * move[k]
             else:
-                y[k] -= b[k]
-        b[k] = 0.0
+                y[k] -= move[k]
+        move[k] = 0.0

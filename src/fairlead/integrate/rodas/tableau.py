@@ -4,7 +4,7 @@ One step of size h from y0, with W = M/(h gamma) - J:
 
     W K_i = f(t + c_i h, y0 + sum_j a_ij K_j) + M sum_j (C_ij/h) K_j + h d_i f_t
     y1    = y0 + sum_i m_i K_i,       error = sum_i e_i K_i
-    y(theta) = (1 - theta) y0 + theta (y1 + (1 - theta)(D_0 + theta (D_1 + theta D_2))),  D_r = sum_i H_ri K_i
+    y(s) = (1 - s) y0 + s (y1 + (1 - s)(D_0 + s (D_1 + s D_2))),  D_r = sum_i H_ri K_i
 
 This is the form without products J K (Hairer, Wanner: Solving Ordinary Differential Equations II,
 2nd ed. 1996, section IV.7). With G = (I/gamma - C)^-1 the classical coefficients are alpha = a G,
@@ -75,27 +75,27 @@ class Tableau:
         """[s]: weight of f_t in each stage."""
         return np.array([math.fsum(row) for row in self.G.tolist()])
 
-    def interpolation_weights(self, theta: float) -> NDArray[np.float64]:
-        """[s]: y(theta) = y0 + sum_i w_i K_i."""
-        inner = self.H[0] + theta * (self.H[1] + theta * self.H[2])
-        return theta * (self.m + (1 - theta) * inner)
+    def interpolation_weights(self, s: float) -> NDArray[np.float64]:
+        """[s]: y(s) = y0 + sum_i w_i K_i."""
+        inner = self.H[0] + s * (self.H[1] + s * self.H[2])
+        return s * (self.m + (1 - s) * inner)
 
 
 def order_conditions(
-    tableau: Tableau, weights: NDArray[np.float64], theta: float = 1.0
+    tableau: Tableau, weights: NDArray[np.float64], s: float = 1.0
 ) -> list[tuple[int, float]]:
-    """Residuals (order, value) of the order conditions of y0 + sum_i weights_i K_i at theta h.
+    """Residuals (order, value) of the order conditions of y0 + sum_i weights_i K_i at s h.
 
     All conditions of ordinary differential equations to order 4, the two of order 5 that involve no
     further products, and of index-1 problems the one of order 2 (Hairer, Wanner II, tables IV.7.1
-    and VI.4.1): b beta^-1 alpha^2 = theta^2.
+    and VI.4.1): b beta^-1 alpha^2 = s^2.
     """
     G = tableau.G
     b = weights @ G
     alpha = tableau.a @ G
     beta = alpha + G
     c, cb = alpha.sum(axis=1), beta.sum(axis=1)
-    at = theta
+    at = s
     conditions = [
         (1, b.sum() - at),
         (2, b @ cb - at**2 / 2),
@@ -126,9 +126,9 @@ def _checked(tableau: Tableau) -> Tableau:
     """
     cases = [(tableau.m, 1.0, tableau.order), (tableau.m - tableau.e, 1.0, tableau.error_order)]
     dense_order = min(tableau.order, 4)
-    cases += [(tableau.interpolation_weights(theta), theta, dense_order) for theta in (0.3, 0.7)]
-    for weights, theta, order in cases:
-        worst = max(abs(value) for o, value in order_conditions(tableau, weights, theta)[:-1] if o <= order)
+    cases += [(tableau.interpolation_weights(s), s, dense_order) for s in (0.3, 0.7)]
+    for weights, s, order in cases:
+        worst = max(abs(value) for o, value in order_conditions(tableau, weights, s)[:-1] if o <= order)
         if worst > 1e-12:
             raise ArithmeticError(f"{tableau.name}: an order condition misses by {worst:.1e}")
     stiffly_accurate = abs(tableau.c[-1] - 1) + abs(tableau.d[-1])

@@ -4,9 +4,18 @@ A machine is what has zones: a contact, a stop, a rope, a table, a relay. A zone
 tells when it changes to another. Up to 40 machines (`Run.most_located`) a step ends at every switch instead, and zones
 are frozen inside a step.
 
-docs/stepping.md is the page on its error. trial.py tries a step, and accepts it or has it repeated. theta_step.py
-solves it: residual.py says what is left, active_set.py which zones, row_cache.py saves factorisations, third_order.py
-moves the end. step_error.py is its error, to which located_step.py adds where every step ends at its switch;
-switch_inside.py and passed_over.py say where a step with switches inside must end instead. history.py chooses the
-length of the next step, and keeps the slopes that its error needs. Who holds what is planned once (neighbours.py).
+docs/stepping.md is the page on its error. In the order of a step:
+
+    trial.py            a step is tried, and accepted or repeated (repeated.py)
+    theta_step.py       it is solved: residual.py says what is left, active_set.py which zones, row_cache.py saves
+                        factorisations; neighbours.py plans once who holds what
+    jump_inside.py      a law that jumps in it is put right there; of a row that is not known the step ends at the jump
+                        (jump_at_end.py)
+    third_order.py      its end is moved by the error of its rule
+    step_error.py       its error: of smooth motion, of limits passed inside (limit_violation.py; response.py says what
+                        a missed force does), of one that ends at its switch (located_step.py)
+    switch_inside.py    a switch whose impulse is missed, and passed_over.py a guard that rises and falls again: the
+                        step must end there instead
+    dense_output.py     its end and its rows inside, without slip of what holds
+    history.py          the length of the next step, and the slopes that its error needs
 """

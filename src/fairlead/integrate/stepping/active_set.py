@@ -15,7 +15,7 @@ through most of as many in this one. Both are guesses; the guards judge what com
 from __future__ import annotations
 
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
-from fairlead.integrate.events.patterns import recurs, remember_pattern
+from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 
 HANDED_ON, RUNS_ON = 0.8, 0.7
@@ -74,8 +74,8 @@ def expect_fronts(m, h):
                     fired[guards.n_fired] = i
                     guards.n_fired += 1
                     rest -= 1
-                    ahead = next_in_line(contacts, w, behind)
-                    w, behind = ahead, w
+                    beyond = next_in_line(contacts, w, behind)
+                    w, behind = beyond, w
     for k in range(guards.n_fired):
         w = indices(problem.at_guard_machine, ng)[fired[k]]
         met[w] = 0
@@ -98,14 +98,14 @@ def still_holds(stepping, z):
 
 
 @compiled
-def length_of_front(run, contacts, z, ahead):
+def length_of_front(run, contacts, z, beyond):
     """How many contacts in line, z the last of them, let go in the last step."""
     released, length = indices(contacts.at_released, contacts.n_zones), 1
     while length < LONGEST_FRONT:
-        behind = next_in_line(contacts, z, ahead)
+        behind = next_in_line(contacts, z, beyond)
         if behind < 0 or released[behind] != run.steps:
             break
-        z, ahead = behind, z
+        z, beyond = behind, z
         length += 1
     return length
 
@@ -124,7 +124,7 @@ def next_in_line(contacts, z, before):
 
 
 @compiled
-def violators(guards):
+def fire_violators_of_step(guards):
     """Fill `fired` with the guards above their tolerance at the end of the step."""
     g, tolerance = reals(guards.at_g_end, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     fired = indices(guards.at_fired, guards.n_guards)
@@ -159,7 +159,7 @@ def follow_guards(m, h, cascade):
     m.stepping.exchange.zones_differ = 1
     settling.passes += 1
     settling.settling_passes += 1
-    if settling.one_by_one < 2 and recurs(run, settling):
+    if settling.one_by_one < 2 and note_pattern(run, settling):
         settling.one_by_one += 1
         number_machines(events, guards.at_g_end)
         settling.stage_from = settling.passes

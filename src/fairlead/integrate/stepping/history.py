@@ -17,11 +17,11 @@ from math import inf
 from fairlead.integrate.events.pace import smallest_step
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.point.controller import NO_AMPLITUDE, SAFETY, SHRINK_LIMIT, is_straight, weighted_norm
-from fairlead.integrate.point.curvature import bend_beyond_rounding
+from fairlead.integrate.point.curvature import curvature_beyond_rounding
 from fairlead.integrate.point.even_steps import COARSE, root_of_power, rounded
+from fairlead.integrate.stepping.limit_violation import HELD_THROUGH
 from fairlead.integrate.stepping.located_step import CAREFUL
 from fairlead.integrate.stepping.row_cache import forget_rows
-from fairlead.integrate.stepping.step_error import HELD_THROUGH
 
 BLOCK = 5
 """Steps of a block: what a step allowed is remembered for as many to twice as many."""
@@ -99,7 +99,7 @@ def begin_history(run, point, matrices, stepping):
     rule = stepping.rule
     allowed = 1.0 / CAREFUL if rule.locates == 1 else 1.0
     n = point.n
-    slope, curvature, u = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
+    slope, curvature, rate = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
     before, earlier = reals(rule.at_slope_before, n), reals(rule.at_slope_earlier, n)
     differential = indices(point.at_differential, n)
     rule.linearised = 0
@@ -109,11 +109,11 @@ def begin_history(run, point, matrices, stepping):
     forget_steps(rule)
     if run.adaptive == 1 and not (run.steps == 0 and run.first_step > 0.0):
         for k in range(n):
-            u[k] = slope[k] if differential[k] == 1 else 0.0
+            rate[k] = slope[k] if differential[k] == 1 else 0.0
         speed = weighted_norm(point, point.at_u)
-        bend = bend_beyond_rounding(point, matrices)
-        if speed * speed > NO_AMPLITUDE * bend and not is_straight(run, bend):
-            scale = speed / bend
+        curvature_size = curvature_beyond_rounding(point, matrices)
+        if speed * speed > NO_AMPLITUDE * curvature_size and not is_straight(run, curvature_size):
+            scale = speed / curvature_size
             run.h_next = min(run.h_next, root_of_power(scale * (12.0 * allowed / (speed * scale)) ** (1.0 / 3.0)))
         run.h_next = max(run.h_next, 4.0 * smallest_step(run, point))
     rule.gap = 0.0

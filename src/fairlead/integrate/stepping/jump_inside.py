@@ -24,7 +24,7 @@ rule rings, 2 u - y0, and would catch what only slows down. So it is caught for 
 
 One that comes to rest inside the step and goes on at once, the other way, was not held: nothing is missed by a jump.
 
-This is of rows that a machine is known to hold (`holder`). For others the step ends at the jump (switch_inside.py).
+This is of rows that a machine is known to hold (`holder`). For others the step ends at the jump (jump_at_end.py).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from __future__ import annotations
 from fairlead.integrate.codes import MIDDLE
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.stepping.switch_inside import note_kind, share
+from fairlead.integrate.stepping.jump_at_end import note_kind, zero_of_guard
 from fairlead.integrate.stepping.third_order import move_by_error
 
 STAYED, NO_LIMIT = -2, -1
@@ -76,7 +76,7 @@ def find_limits(guards, contacts):
     for k in range(contacts.n_suspects):
         i, z = suspects[k], machine[suspects[k]]
         if z >= 0 and at[z] != STAYED and may_jump[i] == 1 and old[z] == start[z]:
-            at[z] = share(guards, i)
+            at[z] = zero_of_guard(guards, i)
 
 
 @compiled
@@ -109,7 +109,7 @@ def ask_of_rows(m, h):
     field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
     field_at(problem.call_forces, (problem.context, point.t + h, point.at_y_end, point.at_f))
     problem.rhs += 2
-    before, after, weight = reals(point.at_x, n), reals(point.at_f, n), reals(m.linear.factors.at_column_scale, n)
+    f_start, f_end, weight = reals(point.at_x, n), reals(point.at_f, n), reals(m.linear.factors.at_column_scale, n)
     kick, first, second = reals(rule.at_kick, n), reals(rule.at_kick_first, n), reals(rule.at_kick_second, n)
     for k in range(n):
         z = holder[k]
@@ -117,7 +117,7 @@ def ask_of_rows(m, h):
             continue
         s, jump = max((at[z] * (rule.gap + 0.5 * h) - rule.gap) / h, EARLIEST), 0.0
         if at[z] != NO_LIMIT:
-            jump = before[k] + at[z] * (after[k] - before[k])
+            jump = f_start[k] + at[z] * (f_end[k] - f_start[k])
         if abs(jump) > weight[k]:
             jumped[z] = 1
         else:

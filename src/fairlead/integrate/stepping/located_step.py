@@ -6,55 +6,57 @@ are judged on the dense output as `rodas` judges them (crossing.py), and what fi
 
     forces     means over the step, so those of its middle; at its end the line through this middle and the one
                before says what they are, and between its ends a straight line
-    error      the third difference of all differential unknowns, speeds among them; of a force that holds the bend
+    error      the third difference of all differential unknowns, speeds among them; of a force that holds the second
     energy     from the states at the nodes of Gauss (meters.py)
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.events.crossing import COMPANION, CROSSING, first_crossing
-from fairlead.integrate.events.given_up import mend_start
 from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
-from fairlead.integrate.record.between import STIFF, take_slip_away
+from fairlead.integrate.point.stiff import follows_within
+from fairlead.integrate.record.between import take_slip_away
 
 CAREFUL = 10.0
 """A step is allowed a tenth of a weight: errors of one sign add up, and energy is to be right to ten accuracies of what
 passed. With one weight one in ten random networks of springs missed that (tests/hard, random networks)."""
 HOLD_SHARE = 0.025
-"""Share of the bend of a holding force that counts as its error."""
+"""Share of the second difference of a holding force that counts as its error."""
 LITTLE = 1.0 / CAREFUL
 """Weights of a force that the stop of a slip that counts as none may seem to be: what is allowed of any error."""
 FOLLOWED = 0.1
 """Share of the way to the balance that is left as error where it was gone. The factors of the step go all of it but
 2/(2 + h |J|/M), less than 2/STIFF, where the law is straight. Five times that is for laws that bend: it is chosen."""
-ARRANGED, ACCEPTED, CUT = 0, 1, 2
 
 
 @compiled
-def stops_little(m):
-    """True if contacts that hold begin the step with a slip that counts as none: it is taken away, by an impulse.
+def holds_with_slip(m):
+    """True if contacts that hold begin the step with a slip that counts as none.
 
     A step would take it away by a mean force m v/h, which says nothing about what holds.
     """
-    problem, point, exchange = m.problem, m.point, m.stepping.exchange
+    problem, point = m.problem, m.point
     if problem.call_drift == 0:
         return False
-    slip, holder = reals(point.at_residual, problem.n), indices(problem.at_holder, problem.n)
-    holds, weight = indices(exchange.at_holds, problem.n), reals(point.at_weight, problem.n)
+    minus_slip, holder = reals(point.at_minus_slip, problem.n), indices(problem.at_holder, problem.n)
+    holds, weight = indices(m.stepping.exchange.at_holds, problem.n), reals(point.at_weight, problem.n)
     inertia = reals(m.stepping.contacts.at_held_inertia, problem.n_zones)
-    field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_residual))
+    field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_minus_slip))
     weigh(point, point.at_y)
     found = False
     for k in range(problem.n):
         if holds[k] == 1 and holder[k] >= 0:
-            found = found or inertia[holder[k]] * abs(slip[k]) > LITTLE * m.run.h * weight[k]
-    if found:
-        take_slip_away(problem, point, m.linear, exchange, point.t, point.at_y)
-        m.events.guards.n_fired = 0
+            found = found or inertia[holder[k]] * abs(minus_slip[k]) > LITTLE * m.run.h * weight[k]
     return found
+
+
+@compiled
+def stop_slip(m):
+    """Take the slip of what holds away at the start of the step, by an impulse; no guard fires for that."""
+    take_slip_away(m.problem, m.point, m.linear, m.stepping.exchange, m.point.t, m.point.at_y)
+    m.events.guards.n_fired = 0
 
 
 @compiled
@@ -75,18 +77,19 @@ def balance_end(m, h):
     """Put what follows at once where the laws of the end balance; the error, in weights, of what may follow in a step.
 
     Algebraic unknowns are on the line through this middle and the one before, and an unknown with a stiff law rings
-    about its balance by a third of the bend of what it follows. The residual f - M y' at the end, through the factors
-    of the step, says how far they are off; y' there is the mean slope and half the change from the one before.
+    about its balance by a third of the second difference of what it follows. The residual f - M y' at the end, through
+    the factors of the step, says how far they are off; y' there is the mean slope and half the change from the one
+    before.
     """
     problem, point, matrices, rule = m.problem, m.point, m.linear.matrices, m.stepping.rule
     n = problem.n
     y_end, slope, before = reals(point.at_y_end, n), reals(rule.at_mean_slope, n), reals(rule.at_slope_before, n)
-    b, v, error = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
+    way, minus_rate, error = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
     differential, holds = indices(problem.at_differential, n), indices(m.stepping.exchange.at_holds, n)
     watched = indices(m.method.at_watched, n)
-    ahead = 0.5 * h / (rule.gap + 0.5 * h)
+    to_end = 0.5 * h / (rule.gap + 0.5 * h)
     for k in range(n):
-        v[k] = -slope[k] - ahead * (slope[k] - before[k]) if differential[k] == 1 else 0.0
+        minus_rate[k] = -slope[k] - to_end * (slope[k] - before[k]) if differential[k] == 1 else 0.0
         if differential[k] == 0:
             y_end[k] += 0.5 * h * slope[k]
     field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_b))
@@ -95,27 +98,17 @@ def balance_end(m, h):
     for k in range(n):
         error[k] = 0.0
         if holds[k] == 1:
-            b[k] = 0.0
+            way[k] = 0.0
     solve(m.linear, point.at_b)
     for k in range(n):
         if differential[k] == 0:
-            y_end[k] += b[k]
+            y_end[k] += way[k]
         elif watched[k] == 1:
-            error[k] = b[k]
-            if follows(matrices, k, h):
-                y_end[k] += b[k]
+            error[k] = way[k]
+            if follows_within(matrices, k, h):
+                y_end[k] += way[k]
                 error[k] *= FOLLOWED
     return weighted_norm(point, point.at_error_vector)
-
-
-@compiled
-def follows(matrices, k, h):
-    """True if unknown k follows what drives it within the step h."""
-    place, mass = indices(matrices.at_diagonal_slope, matrices.n)[k], indices(matrices.at_diagonal_mass, matrices.n)[k]
-    if place < 0 or mass < 0:
-        return False
-    inertia = reals(matrices.at_mass, matrices.n_mass)[mass]
-    return -reals(matrices.at_jacobian, matrices.n_jacobian)[place] * h > STIFF * inertia > 0.0
 
 
 @compiled
@@ -128,13 +121,3 @@ def remember_middle(point, rule, h):
         if differential[k] == 0:
             start = y[k] if rule.gap == 0.0 else mean[k]
             mean[k] = start + slope[k] * (rule.gap + 0.5 * h)
-
-
-@compiled
-def judge_guards(m, h):
-    """ACCEPTED, or CUT at the first switch; else ARRANGED: the start is settled instead, or a shorter step taken."""
-    found = first_crossing(m, h)
-    if found == COMPANION:
-        mend_start(m, h)
-        return ARRANGED
-    return CUT if found == CROSSING else ACCEPTED

@@ -7,7 +7,7 @@ import numpy as np
 from fairlead.integrate.linear.condensing import columns_of, core_entries, lay_out
 from fairlead.integrate.problem import Floats, Instance, Integers, Problem
 
-MOST = 8
+MOST_NEIGHBOURS = 8
 """A machine with more neighbours than this hands nothing on: a big body that many contacts act on."""
 
 
@@ -154,6 +154,6 @@ def _found(problem: Problem, holder: Integers) -> list[list[int]]:
     found: list[list[int]] = [[] for _ in range(len(problem.zones))]
     for machine, own in speeds.items():
         others = {other for speed in own for near in acts[speed] for other in machines[near]} - {machine}
-        if len(others) <= MOST:
+        if len(others) <= MOST_NEIGHBOURS:
             found[machine] = sorted(others)
     return found

@@ -1,8 +1,8 @@
 """A guard that rises inside a step and has fallen by its end: a stop touched and left, a rope snatched for a moment.
 
 A step has the zones of its end for all of it, and would not see it. Contacts that may hold are left out: their forces
-are means, and step_error.unseen_slip sees to them; and in the first of these also kinks of tables, where nothing jumps
-but a slope.
+are means, and limit_violation.unseen_slip sees to them; and in the first of these also kinks of tables, where nothing
+jumps but a slope.
 
     a step that its error limits     is short for what moves. Of a guard below zero at both its ends the parabola
                                      through these values and the one a step before says where it is highest, or through
@@ -12,7 +12,7 @@ but a slope.
                                      equal parts, on the chord, for kinks of tables too.
 
 The step then ends where the guard was found above its tolerance; of the first kind if the impulse of what is touched
-counts.
+counts. A function `find_...` leaves the place that it finds in `t_cut`.
 """
 
 from __future__ import annotations
@@ -25,48 +25,49 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 from fairlead.integrate.point.controller import IDLE_ERROR
 from fairlead.integrate.point.interpolant import interpolate
 from fairlead.integrate.point.meters import inertia_of
-from fairlead.integrate.stepping.step_error import BEYOND, response_of
+from fairlead.integrate.stepping.limit_violation import BEYOND
+from fairlead.integrate.stepping.response import response_of
 
 PARTS = 8
 """No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
 
 
 @compiled
-def guards_are_passed(m, h):
+def find_passed_guard(m, h):
     """True if such a guard is above its tolerance inside the step; the place of the first goes to `t_cut`."""
     if m.stepping.contacts.n_free_guards == 0 or m.events.settling.passes > 0:
         return False
-    return touched_on_the_way(m, h) if m.run.error >= IDLE_ERROR else touched_while_idle(m, h)
+    return find_touch(m, h) if m.run.error >= IDLE_ERROR else find_touch_while_idle(m, h)
 
 
 @compiled
-def touched_on_the_way(m, h):
+def find_touch(m, h):
     """True if a guard of a stop or rope is above its tolerance inside a step whose length its error limits."""
     guards, rule = m.events.guards, m.stepping.rule
     ng = guards.n_guards
-    g, end, early = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(guards.at_g_early, ng)
-    before = -2.0 * rule.gap
+    g, end, third = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(m.stepping.contacts.at_g_before, ng)
+    t_third = -2.0 * rule.gap
     if rule.gap == 0.0:
-        guards_inside(m, 0.5, h)
-        early = reals(guards.at_g_late, ng)
-        copy(reals(guards.at_g_probe, ng), early)
-        before = 0.5 * h
+        evaluate_inside(m, 0.5, h)
+        third = reals(guards.at_g_late, ng)
+        copy(reals(guards.at_g_probe, ng), third)
+        t_third = 0.5 * h
     kink, soonest = indices(m.problem.at_kink_guard, ng), 1.0
     for i in range(ng):
         if not (g[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(m, i)):
             continue
         slope = (end[i] - g[i]) / h
-        bend = (slope - (early[i] - g[i]) / before) / (h - before)  # half of the second derivative
-        if not bend < 0.0:
+        curve = (slope - (third[i] - g[i]) / t_third) / (h - t_third)  # half of the second derivative
+        if not curve < 0.0:
             continue
-        s = 0.5 - 0.5 * slope / (bend * h)
-        if 0.0 < s < soonest and g[i] + s * h * slope - bend * h * h * s * (1.0 - s) * (1.0 + BEYOND) > 0.0:
+        s = 0.5 - 0.5 * slope / (curve * h)
+        if 0.0 < s < soonest and g[i] + s * h * slope - curve * h * h * s * (1.0 - s) * (1.0 + BEYOND) > 0.0:
             soonest = s
-    return soonest < 1.0 and is_above(m, soonest, h)
+    return soonest < 1.0 and note_touched(m, soonest, h)
 
 
 @compiled
-def guards_inside(m, s, h):
+def evaluate_inside(m, s, h):
     """Guards at the share s of the step, on its dense output, into `g_probe`."""
     point, guards = m.point, m.events.guards
     interpolate(point, s, point.at_y_probe)
@@ -74,9 +75,9 @@ def guards_inside(m, s, h):
 
 
 @compiled
-def is_above(m, s, h):
+def note_touched(m, s, h):
     """True if a guard of a stop or rope is above its tolerance at the share s of the step; it goes to `t_cut`."""
-    guards_inside(m, s, h)
+    evaluate_inside(m, s, h)
     guards = m.events.guards
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     start, end = reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards)
@@ -103,18 +104,18 @@ def impulse_counts(m, s, h, found, lasting):
     t = point.t + s * h
     zones, kept = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones)
     copy(zones, kept)
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_residual))
+    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_f))
     switch_at(problem.call_switch, (problem.context, t, point.at_y_probe, m.events.guards.at_fired, found))
     field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_x))
     copy(kept, zones)
     problem.rhs += 2
-    new, old = reals(point.at_x, problem.n), reals(point.at_residual, problem.n)
+    f_new, f_old = reals(point.at_x, problem.n), reals(point.at_f, problem.n)
     weight, position = reals(point.at_weight, problem.n), indices(problem.at_position_of, problem.n)
     for v in range(problem.n):
         x = position[v]
-        inertia = inertia_of(matrices, v) if x >= 0 and old[v] != new[v] else 0.0
+        inertia = inertia_of(matrices, v) if x >= 0 and f_old[v] != f_new[v] else 0.0
         if inertia > 0.0:
-            error = lasting * abs(new[v] - old[v]) / (1.5 * inertia)
+            error = lasting * abs(f_new[v] - f_old[v]) / (1.5 * inertia)
             if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
                 return True
     return False
@@ -128,19 +129,20 @@ def is_free(m, i):
 
 
 @compiled
-def touched_while_idle(m, h):
+def find_touch_while_idle(m, h):
     """The same of a step that its error does not limit."""
     run, point, guards, settling, contacts = m.run, m.point, m.events.guards, m.events.settling, m.stepping.contacts
     y, y_end, probe = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_y_probe, point.n)
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    machine, rows = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_hold_row, settling.n_zones)
+    machine = indices(guards.at_guard_machine, guards.n_guards)
+    hold_row = indices(contacts.at_hold_row, settling.n_zones)
     for part in range(1, PARTS):
         s = part / PARTS
         for k in range(point.n):
             probe[k] = y[k] + s * (y_end[k] - y[k])
         evaluate_guards(m.problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
         for i in range(guards.n_guards):
-            if g[i] > tolerance[i] and machine[i] >= 0 and rows[machine[i]] < 0:
+            if g[i] > tolerance[i] and machine[i] >= 0 and hold_row[machine[i]] < 0:
                 m.stepping.rule.t_cut = point.t + s * h
                 point.worst = -1
                 return s * h > smallest_step(run, point)

@@ -41,7 +41,7 @@ SEARCHED, GIVEN_UP = 1, 2
 
 
 @compiled
-def theta_point(point, rule):
+def find_theta_point(point, rule):
     """Into `u`: where the laws are evaluated."""
     y, y_end, u = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_u, point.n)
     differential, theta = indices(point.at_differential, point.n), rule.theta_now
@@ -82,7 +82,7 @@ def differs(problem):
 
 
 @compiled
-def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
+def find_residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     """Set b = f - M (y1 - y0)/h, and -slip/h at the end of the step in the rows of held contacts.
 
     friction   the force of a contact is an unknown in u, so all it does to bodies is in f (`call_forces`: all of f but
@@ -95,7 +95,7 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     """
     rule, exchange = stepping.rule, stepping.exchange
     n = problem.n
-    theta_point(point, rule)
+    find_theta_point(point, rule)
     read_on_chord(problem, point, rule.theta_now, h)
     if may_be_last and problem.n_quadratures > 0 and rule.theta_now != MIDDLE:
         field_at(problem.call_rhs, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
@@ -103,27 +103,27 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
         field_at(problem.call_forces, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
     read_at_instant(problem)
     problem.rhs += 1
-    y, y_end, v, b = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_v, n), reals(point.at_b, n)
+    y, y_end, minus_rate, b = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_v, n), reals(point.at_b, n)
     f, kick = reals(point.at_f, n), reals(rule.at_kick, n)
     differential, holds = indices(problem.at_differential, n), indices(exchange.at_holds, n)
     backward = -1.0 / h
     for k in range(n):
-        v[k] = backward * (y_end[k] - y[k]) if differential[k] == 1 else 0.0
+        minus_rate[k] = backward * (y_end[k] - y[k]) if differential[k] == 1 else 0.0
         b[k] = f[k] - kick[k] if holds[k] == 0 else 0.0
     add_mass_times(matrices, point.at_v, point.at_b)
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
-    caught, slip = indices(exchange.at_caught, n), reals(point.at_residual, n)
+    caught, minus_slip = indices(exchange.at_caught, n), reals(point.at_minus_slip, n)
     if exchange.newly_held == 1 or exchange.driven == 1:
-        field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_residual))
+        field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
         for e in range(exchange.n_hold_mass):
             if holds[row[e]] == 1 and (exchange.driven == 1 or caught[row[e]] == 1):
-                b[row[e]] = slip[row[e]] / h
+                b[row[e]] = minus_slip[row[e]] / h
     else:  # the row of a caught contact is linear, so a full move has left no slip
         for e in range(exchange.n_hold_mass):
             if holds[row[e]] == 1 and caught[row[e]] == 1:
                 b[row[e]] = 0.0
     if exchange.massless == 1:
-        slip_without_mass(problem, point, stepping, h)
+        find_slip_without_mass(problem, point, stepping, h)
     entry, row, column = (
         indices(exchange.at_hold_share, exchange.n_hold_share),
         indices(exchange.at_hold_share_row, exchange.n_hold_share),
@@ -136,18 +136,18 @@ def residual_of_step(problem, point, matrices, stepping, h, may_be_last):
 
 
 @compiled
-def slip_without_mass(problem, point, stepping, h):
+def find_slip_without_mass(problem, point, stepping, h):
     """Set -slip/(theta h) at the theta point in the rows of contacts that hold nodes without mass."""
     rule, exchange = stepping.rule, stepping.exchange
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     of_massless = indices(exchange.at_of_massless, problem.n)
     holds, b = indices(exchange.at_holds, problem.n), reals(point.at_b, problem.n)
-    slip = reals(point.at_error_vector, problem.n)
-    field_at(problem.call_drift, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_error_vector))
+    minus_slip = reals(point.at_minus_slip, problem.n)
+    field_at(problem.call_drift, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_minus_slip))
     for e in range(exchange.n_hold_mass):
         k = row[e]
         if holds[k] == 1 and of_massless[k] == 1:
-            b[k] = slip[k] / (rule.theta_now * h)
+            b[k] = minus_slip[k] / (rule.theta_now * h)
 
 
 @compiled
@@ -176,9 +176,9 @@ def move_end(point, rule):
     """Add the solution in b: theta times the change of a differential unknown, the change of a force."""
     b, y_end = reals(point.at_b, point.n), reals(point.at_y_end, point.n)
     differential = indices(point.at_differential, point.n)
-    ahead = 1.0 / rule.theta_now
+    per_theta = 1.0 / rule.theta_now
     for k in range(point.n):
-        y_end[k] += ahead * b[k] if differential[k] == 1 else b[k]
+        y_end[k] += per_theta * b[k] if differential[k] == 1 else b[k]
 
 
 @compiled
@@ -191,12 +191,12 @@ def remember_move(point, rule):
 def search_line(problem, point, linear, stepping, h, before):
     """Leave the residual after the last move, of which as much is taken back as raises it above `before`."""
     matrices, rule = linear.matrices, stepping.rule
-    residual_of_step(problem, point, matrices, stepping, h, True)
+    find_residual_of_step(problem, point, matrices, stepping, h, True)
     size, share = scaled_residual(point, linear), 1.0
     if size <= max(before, SOLVED):
         return
     fresh = rule.searched == SEARCHED
-    if falls(matrices, stepping, h):
+    if friction_falls_steeply(matrices, stepping, h):
         if fresh:
             rule.searched = GIVEN_UP
         return
@@ -206,19 +206,19 @@ def search_line(problem, point, linear, stepping, h, before):
         stepping.exchange.newly_held = 1  # what is taken back of a move leaves slip in rows that were caught
     y_end, move = reals(point.at_y_end, point.n), reals(rule.at_move, point.n)
     differential = indices(point.at_differential, point.n)
-    ahead = 1.0 / rule.theta_now
+    per_theta = 1.0 / rule.theta_now
     while not size <= (1.0 - ARMIJO * share) * before and share > LEAST_SHARE:
         share *= 0.5
         for k in range(point.n):
-            y_end[k] -= share * (ahead * move[k] if differential[k] == 1 else move[k])
-        residual_of_step(problem, point, matrices, stepping, h, True)
+            y_end[k] -= share * (per_theta * move[k] if differential[k] == 1 else move[k])
+        find_residual_of_step(problem, point, matrices, stepping, h, True)
         size = scaled_residual(point, linear)
     if fresh and not size <= (1.0 - ARMIJO * share) * before:
         rule.searched = GIVEN_UP
 
 
 @compiled
-def falls(matrices, stepping, h):
+def friction_falls_steeply(matrices, stepping, h):
     """True if friction falls with speed by more than the step can follow; that of a contact that may hold might."""
     rule, exchange = stepping.rule, stepping.exchange
     row, holds = indices(exchange.at_hold_mass_row, exchange.n_hold_mass), indices(exchange.at_holds, matrices.n)

@@ -22,7 +22,7 @@ ROW, CONSTANT = 1, 2
 """What is known of a machine in a zone: nothing (0), its rows of J and M, and the constant too."""
 OF_KIND = 4
 """A row taken from a machine of the same kind."""
-ROUNDING = 1e-14
+SPEED_ROUNDING = 1e-14
 """A slip that may be left of two speeds of one m/s."""
 
 
@@ -86,7 +86,7 @@ def row_of(problem, stepping, z):
         return -1
     if indices(exchange.at_known, exchange.n_known)[zone * problem.n_zones + z] > 0:
         return z
-    if problem.linear == 0 or (exchange.distrusted & OF_KIND) != 0:
+    if problem.linear == 0 or (exchange.invalidated & OF_KIND) != 0:
         return -1
     kind = indices(stepping.contacts.at_own_kind, problem.n_zones)
     return indices(exchange.at_known_of_kind, exchange.n_known)[zone * problem.n_zones + kind[z]] - 1
@@ -99,14 +99,14 @@ def take_row(problem, matrices, stepping, z):
     like = row_of(problem, stepping, z)
     move_row(matrices, exchange, z, like, False)
     if like != z:
-        exchange.guessed |= OF_KIND
+        exchange.assumed |= OF_KIND
         move_row(matrices, exchange, z, z, True)
         zone = indices(exchange.at_zones, exchange.n_zones)[z]
         indices(exchange.at_known, exchange.n_known)[zone * exchange.n_zones + z] = ROW
 
 
 @compiled
-def row_holds(matrices, exchange, z):
+def note_hold(matrices, exchange, z):
     """1 if the row of machine z has an entry in M; also marks it if that is of a node without mass."""
     starts = indices(exchange.at_own_mass_starts, exchange.n_zones + 1)
     entries = indices(exchange.at_own_masses, exchange.n_own_masses)
@@ -142,11 +142,11 @@ def learn_constants(point, matrices, stepping):
 
 @compiled
 def residual_of_row(point, matrices, stepping, z, h):
-    """The entry of b in the row of machine z: by the constant, or where it holds by the slip, in `residual`."""
+    """The entry of b in the row of machine z: by the constant, or where it holds by `minus_slip`."""
     exchange = stepping.exchange
     row = indices(exchange.at_own_row, exchange.n_zones)[z]
     if indices(exchange.at_holds, point.n)[row] == 1:
-        return reals(point.at_residual, point.n)[row] / h + linear_part(point, matrices, stepping, z)
+        return reals(point.at_minus_slip, point.n)[row] / h + linear_part(point, matrices, stepping, z)
     zone = indices(exchange.at_zones, exchange.n_zones)[z]
     constants = reals(exchange.at_known_constants, exchange.n_known)
     kick = reals(stepping.rule.at_kick, point.n)[row]
@@ -171,9 +171,9 @@ def linear_part(point, matrices, stepping, z):
 
 
 @compiled
-def rows_tell(problem, exchange):
+def rows_are_known(problem, exchange):
     """True if f is linear, and the residual of the rows just exchanged known without it."""
-    if problem.linear == 0 or (exchange.distrusted & CONSTANT) != 0 or exchange.driven == 1 or exchange.massless == 1:
+    if problem.linear == 0 or (exchange.invalidated & CONSTANT) != 0 or exchange.driven == 1 or exchange.massless == 1:
         return False
     changed = indices(exchange.at_exchanged_machines, problem.n_zones)
     zones = indices(problem.at_zones, problem.n_zones)
@@ -212,7 +212,7 @@ def exchange_rows(problem, linear, stepping, factorised):
         z = changed[c]
         take_row(problem, matrices, stepping, z)
         then[z] = zones[z]
-        now = row_holds(matrices, exchange, z)
+        now = note_hold(matrices, exchange, z)
         if now == 1 and holds[own[z]] == 0:
             caught[own[z]] = 1
             exchange.newly_held = 1
@@ -274,9 +274,9 @@ def solve_exchanged(problem, point, linear, stepping, h):
     """Move `y_end` by the solution for a residual that is zero but in the rows just exchanged."""
     core, factors, exchange = linear.core, linear.factors, stepping.exchange
     factors.solves += 1
-    exchange.guessed |= CONSTANT
+    exchange.assumed |= CONSTANT
     if exchange.newly_held == 1:
-        field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_residual))
+        field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
     n = core.n_core
     x, place = reals(core.at_core_x, n), indices(factors.at_row_place, problem.n)
     changed = indices(exchange.at_exchanged_machines, problem.n_zones)
@@ -288,24 +288,24 @@ def solve_exchanged(problem, point, linear, stepping, h):
     substitute(factors, core.at_core_x)
     order, y_end = indices(factors.at_column_order, n), reals(point.at_y_end, problem.n)
     differential = indices(problem.at_differential, problem.n)
-    b, ahead = reals(point.at_b, problem.n), 1.0 / stepping.rule.theta_now
+    b, per_theta = reals(point.at_b, problem.n), 1.0 / stepping.rule.theta_now
     for k in range(n):
         j = order[k]
         b[j] = x[k]
-        y_end[j] += ahead * x[k] if differential[j] == 1 else x[k]
+        y_end[j] += per_theta * x[k] if differential[j] == 1 else x[k]
     position, speed = indices(core.at_position, core.n_positions), indices(core.at_position_speed, core.n_positions)
     ratio = reals(core.at_position_ratio, core.n_positions)
     for k in range(core.n_positions):
         if speed[k] >= 0:
-            y_end[position[k]] += ahead * ratio[k] * b[speed[k]]
+            y_end[position[k]] += per_theta * ratio[k] * b[speed[k]]
 
 
 @compiled
-def give_up_guesses(stepping):
+def invalidate_assumed(stepping):
     """The laws say otherwise than the rows of before: evaluate all, and rely on those no more."""
     exchange = stepping.exchange
-    exchange.distrusted |= exchange.guessed
-    exchange.guessed = 0
+    exchange.invalidated |= exchange.assumed
+    exchange.assumed = 0
     stepping.rule.linearised = 0
     forget_rows(exchange)
 
@@ -316,14 +316,14 @@ def watch_surfaces(problem, point, matrices, exchange):
     exchange.caught_by_row = 0
     if exchange.driven == 1:
         return
-    field_at(problem.call_drift, (problem.context, point.t, point.at_y_end, point.at_residual))
+    field_at(problem.call_drift, (problem.context, point.t, point.at_y_end, point.at_minus_slip))
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
     entry, values = indices(exchange.at_hold_mass, exchange.n_hold_mass), reals(matrices.at_mass, matrices.n_mass)
     y_end = reals(point.at_y_end, problem.n)
     holds, caught = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n)
-    slip = reals(point.at_residual, problem.n)
+    minus_slip = reals(point.at_minus_slip, problem.n)
     for e in range(exchange.n_hold_mass):
-        left = ROUNDING * (1.0 + abs(values[entry[e]] * y_end[column[e]]))
-        if holds[row[e]] == 1 and caught[row[e]] == 1 and abs(slip[row[e]]) > left:
+        left = SPEED_ROUNDING * (1.0 + abs(values[entry[e]] * y_end[column[e]]))
+        if holds[row[e]] == 1 and caught[row[e]] == 1 and abs(minus_slip[row[e]]) > left:
             exchange.driven = 1

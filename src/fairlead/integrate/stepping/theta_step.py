@@ -32,10 +32,11 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 from fairlead.integrate.stepping.active_set import (
     begin_set,
     expect_fronts,
+    fire_violators_of_step,
     follow_guards,
     learn_from_neighbours,
-    violators,
 )
+from fairlead.integrate.stepping.jump_at_end import all_continuous, find_jumping_law, find_means, place_jump
 from fairlead.integrate.stepping.jump_inside import (
     doubt_captures,
     forget_jumps,
@@ -47,32 +48,25 @@ from fairlead.integrate.stepping.residual import (
     MOST_SEARCHED,
     SEARCHED,
     SOLVED,
+    find_residual_of_step,
+    find_theta_point,
     move_end,
     read_at_instant,
     read_on_chord,
     remember_move,
-    residual_of_step,
     scaled_residual,
     search_line,
-    theta_point,
 )
 from fairlead.integrate.stepping.row_cache import (
     exchange_rows,
-    give_up_guesses,
+    invalidate_assumed,
     learn_constants,
     learn_rows,
-    rows_tell,
+    rows_are_known,
     solve_exchanged,
     watch_surfaces,
 )
-from fairlead.integrate.stepping.switch_inside import (
-    all_continuous,
-    find_jump,
-    find_means,
-    forget_switches,
-    law_jumps,
-    note_switches,
-)
+from fairlead.integrate.stepping.switch_inside import forget_switches, note_switches
 
 CYCLES, DIVERGES, JUMPS, ONCE_MORE, AFRESH = 6, 7, 8, 9, 10
 SLOW = 0.01
@@ -97,7 +91,7 @@ def take_theta_step(m, h):
     begin_set(m.run, settling, stepping)
     expect_fronts(m, h)
     solves, solved, previous = 0, False, 1e300
-    exchange.guessed, exchange.caught_by_row, rule.searched = 0, 0, 0
+    exchange.assumed, exchange.caught_by_row, rule.searched = 0, 0, 0
     while True:
         rule.midway = 1 if solved or problem.linear == 0 else 0
         if problem.linear == 0 and solves > 0:
@@ -105,7 +99,7 @@ def take_theta_step(m, h):
         status = linearise_step(problem, point, linear, stepping, h)
         if status != DONE:
             return status
-        if solved and exchange.rows_alone == 1 and settling.one_by_one == 0 and rows_tell(problem, exchange):
+        if solved and exchange.rows_alone == 1 and settling.one_by_one == 0 and rows_are_known(problem, exchange):
             solve_exchanged(problem, point, linear, stepping, h)
         else:
             verdict, previous = approach_laws(problem, point, linear, stepping, h, solves, previous)
@@ -118,8 +112,8 @@ def take_theta_step(m, h):
         solves += 1
         exchange.newly_held = 0
         if rule.locates == 0:
-            guards_of_step(m, h)
-            violators(guards)
+            evaluate_guards_of_step(m, h)
+            fire_violators_of_step(guards)
             doubt_captures(m, h)
         if rule.locates == 1 or rule.frozen == 1:
             guards.n_fired = 0
@@ -130,8 +124,8 @@ def take_theta_step(m, h):
             continue
         solves = 0
         status = switch_zones(m, h)
-        if status == CYCLES and exchange.guessed > 0:
-            give_up_guesses(stepping)
+        if status == CYCLES and exchange.assumed > 0:
+            invalidate_assumed(stepping)
         if status != ONCE_MORE:
             return status
 
@@ -146,9 +140,9 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
     exchange.newly_held |= exchange.caught_by_row
     size = previous
     if problem.linear == 1:
-        residual_of_step(problem, point, matrices, stepping, h, solves > 0)
+        find_residual_of_step(problem, point, matrices, stepping, h, solves > 0)
     elif solves == 0:
-        residual_of_step(problem, point, matrices, stepping, h, False)
+        find_residual_of_step(problem, point, matrices, stepping, h, False)
         size = scaled_residual(point, linear)
     if solves > 0:
         verdict, size = judge_residual(problem, point, linear, stepping, solves, previous)
@@ -156,8 +150,8 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
             move_quadratures(point, h)
             if exchange.caught_by_row == 1:
                 watch_surfaces(problem, point, matrices, exchange)
-        elif exchange.guessed > 0:
-            give_up_guesses(stepping)
+        elif exchange.assumed > 0:
+            invalidate_assumed(stepping)
             return AFRESH, size
         if verdict != ONCE_MORE:
             return verdict, size
@@ -179,15 +173,15 @@ def switch_zones(m, h):
     if settling.passes > 0:
         learn_from_neighbours(run, guards, contacts)
     known = all_continuous(guards, contacts)
-    if settling.passes == 0 and not known and rule.gap > 0.0 and law_jumps(m, h):
+    if settling.passes == 0 and not known and rule.gap > 0.0 and find_jumping_law(m, h):
         find_means(m, h)
-        find_jump(point, guards, contacts, rule, h)
+        place_jump(point, guards, contacts, rule, h)
         return JUMPS
     note_fired(guards, contacts)
     if follow_guards(m, h, known):
         copy(indices(contacts.at_zones_probed, contacts.n_zones), indices(contacts.at_zones, contacts.n_zones))
         find_means(m, h)
-        find_jump(point, guards, contacts, rule, h)
+        place_jump(point, guards, contacts, rule, h)
         return JUMPS
     if not known:
         put_jumps_right(m, h)
@@ -265,7 +259,7 @@ def evaluate_slopes(problem, point, linear, stepping, h):
     """M and J of the zones in force, at the theta point."""
     matrices, factors, rule = linear.matrices, linear.factors, stepping.rule
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
-    theta_point(point, rule)
+    find_theta_point(point, rule)
     t = point.t + rule.theta_now * h
     read_on_chord(problem, point, rule.theta_now, h)
     jacobian_at(problem.call_slopes, (problem.context, t, point.at_u, matrices.at_jacobian, point.at_ft))
@@ -320,7 +314,7 @@ def find_holds(point, matrices, exchange):
 
 
 @compiled
-def guards_of_step(m, h):
+def evaluate_guards_of_step(m, h):
     """Into `g_end` every guard where its law is read: limits of forces at the theta point, others at the end.
 
     Of contacts on nodes without mass all are read at the theta point.
@@ -336,7 +330,7 @@ def guards_of_step(m, h):
     seldom = constant and settling.one_by_one == 0 and (settling.passes > 0 or run.steps % LOOK_AT_LIMITS != 0)
     if exchange.massless == 0 and (contacts.has_limits == 0 or seldom):
         return
-    theta_point(point, rule)
+    find_theta_point(point, rule)
     read_on_chord(problem, point, rule.theta_now, h)
     evaluate_guards(problem, run, guards, point.t + rule.theta_now * h, point.at_u, guards.at_g_probe)
     read_at_instant(problem)
@@ -352,10 +346,10 @@ def guards_of_step(m, h):
             g[i] = at_theta[i]
     if exchange.massless == 1:
         machine = indices(problem.at_guard_machine, problem.n_guards)
-        rows = indices(contacts.at_hold_row, problem.n_zones)
+        hold_row = indices(contacts.at_hold_row, problem.n_zones)
         of_massless = indices(exchange.at_of_massless, problem.n)
         for i in range(problem.n_guards):
-            if machine[i] >= 0 and rows[machine[i]] >= 0 and of_massless[rows[machine[i]]] == 1:
+            if machine[i] >= 0 and hold_row[machine[i]] >= 0 and of_massless[hold_row[machine[i]]] == 1:
                 g[i] = at_theta[i]
 
 
@@ -363,7 +357,7 @@ def guards_of_step(m, h):
 def add_quadratures(problem, point, rule, h):
     """The rise of the quadratures over the step that was taken; the iteration leaves them out."""
     if problem.n_quadratures > 0 and rule.theta_now != MIDDLE:
-        theta_point(point, rule)
+        find_theta_point(point, rule)
         read_on_chord(problem, point, rule.theta_now, h)
         field_at(problem.call_rhs, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_f))
         read_at_instant(problem)

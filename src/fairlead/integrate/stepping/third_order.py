@@ -47,23 +47,23 @@ def move_by_error(problem, point, linear, stepping, h):
     kick, first, second = (
         reals(stepping.rule.at_kick, n), reals(stepping.rule.at_kick_first, n), reals(stepping.rule.at_kick_second, n),
     )  # fmt: skip
-    f0, f1, b, v = reals(point.at_x, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_v, n)
-    y, y_end, bend = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_u, n)
+    f0, f1, b, minus_rate_third = reals(point.at_x, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_v, n)
+    y, y_end, twelfth = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_u, n)
     holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
-    moving, ahead = indices(problem.at_differential, n), reals(point.at_error_vector, n)
-    chord_ahead(problem, point, h)
-    forces_at_ends(problem, point, stepping.rule, h)
+    moving, chord_defect = indices(problem.at_differential, n), reals(point.at_error_vector, n)
+    find_chord_defect(problem, point, h)
+    find_forces_at_ends(problem, point, stepping.rule, h)
     core.skip_meters = 1
     for k in range(n):
-        b[k] = f1[k] - f0[k] + 4.0 * ahead[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
+        b[k] = f1[k] - f0[k] + 4.0 * chord_defect[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
     if exchange.driven == 1:
         follow_surfaces(problem, point, exchange, h)
     solve(linear, point.at_b)
     for k in range(n):
         moves = moving[k] == 1 and quadrature[k] == 0
-        bend[k] = b[k] / 6.0 if moves else 0.0
-        v[k] = (y[k] - y_end[k]) / (3.0 * h) if moves else 0.0
-        b[k] = (f0[k] + f1[k]) / 6.0 - ahead[k] / 1.5 - kick[k] / 3.0 - second[k]
+        twelfth[k] = b[k] / 6.0 if moves else 0.0
+        minus_rate_third[k] = (y[k] - y_end[k]) / (3.0 * h) if moves else 0.0
+        b[k] = (f0[k] + f1[k]) / 6.0 - chord_defect[k] / 1.5 - kick[k] / 3.0 - second[k]
     add_mass_times(matrices, point.at_v, point.at_b)
     add_jacobian_times(matrices, -1.0, point.at_u, point.at_b)
     for k in range(n):
@@ -81,12 +81,12 @@ def move_by_error(problem, point, linear, stepping, h):
 def damp_end(problem, point, linear, stepping):
     """Add g to b, W g = -J b/2 and what jumps need besides: by this no end keeps what is stiff (jump_inside.py)."""
     n = problem.n
-    b, v, d = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
+    b, moved, half_moved = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
     holds, quadrature = indices(stepping.exchange.at_holds, n), indices(problem.at_quadrature, n)
     moving, second = indices(problem.at_differential, n), reals(stepping.rule.at_kick_second, n)
     for k in range(n):
-        d[k] = b[k]
-        v[k] = b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
+        half_moved[k] = b[k]
+        moved[k] = b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
         b[k] = second[k]
     add_jacobian_times(linear.matrices, -0.5, point.at_v, point.at_b)
     for k in range(n):
@@ -94,19 +94,19 @@ def damp_end(problem, point, linear, stepping):
             b[k] = 0.0
     solve(linear, point.at_b)
     for k in range(n):
-        b[k] += d[k]
+        b[k] += half_moved[k]
 
 
 @compiled
-def chord_ahead(problem, point, h):
+def find_chord_defect(problem, point, h):
     """Into `error_vector`: f with given motions on their chord, less f with them where they are in the middle.
 
     Only the laws that follow a given motion are evaluated, so that this counts as no evaluation of f.
     """
     y, y_end, u = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_u, problem.n)
-    ahead, moving = reals(point.at_error_vector, problem.n), indices(problem.at_differential, problem.n)
+    chord_defect, moving = reals(point.at_error_vector, problem.n), indices(problem.at_differential, problem.n)
     for k in range(problem.n):
-        ahead[k] = 0.0
+        chord_defect[k] = 0.0
         u[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
     if not differs(problem):
         return
@@ -122,20 +122,20 @@ def follow_surfaces(problem, point, exchange, h):
     At both ends of the step it goes as the surface does, in the middle of the chord by h^2 v''/8 faster.
     """
     y, y_end, chord = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_y_probe, problem.n)
-    slip = reals(point.at_residual, problem.n)
+    minus_slip = reals(point.at_minus_slip, problem.n)
     holds, caught = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n)
     of_massless = indices(exchange.at_of_massless, problem.n)
     moving, b = indices(problem.at_differential, problem.n), reals(point.at_b, problem.n)
     for k in range(problem.n):
         chord[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
-    field_at(problem.call_drift, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_residual))
+    field_at(problem.call_drift, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_minus_slip))
     for k in range(problem.n):
         if holds[k] == 1 and caught[k] == 0 and of_massless[k] == 0:
-            b[k] = -8.0 * slip[k] / h
+            b[k] = -8.0 * minus_slip[k] / h
 
 
 @compiled
-def forces_at_ends(problem, point, rule, h):
+def find_forces_at_ends(problem, point, rule, h):
     """Into `x` and `f`: f at the start and at the end of the step, in its zones and with its forces.
 
     Forces are means over the step. Where switches are landed on, those of the start balance there, and so the end has
@@ -165,10 +165,10 @@ def meter_step(problem, point, h):
     n = problem.n
     y, y_end, mean = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_y_probe, n)
     rate = reals(point.at_f, n)
-    b, bend = reals(point.at_b, n), reals(point.at_u, n)
+    b, twelfth = reals(point.at_b, n), reals(point.at_u, n)
     moving, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
     for k in range(n):
-        mean[k] = 0.5 * (y[k] + y_end[k]) - bend[k] if moving[k] == 1 else y_end[k] + b[k]
+        mean[k] = 0.5 * (y[k] + y_end[k]) - twelfth[k] if moving[k] == 1 else y_end[k] + b[k]
     weigh_ends(problem, point, h, 1.0 / 6.0, 1.0 / 6.0)
     field_at(problem.call_rhs, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_f))
     read_at_instant(problem)

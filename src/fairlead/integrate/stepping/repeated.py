@@ -1,0 +1,166 @@
+"""All that has a step of `stepping` taken again, and with which length; or settled at its start; or with other pivots.
+
+    an error above one              shorter, by the error                         `reject_error`
+    not solved, or zones cycle      half of it, or the same without predictions   `halve_unsolved`
+    no good pivots                  half of it, or with other pivots              `find_pivots`
+    a law that jumps                up to the jump, by event localisation         `localise_jump`, `end_at_switch`
+                                    a settlement where it jumps at the start      `settle_jump`
+    a switch whose impulse counts   up to the switch                              `find_switch_passed`, `end_at_switch`
+
+All but the pivots and the settlement end in `take_again` (events/given_up.py), which alone sets the length of what
+follows; `repeat` gives back the zones of the start before.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from fairlead.integrate.codes import GO_ON, REPLAN, SINGULAR_MATRIX, STEP_FLOOR, UNSETTLED
+from fairlead.integrate.events.given_up import TOO_LONG, settle_at_start, take_again
+from fairlead.integrate.events.pace import not_finite_here, smallest_step
+from fairlead.integrate.linear.systems import SINGULAR
+from fairlead.integrate.memory.foreign import compiled, indices
+from fairlead.integrate.point.controller import step_after_rejection
+from fairlead.integrate.stepping.history import note_rejection
+from fairlead.integrate.stepping.passed_over import find_passed_guard
+from fairlead.integrate.stepping.switch_inside import find_missed_impulse
+from fairlead.integrate.stepping.theta_step import CYCLES, give_back_zones
+
+HALVINGS = 3
+"""Halvings of a step whose iteration met a matrix without good pivots, before others are asked for: mostly it had
+gone astray, and pivots good for such a matrix fail for those that are met otherwise. The first guess of the end is off
+by h^2 y''/2, so after three halvings it is 64 times nearer: what still meets such a matrix did not go astray."""
+TRIES = 4
+"""Tries after which a step is no longer cut at the instant that is told for a switch: one that ends at a jump, in the
+zones of its start, is accepted as it is; others are halved. (What ends at an impulse that is missed counts all that was
+repeated in a row for being too long.) The line through two middles misses the instant, and each try leaves of the miss
+a quarter of the share by which the rate of the load changes on the way there. Four tries come within AT_PLACE where
+that share is below 0.7."""
+AT_PLACE = 1e-3
+"""Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
+than of its equations (residual.SOLVED)."""
+THETA_RISE, THETA_FALL = 0.05, 0.9
+"""theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one."""
+
+
+@compiled
+def repeat(m, length, why):
+    """Have the step taken again from its start, in the zones it had there, `length` long."""
+    give_back_zones(m.events.guards, m.stepping)
+    return take_again(m.run, length, why)
+
+
+@compiled
+def blame(run, point):
+    """Count the unknown whose error has the step taken again."""
+    if point.worst >= 0:
+        indices(run.at_rejections_by_unknown, point.n)[point.worst] += 1
+
+
+@compiled
+def reject_error(m, h):
+    """Repeat a step whose error is too large, by the error; a fixed one ends the run."""
+    run, point = m.run, m.point
+    if isfinite(run.error):
+        run.rejected_error += 1
+        blame(run, point)
+    else:
+        run.rejected_nan += 1
+    repeat(m, step_after_rejection(run, h), TOO_LONG)
+    if run.adaptive == 0:
+        return not_finite_here(m.problem, run, point, STEP_FLOOR)
+    note_rejection(run, m.stepping.rule)
+    return GO_ON if run.h_next >= smallest_step(run, point) else STEP_FLOOR
+
+
+@compiled
+def halve_unsolved(m, h, status):
+    """Halve a step whose zones cycle or whose iteration fails; end the run at the step floor."""
+    run, point, rule = m.run, m.point, m.stepping.rule
+    count_unsolved(run, status)
+    if status == CYCLES and m.stepping.contacts.expecting == 1:
+        rule.failed += 1  # the same step again, without guessing
+        return repeat(m, h, TOO_LONG)
+    rule.failed = rule.failed + 2 if run.adaptive == 1 else 2 * max(rule.failed, 1)  # halves to go, if fixed
+    if status == CYCLES:
+        rule.theta_raise = min(rule.theta_raise + THETA_RISE, 0.5)
+    repeat(m, 0.5 * h, TOO_LONG)
+    if run.h_next >= smallest_step(run, point):
+        return GO_ON
+    if status == CYCLES:
+        return UNSETTLED
+    return not_finite_here(m.problem, run, point, SINGULAR_MATRIX if status == SINGULAR else STEP_FLOOR)
+
+
+@compiled
+def count_unsolved(run, status):
+    """Count a step that was not solved, by its cause."""
+    if status == CYCLES:
+        run.rejected_cycling += 1
+    elif status == SINGULAR:
+        run.rejected_singular += 1
+    else:
+        run.rejected_diverged += 1
+
+
+@compiled
+def find_pivots(m, h):
+    """After a matrix without good pivots: a shorter step if it was met midway, else, or in vain, other pivots."""
+    rule = m.stepping.rule
+    if rule.midway == 1 and (rule.replanned == 1 or m.run.retried < HALVINGS):
+        rule.replanned = 0
+        return halve_unsolved(m, h, SINGULAR)
+    give_back_zones(m.events.guards, m.stepping)
+    return REPLAN
+
+
+@compiled
+def jump_at_start(run, point, rule):
+    """True if a law jumps where the step begins: no step could end there."""
+    return rule.t_cut - point.t <= max(1e-9 * (run.stop - run.start), smallest_step(run, point))
+
+
+@compiled
+def settle_jump(m):
+    """Settle at the start of the step, on the guards in `fired` where laws jump."""
+    guards, fire = m.events.guards, m.events.guards.n_fired
+    give_back_zones(guards, m.stepping)
+    guards.n_fired = fire
+    m.run.rejected_switch += 1
+    m.stepping.rule.localising = 0
+    return settle_at_start(m)
+
+
+@compiled
+def localise_jump(m, h):
+    """True if the step ends where a law jumps; it has the zones of its start then. Else `t_cut` is where it should."""
+    point, rule = m.point, m.stepping.rule
+    often = rule.localising >= TRIES
+    if m.events.settling.passes > 0:
+        if often:
+            rule.t_cut = point.t + 0.5 * h
+    elif often or (rule.localising > 0 and abs(rule.t_cut - point.t - h) <= AT_PLACE * h):
+        give_back_zones(m.events.guards, m.stepping)
+        return True
+    rule.localising += 1
+    return False
+
+
+@compiled
+def find_switch_passed(m, h):
+    """True if the step passes a switch that counts, and has to end there, at `t_cut`; a fixed one never has."""
+    run, point = m.run, m.point
+    if run.adaptive == 0:
+        return False
+    if m.stepping.contacts.n_switched > 0 and find_missed_impulse(m.problem, point, m.linear.matrices, m.stepping, h):
+        if run.retried >= TRIES:
+            m.stepping.rule.t_cut = point.t + 0.5 * h
+        return True
+    return find_passed_guard(m, h)
+
+
+@compiled
+def end_at_switch(m, length, why):
+    """Repeat a step so that it ends at a switch, at `t_cut`: all cuts of steps with switches inside come here."""
+    m.run.rejected_switch += 1
+    return repeat(m, length, why)
