@@ -27,7 +27,7 @@ class MotionSource(Component):
     velocity = Waveform("m/s", "Velocity in time.", default=None)
     position = Waveform("m", "Position in time.", default=None)
     origin = Parameter(
-        "m", "Position at t = 0 when the velocity is given; else where the driven body starts.", default=None,
+        "m", "Position at t = 0 with a velocity; without it the motion begins where the body starts.", default=None,
         physics=False,
     )
     x = Output("m", "Position.")
@@ -56,10 +56,10 @@ class MotionSource(Component):
             what = f"the position jumps by {jump:.3g} m at t = {at:g} s, which takes an infinite force"
             yield "position", what, "Give a ramp, or a velocity, which is integrated."
 
-    def starts_at(p, x):
-        """Where the driven body starts, when only a velocity is given."""
+    def starts_at(p, x, t):
+        """Where the driven body starts, and when, if only a velocity is given."""
         if p.position is None and p.origin is None:
-            p.motion.polynomial.rows[:, 3] += x - p.motion(0.0)
+            p.motion.polynomial.rows[:, 3] += x - p.motion(t)
 
     @derived_wave
     def motion(p):
@@ -77,7 +77,7 @@ class SpeedSource(Component):
     speed = Waveform("rad/s", "Angular speed in time.", default=None)
     angle = Waveform("rad", "Angle in time.", default=None)
     origin = Parameter(
-        "rad", "Angle at t = 0 when the speed is given; else where the driven shaft starts.", default=None,
+        "rad", "Angle at t = 0 with a speed; without it the motion begins where the shaft starts.", default=None,
         physics=False,
     )
     turned = Output("rad", "Angle.", name="angle")
@@ -106,10 +106,10 @@ class SpeedSource(Component):
             what = f"the angle jumps by {jump:.3g} rad at t = {at:g} s, which takes an infinite torque"
             yield "angle", what, "Give a ramp, or a speed, which is integrated."
 
-    def starts_at(p, x):
-        """Where the driven shaft starts, when only a speed is given."""
+    def starts_at(p, x, t):
+        """Where the driven shaft starts, and when, if only a speed is given."""
         if p.angle is None and p.origin is None:
-            p.motion.polynomial.rows[:, 3] += x - p.motion(0.0)
+            p.motion.polynomial.rows[:, 3] += x - p.motion(t)
 
     @derived_wave
     def motion(p):

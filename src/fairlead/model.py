@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from fairlead.netlist.includes import Sources
     from fairlead.netlist.keywords import RunKeywords
     from fairlead.netlist.netlist import Netlist
+    from fairlead.netlist.settings import RunSettings
     from fairlead.outside import Stepping
     from fairlead.result import Result
     from fairlead.statics import StaticsOfLines
@@ -249,7 +250,7 @@ class Model:
         except ModelError as error:
             raise ModelError([*asked.faults, *error.faults]) from None
         asked.refuse()
-        system = self.system
+        system = self._system_from(netlist)
         path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
         result = run(
             self.netlist, netlist, system, None if path is None else pathlib.Path(path),
@@ -280,7 +281,16 @@ class Model:
         asked.refuse()
         named = Tunable.of(self, tunable)
         chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters, "Model.start")
-        return Stepping(self.netlist, chosen, self.system, inputs, tunable=named)
+        return Stepping(self.netlist, chosen, self._system_from(chosen), inputs, tunable=named)
+
+    def _system_from(self, settings: RunSettings) -> System:
+        """The system for a run that starts when these settings say: another one if a motion begins there."""
+        from fairlead.flatten.flatten import begins_with_the_run
+
+        if settings.start == self.netlist.run.start or not begins_with_the_run(self.system.flat):
+            return self.system
+        begin, stop = repr(settings.start), repr(settings.stop)
+        return self._renewed({"run.start": f"{begin} s", "run.stop": f"{stop} s"}, self).system
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
         """A model with other `values` of settings (`{"pad.normal_force": "20 N"}`), `more` of parameters (`mu=0.6`).

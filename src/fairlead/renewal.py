@@ -4,7 +4,8 @@
 
 What is found first, serves:
 
-1. the assembly and the graph of `old`, with the children made again that have other values (component/again.py)
+1. the assembly and the graph of `old`, with the children made again that have other values (component/again.py);
+   not where a motion begins at another time
 2. the structure of `old`: netlist to flat model are made again, and agree with it (flatten/same_wiring.py)
 3. nothing: all stages are made again
 """
@@ -20,6 +21,7 @@ from fairlead.component.instantiate import Assembly
 from fairlead.component.registry import known_types
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.flatten.flatten import begins_with_the_run
 from fairlead.flatten.same_wiring import difference
 from fairlead.netlist.netlist import Netlist
 from fairlead.system.compile import energy_counted
@@ -43,7 +45,8 @@ class Stages(Protocol):
 def renew(old: Stages, new: Stages) -> None:
     """Make the stages of `new`, of one netlist with `old` but for its values. Raises ModelError as they do."""
     system = old.system
-    made = again(old.assembly, old.flattened.instances, new.netlist, known_types(new.libraries))
+    begins = old.netlist.run.start == new.netlist.run.start or not begins_with_the_run(old.flattened)
+    made = again(old.assembly, old.flattened.instances, new.netlist, known_types(new.libraries)) if begins else None
     if made is not None:
         instances = tuple(made.instances.values())
         new.assembly, new.flattened = made, replace(old.flattened, assembly=made, instances=instances)

@@ -210,8 +210,8 @@ class Answers:
     prescribes: Callable[[], Mapping[str, Any]] | None = _asked(
         method(), "ports whose motion is given, each with the outputs for position, speed, acceleration; None at rest"
     )
-    starts_at: Callable[[Any, float], None] | None = _asked(
-        method("p", "x"), "receives the position of the body that it moves, if that follows from other bodies"
+    starts_at: Callable[[Any, float, float], None] | None = _asked(
+        method("p", "x", "t"), "receives where the body that it moves is at the start of the run, and that time"
     )
     moves_as: str = _asked(WAVE, "with `prescribes`: the quantity in time that is the position", default="")
     ties: Callable[[Any], Iterable[tuple[str, str, Any, Any]]] | None = _asked(

@@ -136,10 +136,16 @@ def _start_sources(flat: FlatModel) -> None:
             _shift(flat, made)
 
 
+def begins_with_the_run(flat: FlatModel) -> bool:
+    """Whether a motion is given by its velocity alone: it then begins where the driven body is, when the run starts."""
+    sources = [flat.assembly.instances[one.prescribed.by.instance] for one in flat.groups if one.prescribed is not None]
+    return any(source.type.answers.starts_at is not None for source in sources)
+
+
 def _shift(flat: FlatModel, made: Group) -> None:
     assert made.prescribed is not None
     source = flat.assembly.instances[made.prescribed.by.instance]
     shift = source.type.answers.starts_at
     if shift is not None:
         _, ratio, offset = flat.place(made.prescribed.by)
-        shift(source.values, ratio * made.start[0] + offset)
+        shift(source.values, ratio * made.start[0] + offset, flat.assembly.netlist.run.start)

@@ -2,7 +2,7 @@
 
 A body that is driven is where its drive has it, and as fast. What a part of it says of its start would be dropped;
 where it says other than the drive, that is a contradiction. A motion given by its velocity alone begins where the body
-is (`starts_at`) at t = 0, so that a place says nothing there, nor in a run that starts later.
+is (`starts_at`).
 """
 
 from __future__ import annotations
@@ -77,10 +77,8 @@ def _faults(flat: FlatModel, instance: Instance, ref: PortRef, index: int, said:
     drive = flat.groups[index].prescribed
     assert drive is not None
     faults = []
-    begins_there = flat.assembly.instances[drive.by.instance].type.answers.starts_at is not None
-    place = None if begins_there and flat.assembly.netlist.run.start != 0 else said[0]
     for value, moved, (variable, unit) in zip(
-        (place, said[1]), (ratio * moves[0] + offset, ratio * moves[1]),
+        said, (ratio * moves[0] + offset, ratio * moves[1]),
         instance.type.declaration.ports[ref.port].domain.across, strict=True,
     ):  # fmt: skip
         if value is not None and not math.isclose(value, moved, rel_tol=AGREES, abs_tol=ROUNDED):

@@ -1,0 +1,89 @@
+"""Unknowns without inertia are recorded where their law balances: what flows through a stiff source, and sums."""
+
+import numpy as np
+import pytest
+
+from tests.conftest import Scene
+
+ENGINES = ["rodas", "stepping"]
+ACCURACIES = ["1e-3", "1e-5"]
+
+SOURCE = """
+    components:
+      earth: {type: Earth}
+      mains: {type: VoltageSource, voltage: {sine: {amplitude: 325 V, frequency: 50 Hz}}, inner: 1 mohm}
+      load: {type: Resistor, resistance: 100 ohm}
+    connections:
+      - [mains.minus, earth.terminal, load.minus]
+      - [mains.plus, load.plus]
+    run: {stop: 0.1 s}
+    record: {EVERYsignals: [mains.current, load.current]}
+    limits: {mains.current: {below: 3.26 A}}
+"""
+OIL = """
+    components:
+      tank: {type: Tank}
+      wanted: {type: SignalSource, value: {sine: {amplitude: 50e5, offset: 100e5, frequency: 5 Hz}}}
+      pump: {type: PressureActuator, conductance: 1e-7 m^3/s/Pa}
+      narrow: {type: Leak, conductance: 1e-11 m^3/s/Pa}
+      wide: {type: Leak, conductance: 1e-7 m^3/s/Pa}
+    connections:
+      - [wanted.signal, pump.wanted]
+      - [pump.port, wide.a]
+      - [wide.b, narrow.a]
+      - [narrow.b, tank.port]
+    run: {stop: 1 s}
+    record: {every: 10 ms, signals: [pump.flow, narrow.flow]}
+"""
+TENSIOMETER = """
+    components:
+      rope: {type: Cable, length: 16 m, element: 0.2 m, start: -4 m, tension: 1 kN, mass: 0.8 kg/m, stiffness: 500 kN}
+      route:
+        type: Route
+        stations:
+          - {type: Winch, radius: 0.4 m}
+          - {name: cell, type: Tensiometer, start: 5 m, length: 0.6 m}
+      drive: {type: MotionSource, velocity: 0}
+      end: {type: MotionSource, position: {constant: 12 m, sine: {amplitude: 5 mm, frequency: FREQUENCY}}}
+    connections:
+      - [rope.path, route.path]
+      - [drive.flange, route.winch.rim]
+      - [end.flange, rope.outboard]
+    run: {stop: 2 s, accuracy: 1e-3}
+    record: {every: 5 ms, signals: ["rope.node[*].x", "rope.line[*].tension", route.cell.tension]}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("accuracy", ACCURACIES)
+@pytest.mark.parametrize("every", ["", "every: 1 ms, "])
+def test_the_current_of_a_stiff_source_is_that_of_its_load(simulate: Scene, engine, accuracy, every) -> None:
+    """An accuracy of 1e-3 allows the node an error of 0.3 V, which is 300 A on 1 mohm."""
+    result = simulate(SOURCE.replace("EVERY", every), **{"run.engine": engine, "run.accuracy": accuracy})
+    right = 325.0 * np.sin(2.0 * np.pi * 50.0 * result.t) / 100.001
+    np.testing.assert_allclose(result["mains.current"], right, atol=1e-6)
+    np.testing.assert_allclose(result["load.current"], right, atol=1e-6)
+    assert result.extremes("mains.current").highest == pytest.approx(325.0 / 100.001, rel=2 * float(accuracy))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("accuracy", ACCURACIES)
+def test_so_is_the_flow_of_a_stiff_pump(simulate: Scene, engine: str, accuracy: str) -> None:
+    result = simulate(OIL, **{"run.engine": engine, "run.accuracy": accuracy})
+    pressure = 100e5 + 50e5 * np.sin(2.0 * np.pi * 5.0 * result.t)
+    right = (pressure - 1e5) / (1e11 + 1e7 + 1e7)  # the tank is at 1 bar
+    np.testing.assert_allclose(result["pump.flow"], right, rtol=1e-6)
+    np.testing.assert_allclose(result["narrow.flow"], right, rtol=1e-6)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("frequency", ["1 Hz", "4 Hz"])
+def test_a_tensiometer_tells_the_mean_of_the_elements_in_it(simulate: Scene, engine: str, frequency: str) -> None:
+    """Of the line in it, which moves by 5 mm, elements by their share: the mean of the tensions over 5 to 5.6 m."""
+    result = simulate(TENSIOMETER.replace("FREQUENCY", frequency), **{"run.engine": engine})
+    nodes = result.elements("rope.node[*].x").values
+    tensions = result.elements("rope.line[*].tension").values
+    inside = np.clip(nodes, 5.0, 5.6)
+    length = np.diff(inside, axis=1)
+    mean = (length * tensions[:, :]).sum(axis=1) / length.sum(axis=1)
+    np.testing.assert_allclose(result["route.cell.tension"], mean, atol=1.0)
