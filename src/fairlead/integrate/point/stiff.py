@@ -9,6 +9,8 @@ STIFF = 100.0
 FURTHEST = 10.0
 """Times that a law may be less stiff at a place in the step than the factors of the step have it; beyond, it counts as
 none. So many times the move that they give is made at most."""
+OF_SPEEDS, OF_BALANCES = 1, 2
+"""What is shown in balance: speeds alone, or unknowns without inertia too."""
 
 
 @compiled
@@ -23,7 +25,7 @@ def follows_within(matrices, k, h):
 
 @compiled
 def mark_stiff(problem, matrices, recorder, h):
-    """Mark in `is_stiff` what is shown where its law balances; 1 if there is any.
+    """Mark in `is_stiff` what is shown where its law balances; 0 if there is nothing, else OF_SPEEDS or OF_BALANCES.
 
     Of what has inertia the speeds that follow a stiff law within the step: what they hold of the energy is nothing. A
     pressure that is shown elsewhere has another energy. Without inertia all that a balance gives: the error that it is
@@ -34,7 +36,10 @@ def mark_stiff(problem, matrices, recorder, h):
     values = reals(matrices.at_jacobian, matrices.n_jacobian)
     for k in range(problem.n):
         stiff[k] = 0
-        if (balances[k] == 1 and values[slope[k]] != 0.0) or (position[k] >= 0 and follows_within(matrices, k, h)):
+        if balances[k] == 1 and values[slope[k]] != 0.0:
             stiff[k] = 1
-            found = 1
+            found = OF_BALANCES
+        elif position[k] >= 0 and follows_within(matrices, k, h):
+            stiff[k] = 1
+            found = max(found, OF_SPEEDS)
     return found

@@ -18,7 +18,7 @@ from __future__ import annotations
 from fairlead.integrate.linear.products import add_mass_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.point.stiff import FURTHEST
+from fairlead.integrate.point.stiff import FURTHEST, OF_BALANCES
 
 
 @compiled
@@ -86,7 +86,8 @@ def balance_stiff(m, t, s, at_y):
     The midpoint rule leaves a third of a difference ringing in them, and the dense output inside a step knows
     nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and what moves by d
     gains r d in it, with W = r M - J: bodies that follow each other would else show the error of their acceleration.
-    How far to go along the move that the factors of the step give follows from the residuals before and after it.
+    How far to go along the move that the factors of the step give follows from the residuals before and after it. What
+    has no inertia is moved together, and once more (`balance_again`).
     """
     problem, point, core = m.problem, m.point, m.linear.core
     n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
@@ -115,14 +116,47 @@ def balance_stiff(m, t, s, at_y):
         if stiff[k] == 1:
             y[k] += move[k]
             minus_rate[k] -= gain * move[k]
+            before[k] = before[k] if differential[k] == 1 else move[k]
     add_mass_times(m.linear.matrices, point.at_v, point.at_x)
     field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
     problem.rhs += 2
     for k in range(n):
-        if stiff[k] == 1:
+        if stiff[k] == 1 and differential[k] == 1:
             gone = before[k] - f[k] - inert[k]
             if before[k] * gone > 0.0:
                 y[k] += (min(before[k] / gone, FURTHEST) - 1.0) * move[k]
             else:
                 y[k] -= move[k]
+        move[k] = 0.0
+    if m.recorder.any_stiff == OF_BALANCES:
+        balance_again(m, y)
+
+
+@compiled
+def balance_again(m, y):
+    """A second Newton move of what has no inertia, from forces `f`; the first, in `u`, was too far if it is no less.
+
+    Together they are taken, or neither is: unknowns that depend on each other have residuals that say nothing of one of
+    them. Moves are compared in weights (natural monotonicity test; Deuflhard, Newton Methods, 2004, section 2.1).
+    """
+    problem, point, core = m.problem, m.point, m.linear.core
+    n = problem.n
+    f, move, first, weight = (
+        reals(point.at_f, n), reals(point.at_b, n), reals(point.at_u, n), reals(point.at_weight, n),
+    )  # fmt: skip
+    stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
+    for k in range(n):
+        move[k] = f[k] if stiff[k] == 1 and differential[k] == 0 else 0.0
+    core.skip_meters = 1
+    solve(m.linear, point.at_b)
+    core.skip_meters = 0
+    size, before = 0.0, 0.0
+    for k in range(n):
+        if stiff[k] == 1 and differential[k] == 0:
+            size += (move[k] / weight[k]) ** 2
+            before += (first[k] / weight[k]) ** 2
+    converges = 4.0 * size <= before
+    for k in range(n):
+        if stiff[k] == 1 and differential[k] == 0:
+            y[k] += move[k] if converges else -first[k]
         move[k] = 0.0

@@ -90,7 +90,7 @@ def write_between(m, t, side):
     interpolate(point, (t - point.t) / run.h, point.at_y_probe)
     if recorder.rows_slip == 1:
         take_slip_away(problem, point, m.linear, m.stepping.exchange, t, point.at_y_probe)
-    if recorder.any_stiff == 1:
+    if recorder.any_stiff > 0:
         balance_stiff(m, t, (t - point.t) / run.h, point.at_y_probe)
     if m.stepping.contacts.n_switched == 0:
         write_row(problem, recorder, t, point.at_y_probe, side)
