@@ -9,7 +9,7 @@ import re
 
 from fairlead.component.base import Family
 from fairlead.component.friction_block import unheard
-from fairlead.component.instantiate import Assembly, PortRef
+from fairlead.component.instantiate import Assembly, Instance, PortRef
 from fairlead.component.values import input_given
 from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.collection import collected_later
@@ -109,10 +109,19 @@ def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
             between = "between two prescribed motions" if sides[0] is not sides[1] else "across a prescribed motion"
             what = f"{instance.path} lies {between} ({who}); no law determines its force."
             other = ", or write friction: {method: binding}" if issubclass(instance.type, Family) else ""
+            other += _or_switch_off(flat, instance)
             turns = sides[0].domain.name == sides[1].domain.name == "rotational"
             bodies = "an Inertia and a TorsionSpring" if turns else "a Mass and a Spring"
             faults.append(Fault(instance.where, what, f"Put {bodies} between{other}."))
     return faults
+
+
+def _or_switch_off(flat: FlatModel, instance: Instance) -> str:
+    """Of a child of a component with effects that are on: that one of them may be what brings it in."""
+    of, inside, _ = instance.path.partition(".")
+    entry = flat.assembly.entries.get(of)
+    on = [name for name, state in entry.effects.items() if state == "on"] if inside and entry is not None else []
+    return f", or switch off the effect of {of} that brings it in ({', '.join(on)})" if on else ""
 
 
 def _missing_inputs(flat: FlatModel) -> list[Fault]:

@@ -24,7 +24,7 @@ from fairlead.integrate.events.least_index import HALF, keep_first, number_machi
 from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
-from fairlead.integrate.events.violators import fire_violators
+from fairlead.integrate.events.violators import fire_violators, look_ahead, looked_ahead
 from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.record.rows import there_is_room, write_event
@@ -72,7 +72,7 @@ def settle(m, iterations):
             status = begin_release(problem, point, m.linear, events)
             if status != DONE:
                 return status
-        elif still_wrong(events):
+        elif still_wrong(problem, run, point, events):
             choose(problem, events)
         else:
             guards.n_fired = 0
@@ -92,9 +92,13 @@ def release_in_order(m):
 
 
 @compiled
-def still_wrong(events):
+def still_wrong(problem, run, point, events):
     """True if a zone must change; not where single switches go in a circle and all are at their limits."""
-    return events.guards.n_fired > 0 and not (events.settling.stage > LEAST_INDEX and all_at_limits(events))
+    if events.guards.n_fired == 0 or events.settling.stage <= LEAST_INDEX:
+        return events.guards.n_fired > 0
+    if not looked_ahead(events.guards):
+        look_ahead(problem, run, point, events)
+    return not all_at_limits(events)
 
 
 @compiled
@@ -200,7 +204,12 @@ def choose(problem, events):
 
 @compiled
 def all_at_limits(events):
-    """True if every violator is within its tolerance, there and as far ahead as was looked first: any zone will do."""
+    """True if any zone will do: each violator is at its limit as far ahead as was looked first, or below it by then.
+
+    The current of a coil runs out through a diode. Where that conducts, u follows the current i by 0.1 ohm, is at its
+    limit, and rises over it. Where it blocks, u follows i by a megaohm, is above its limit, and falls so much faster.
+    Both say that the switch is now; the second zone is right as soon as i is the least bit smaller.
+    """
     guards = events.guards
     g, tolerance = reals(guards.at_g, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     probe, fired = reals(guards.at_g_probe, guards.n_guards), indices(guards.at_fired, guards.n_guards)
@@ -208,7 +217,7 @@ def all_at_limits(events):
     for k in range(guards.n_fired):
         i = fired[k]
         later = g[i] + (probe[i] - g[i]) / events.settling.nearness
-        within = within and g[i] <= tolerance[i] and later <= tolerance[i]
+        within = within and later <= (tolerance[i] if g[i] <= tolerance[i] else 0.0)
     return within
 
 

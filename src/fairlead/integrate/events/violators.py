@@ -39,9 +39,7 @@ def fire_violators(problem, run, point, events):
     for i in met:
         if tolerance[i] < g[i] <= known_to:
             g[i] = 0.0  # a time is no better known than that, so the stop is not passed
-    at_limit = False
-    for i in range(ng):
-        at_limit = at_limit or abs(g[i]) <= tolerance[i]
+    at_limit = looked_ahead(guards)
     if at_limit:
         look_ahead(problem, run, point, events)
         for i in met:
@@ -58,6 +56,15 @@ def fire_violators(problem, run, point, events):
                 wrong[i] *= inertia[i] / (SLIP_TIME if g[i] > tolerance[i] else settling.look)
             fired[guards.n_fired] = i
             guards.n_fired += 1
+
+
+@compiled
+def looked_ahead(guards):
+    """True if a guard is at its limit, so that all guards are looked at a little later, too."""
+    g, tolerance, found = reals(guards.at_g, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards), False
+    for i in range(guards.n_guards):
+        found = found or abs(g[i]) <= tolerance[i]
+    return found
 
 
 @compiled
