@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 from fairlead.errors import ModelError, UsageError
-from fairlead.results.trajectory import UnknownSignalError
+from fairlead.results import UnknownSignalError
 
 MODELS = pathlib.Path(__file__).parents[2] / "models"
 
