@@ -39,6 +39,7 @@ def rates(t: float, y: np.ndarray) -> list[float]:
     return [y[1], (AREA * (pressure - AIR) + command - 122e3) / 300.0]
 
 
+@pytest.mark.slow
 def test_its_travel_comes_to_that_of_the_equation_as_the_way_between_oil_and_gas_gets_wide(simulate: Scene) -> None:
     t = np.linspace(0, 3, 151)
     exact = solve_ivp(rates, (0, 3), [1.5, 0.0], method="DOP853", rtol=1e-11, atol=1e-12, t_eval=t, max_step=0.01)

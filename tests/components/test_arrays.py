@@ -72,6 +72,7 @@ record: {{every: 50 ms}}
 """
 
 
+@pytest.mark.slow
 def test_a_hose_that_rucks_softens_and_unloads_along_the_elastic_line(simulate):
     result = simulate(squeezed(0.05))
 
@@ -117,6 +118,7 @@ def unknowns(scene, **effects):
     return scene(array("modules: 2", friction=0.3) + f"effects: {{{switches}}}\n").system
 
 
+@pytest.mark.slow
 def test_hose_and_core_as_one_body_have_half_the_unknowns_and_no_inner_contacts(scene):
     two, one = unknowns(scene), unknowns(scene, hose_core_slip="off")
     assert one.n == two.n - 3 * (96 + 1 - 3)  # place and speed of a node, and the force that holds its bulkhead

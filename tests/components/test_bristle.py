@@ -56,6 +56,7 @@ def test_a_seed_decides_where_bonds_form(simulate):
     assert len(one.events) != len(other.events) or one.events[-1].t != other.events[-1].t
 
 
+@pytest.mark.slow
 def test_friction_turns_with_the_slip_and_never_gives_more_than_it_took(simulate):
     result = simulate(DRIVEN, stop="2 s")
     assert mean(result, 1.1, 2.0) == pytest.approx(-3.0, rel=0.015)

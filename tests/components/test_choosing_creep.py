@@ -23,6 +23,7 @@ LOADED = """
 LEAK = "leak: {share: 1.5 %, time: 10 s, stiffness: 10 kN/m}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["binding", "saturation"])
 @pytest.mark.parametrize("curve", ["0.5", "{curve: stribeck, stiction: 0.5, coulomb: 0.4, velocity: 20 mm/s}"])
 def test_a_contact_loses_just_the_share_of_load_it_may(simulate, method: str, curve: str):

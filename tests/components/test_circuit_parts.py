@@ -18,6 +18,7 @@ def run(name, **settings):
     return result
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wire", [0.4, 3.0])
 def test_a_circuit_of_second_order_rings_or_creeps(wire):
     """Battery, switch, wire and the leads of the capacitor are one resistance; below and above the critical one."""

@@ -134,6 +134,7 @@ def test_anti_windup_brings_the_command_back_sooner(simulate, plant):
     assert times[1] > 2 * times[0]
 
 
+@pytest.mark.slow
 def test_sampling_that_is_off_is_the_limit_of_short_samples(scene, simulate, plant):
     text = LIMITED.replace("1.4", "0.8") + "    effects: {sampling: off}\n"
     grid = np.linspace(0.05, 3, 60)

@@ -75,6 +75,7 @@ def test_a_table_from_a_file_is_followed_from_point_to_point(simulate, tmp_path:
 NAP = "{curve: table, points: [[0, 0.6], [1, 0.6]], backward: [[0, 0.3], [1, 0.3]]}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", EVERY)
 def test_a_surface_with_a_nap_stops_a_block_later_the_other_way(simulate, method: str):
     for sign, mu in ((1, 0.6), (-1, 0.3)):
@@ -99,6 +100,7 @@ def test_a_surface_with_a_nap_holds_less_the_other_way(simulate, method: str):
             assert (abs(result["block.x"][-1]) > 2e-3) == moves, (method, sign, share)
 
 
+@pytest.mark.slow
 def test_points_for_backward_slip_may_go_with_any_curve(simulate):
     curve = "{curve: stribeck, stiction: 0.6, coulomb: 0.6, velocity: 1 cm/s, backward: [[0, 0.3], [1, 0.3]]}"
     for sign, mu in ((1, 0.6), (-1, 0.3)):
@@ -262,6 +264,7 @@ def test_a_warm_contact_slides_as_a_cold_one_does_more_slowly(simulate, method):
     assert np.abs(closed / cold - 1).max() > 0.1
 
 
+@pytest.mark.slow
 def test_a_shift_that_vanishes_leaves_the_curve_and_off_leaves_no_term(simulate):
     text = WARMED.replace("METHOD", "hold")
     plain = simulate(text.replace(", velocity_shift: 0.03 1/K", ""))

@@ -196,6 +196,7 @@ def test_friction_without_a_dependence_is_the_limit_of_a_weak_one(simulate, depe
         assert difference(without, off, "block.x") < 1e-9
 
 
+@pytest.mark.slow
 def test_a_contact_without_viscous_friction_is_the_limit_of_a_little(simulate):
     off = simulate(BLOCK)
     assert difference(simulate(BLOCK, **{"pad.viscous": 1e-9}), off, "block.x") < 1e-7

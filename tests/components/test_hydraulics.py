@@ -365,6 +365,7 @@ VENTED = """
 """
 
 
+@pytest.mark.slow
 def test_a_cylinder_open_on_both_sides_stays_where_it_is(simulate):
     """Pressures are absolute: oil at 1 bar pushes the rod out, area_rod 1 bar = 38 N, and the air pushes it in."""
     assert np.abs(simulate(VENTED)["load.x"] - 0.1).max() < 1e-9

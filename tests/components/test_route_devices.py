@@ -96,6 +96,7 @@ def test_a_squeezing_tube_holds_back_with_friction_times_load(simulate):
     assert pull(simulate(hauled(tube))) == pytest.approx(100 + 0.4 * 100 * 2, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_line_is_pushed_through_a_curved_tube_as_it_is_pulled(simulate):
     """In compression it rides the outer wall; what is lost on the way is the same exponential."""
     tube = "{type: Tube, start: 3 m, length: 1 m, radius: 1 m, friction: 0.3}"
@@ -191,6 +192,7 @@ record: {{every: 10 ms}}
     assert force == pytest.approx(2 * 0.6 * 500 * 1.5, abs=2 * 0.6 * 500 * 0.125)
 
 
+@pytest.mark.slow
 def test_25_a_drum_is_accelerated_by_its_torque_and_the_tension_of_the_line(simulate):
     """J dw/dt = torque + R T; what is locked to the drum adds its mass at the radius."""
     text = f"""

@@ -60,6 +60,7 @@ def friction(model):
     return model.run(out=None)["pad.friction"][0]
 
 
+@pytest.mark.slow
 def test_models_whose_libraries_define_the_same_names_keep_their_own(model):
     one, two = model(0.2, 100.0), model(0.5, 900.0)
     assert friction(two) == pytest.approx(5.0)
@@ -71,6 +72,7 @@ def test_models_whose_libraries_define_the_same_names_keep_their_own(model):
     assert one.check() == two.check() == []
 
 
+@pytest.mark.slow
 def test_a_parameter_that_only_the_other_library_has_is_refused(model):
     one = model(0.2, 100.0)
     two = model(0.5, 900.0, more='wear = Parameter("1", "Wear.", default=1.0)')
@@ -95,6 +97,7 @@ def type_of_curves():
     return Curve
 
 
+@pytest.mark.slow
 def test_a_member_of_a_bundled_word_counts_for_its_own_model_only(model, tmp_path):
     mine = model(0.7, 100.0, more='word = "coulomb"')
     text = SCENE.replace("{curve: grip}", "{curve: coulomb, coulomb: 0.3}").replace(

@@ -87,6 +87,7 @@ def master(tmp_path):
     return run
 
 
+@pytest.mark.slow
 def test_a_master_in_c_runs_it_in_a_process_without_python(belt, master):
     *lines, _ = master(belt(3), STEPS, len(SIGNALS))
     assert [[float.fromhex(text) for text in line.split()] for line in lines] == native_belt()

@@ -103,6 +103,7 @@ def test_what_is_tuned_moves_as_in_fairlead_to_the_last_bit(scene, tmp_path, ver
     assert len({row[0] == 0.0 for row in rows}) == 2  # it sticks, and slips
 
 
+@pytest.mark.slow
 def test_a_parameter_acts_from_the_point_where_it_is_set_and_a_state_takes_it_back(scene, tmp_path):
     """Held by the spring alone at the start: 20 N; sliding friction 5 N, and 3 N with another load; 3 kg."""
     fmpy()

@@ -213,6 +213,7 @@ def test_an_fmu_runs_only_where_it_is_allowed(make, load, started, folder):
     assert not started
 
 
+@pytest.mark.slow
 def test_a_run_with_an_fmu_is_saved_and_restored(make, load):
     make("counter", 3)
     make("decay", 2)

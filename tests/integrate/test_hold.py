@@ -149,6 +149,7 @@ def test_the_weaker_of_two_held_contacts_breaks_at_its_own_limit_and_the_other_h
     assert outcome.y[2] == pytest.approx(1.5 + (16 - 9) / 2 - 1.5, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_contacts_that_both_slip_are_captured_one_after_the_other():
     # Pulled for 4 s (both slip), then let go: momentum 1 is kept and all end at one speed.
     outcome = integrate(chain_of_three(lambda t: 30.0 if t < 1 else 0.0), Run(stop=30.0, max_step=0.01))

@@ -113,6 +113,7 @@ def test_time_events_are_landed_on_and_both_sides_recorded():
     assert outcome.times[outcome.sides == 1].tolist() == [0.1 * k for k in range(1, 10)]
 
 
+@pytest.mark.slow
 @needs_package
 def test_two_runs_are_the_same_to_the_last_bit():
     one, two = (run(belt_block(), 3.0, every=0.01) for _ in range(2))

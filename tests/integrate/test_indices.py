@@ -38,6 +38,7 @@ def checked(script, folder):
     return subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [-1, 4])
 def test_an_index_outside_traps_where_the_loop_is_compiled_to(tmp_path, place):
     ended = checked(TRAPS.format(place=place), tmp_path)

@@ -34,6 +34,7 @@ def called(function) -> float:
     return ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int64)(loaded.address["outer"])(1000)
 
 
+@pytest.mark.slow
 def test_a_function_and_what_it_calls_give_the_same_number_linked_once_or_as_numba_links():
     expected = sum(1.0 / (1.0 + k) for k in range(1000))  # a sum in the same order is the same to the last bit
     _, outer = inner_and_outer()

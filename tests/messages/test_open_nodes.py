@@ -62,6 +62,7 @@ def test_check_says_what_belongs_at_a_node_that_is_left_open(scene, domain):
     assert "mass" not in str(told.value).lower()
 
 
+@pytest.mark.slow
 def test_a_run_says_which_pressure_is_open_by_the_names_of_the_netlist_and_asks_for_a_volume(scene):
     """While the counterbalance valve is shut, oil between it and the motor has nowhere to go."""
     result = scene(LOWERED).run(out=None, check=False)

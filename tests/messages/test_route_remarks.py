@@ -34,6 +34,7 @@ def remark(model):
     return found
 
 
+@pytest.mark.slow
 def test_a_clamp_that_cannot_carry_the_tow_says_what_it_holds_what_is_needed_and_what_would_do(scene):
     """Hauling: the belts give 300 N less the 100 exp(-0.3) N inboard of the bend; they hold 2 mu q length."""
     needed = 300 - 100 * math.exp(-0.3)
@@ -69,6 +70,7 @@ def test_starting_the_line_counts(scene):
     assert "steady motion takes up to 225.9 N" in found.what
 
 
+@pytest.mark.slow
 def test_a_clamp_that_a_signal_presses_is_judged_by_the_signal(scene):
     text = (BELTS % ("", "0 N/m", "-0.2 m/s")).replace("run:", "  - [press.signal, route.belts.clamp]\nrun:")
     pressed = text.replace("  drive:", "  press: {type: SignalSource, value: %s}\n  drive:")
@@ -206,6 +208,7 @@ def test_a_line_of_which_more_is_paid_out_than_lies_on_the_drum(scene):
     assert scene(text.replace("SPEED", "-1 m/s")).check() == []
 
 
+@pytest.mark.slow
 def test_a_line_that_something_else_holds_beside_a_winch(scene):
     text = PAID_OUT.replace("END", "rope.inboard").replace("start: -12 m", "start: 0.3 m").replace("SPEED", "0.1 m/s")
     found = remark(scene(text))

@@ -41,6 +41,7 @@ BRAKED = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "name"), [(CRANK, "pad"), (CAM, "pad"), (BRAKED.replace("frame: {type: Ground}", ""), "pad.contact")],
     ids=["crank", "cam", "brake"],

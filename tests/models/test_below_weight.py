@@ -20,6 +20,7 @@ record: {{signals: [block.x, block.v, pad.slip]}}
 """
 
 
+@pytest.mark.slow
 def test_presliding_far_below_the_weight_of_a_position_is_told_and_gone_with_the_accuracy_proposed(scene, tmp_path):
     """The bristles, 0.5*10 N over 20 um, give by 0.1 mN/(250 kN/m) = 0.4 nm each way; 1e-4 of 20 um is 2 nm."""
     out = tmp_path / "run"

@@ -71,6 +71,7 @@ def test_slower_belts_slip_longer_and_stick_longer(simulate, speed: float) -> No
     assert tension.max() == pytest.approx(3.0 + np.hypot(2.0, inertia), rel=5e-3)
 
 
+@pytest.mark.slow
 def test_binding_comes_to_the_same_times_as_its_creep_vanishes(simulate) -> None:
     """Binding is first order in its creep: the period is short by about what the block crept in a stick."""
     exact = StickSlipBelt(speed=0.05, stiction=5.0, coulomb=3.0)

@@ -173,6 +173,7 @@ def test_equality_belongs_to_one_side(form: str) -> None:
                 assert settled(form, v, af, NORMAL, zone) in ZONES
 
 
+@pytest.mark.slow
 def test_bound_friction_is_capped_at_stiction() -> None:
     """Hazard H2: uncapped it reaches 2.5 F_s while a block is caught, enough to break the next contact away."""
     greatest = {}

@@ -44,6 +44,7 @@ def anchor(bundled):
     return lambda pull: bundled("friction_anchor", {"pull": f"{pull} N"})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pull", [500.0, 1000.0])
 def test_an_anchored_line_is_drawn_out_by_the_square_of_the_pull(anchor, pull):
     result, exact = anchor(pull), FrictionAnchor(500e3, 50.0)
@@ -66,6 +67,7 @@ def lumped(pull, grip=50.0, stiffness=500e3, element=0.5):
     return up.sum() * element / stiffness, down.sum() * element / stiffness
 
 
+@pytest.mark.slow
 def test_tension_in_an_anchored_line_falls_along_a_straight_line(anchor):
     result, exact = anchor(1000.0), FrictionAnchor(500e3, 50.0)
     k = int(np.searchsorted(result.t, 10.0))

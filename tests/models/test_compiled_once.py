@@ -69,6 +69,7 @@ def in_threads(*jobs):
     return found
 
 
+@pytest.mark.slow
 @ENGINES
 def test_threads_that_run_one_system_at_once_do_not_meet(tmp_path, engine):
     """Three runs in turn and at once, a part of the problem cut out of each on the way."""

@@ -56,6 +56,7 @@ def test_what_two_ports_take_in_cancels_in_machine_code(kind, chosen) -> None:
             assert a == -b  # equal to the last bit; zero where nothing is carried
 
 
+@pytest.mark.slow
 def test_momentum_of_two_free_blocks_is_kept(simulate) -> None:
     """Nothing outside: whatever the contact does, m_a v_a + m_b v_b stays what it was."""
     for method in ("hold", "binding", "tanh"):

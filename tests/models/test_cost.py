@@ -52,6 +52,7 @@ def test_two_methods_agree_on_the_reference(study):
     assert not study.sensitive
 
 
+@pytest.mark.slow
 def test_the_three_errors_are_apart(study):
     """Tight runs of a law that creeps have no numerical error and yet a modelling error."""
     exact = next(row for row in study.rows if row.rung.equations.exact and row.rung.accuracy == 1e-4)
@@ -332,6 +333,7 @@ def test_a_coarser_mesh_is_found_where_twice_the_size_does_not_fit():
     assert all("line.hose[0].tension" in names for names in found.values())
 
 
+@pytest.mark.slow
 def test_columns_come_before_further_lines(monkeypatch):
     """First the scene by one engine, then its elements, then what else there is time for."""
     asked = []

@@ -208,6 +208,7 @@ def test_a_window_that_is_none_is_refused_with_what_to_write(lagging, window):
         effects(lagging("0.05 s"), window=window)
 
 
+@pytest.mark.slow
 def test_what_matters_most_is_judged_first():
     """By how much of the scene knows it: friction of the devices on a line before the leak of a motor."""
     model = fairlead.load("guidance_route")
@@ -272,6 +273,7 @@ def test_a_switch_that_changes_no_equation_is_told_and_not_run():
     assert not {"load_dependence", "temperature_dependence"} & {row.switch.name for row in found.rows}
 
 
+@pytest.mark.slow
 def test_all_effects_off_names_none_of_a_component_that_went_with_another():
     """Without friction of the motor there is no contact left, so its own effects cannot be switched any more."""
     def load(more):
@@ -320,6 +322,7 @@ def test_the_command_prints_a_sentence_for_each(tmp_path):
     assert all(row["sentence"] in done.output.replace("\n", " ") or row["sentence"] for row in record["rows"])
 
 
+@pytest.mark.slow
 def test_a_law_just_traced_is_the_same_as_that_from_the_cache():
     """What is read back has lists where what was traced has tuples."""
     model = fairlead.load("belt", set={"run.stop": "1 s"})

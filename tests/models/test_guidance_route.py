@@ -21,6 +21,7 @@ def route(bundled):
     return bundled("guidance_route_ideal")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("way", "begin", "end"), [(+1, 18.0, 24.9), (-1, 34.0, 44.0)])
 def test_tensions_along_the_route_are_those_of_sliding_through_capstans(route, way, begin, end):
     want = closed_form(route, 0.35, way, begin, end)

@@ -251,6 +251,7 @@ def test_a_load_that_swings_for_an_hour_moves_nothing(simulate: Scene, engine: s
         assert result["one.friction"] == pytest.approx(1 / 3 * load, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_a_damped_node_without_mass_is_held_and_so_is_one_on_a_spring(simulate) -> None:
     """wall, pad, node, damper, block: while the pad holds, the block's speed decays at the rate c/m, or it swings."""
     text = """

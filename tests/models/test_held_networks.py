@@ -88,6 +88,7 @@ def test_a_network_that_sticks_and_slips_does_the_same_at_every_accuracy(scene: 
     assert ends[0] == pytest.approx(ends[1], abs=float(accuracy) * np.abs(ends[1]).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["rodas5p", "rodas3p"])
 @pytest.mark.parametrize("accuracy", ["1e-1", "3e-2", "1e-2", "1e-3"])
 def test_a_hundred_blocks_run_at_every_accuracy(bundled, method: str, accuracy: str) -> None:

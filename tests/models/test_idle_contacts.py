@@ -28,6 +28,7 @@ def standing(blocks):
     return text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["rodas", "stepping"])
 def test_blocks_that_stand_still_together_add_no_steps_no_switches_and_no_factorisations(simulate, engine):
     """The pull of 5.4 N at most moves ten blocks of 0.5 N; the others hold, sixty of them or a thousand.

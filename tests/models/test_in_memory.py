@@ -68,6 +68,7 @@ def test_rows_events_and_record_are_those_of_a_folder(model, tmp_path):
     assert one == other
 
 
+@pytest.mark.slow
 def test_what_reads_a_result_reads_this_one(model):
     result = model.run(out=None)
     assert result.path is None

@@ -116,6 +116,7 @@ RAMP = "hand: {type: MotionSource, velocity: 0.01 m/s}"
 FALLS = "{curve: coulomb, stiction: 0.3, coulomb: 0.2}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["hold", "karnopp", "binding"])
 def test_where_friction_falls_the_node_jumps_and_what_that_takes_is_booked(simulate, method):
     """k 500, 3 N to let go, 2 N to slide: at 0.6 s the node jumps by 2 mm; (3 - 2)^2/(2 k) is lost beside friction."""
@@ -135,6 +136,7 @@ def test_contacts_that_creep_or_bend_slide_on_such_a_node(simulate, method):
     assert -result["s0.tension"][-1] == pytest.approx(2.0, rel={"arctan": 1e-2}.get(method, 1e-4))
 
 
+@pytest.mark.slow
 def test_friction_that_grows_with_the_slip_gives_the_speed_by_itself(simulate):
     curve = "{curve: viscous, coulomb: 0.2, rate: 0.5 s/m}"
     result = simulate(scene(RAMP, *element(0, 500, 10, curve), **SINGLE))
@@ -231,6 +233,7 @@ def test_a_gear_of_three_ports_gives_the_speed_of_a_carrier_without_inertia(simu
     assert result["sun.angle"] == pytest.approx(turned, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_is_refused_with_the_way_out(simulate):
     stribeck = "{curve: stribeck, stiction: 0.3, coulomb: 0.2, velocity: 10 mm/s}"
     refused = r"(?s)node \{p0.b, s0.b\} has no mass .* varies with its slip.*Add a Mass"

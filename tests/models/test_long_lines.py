@@ -9,6 +9,7 @@ import fairlead
 from tests.reference.capstan import tension_ratio
 
 
+@pytest.mark.slow
 def test_a_crustacean_array_multiplies_bends_and_adds_the_tube(bundled):
     result = bundled("crustacean")
     force = -result["haul.force"][result.t > 3.0].mean()

@@ -27,6 +27,7 @@ def test_before_the_deployer_the_sum_of_the_angles_counts(states):
         assert passages["deployer"].inboard == pytest.approx(KEPT * math.exp(way * MU * ANGLE), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_pulley_takes_the_friction_of_its_bearing_only(states):
     for way, state in states.items():
         (pulley,) = (passage for passage in state.passages if passage.name == "pulley")

@@ -69,6 +69,7 @@ def test_what_stands_still_is_left_out_and_nothing_else_changes(simulate, engine
     assert np.ptp(np.asarray(many["rod.block[0].x"])) == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["rodas", "stepping"])
 def test_what_was_left_out_wakes_when_the_motion_reaches_it(simulate, engine, monkeypatch):
     """Ten blocks move for two seconds; then a pull three times as strong moves thirty, and lets them go again."""

@@ -66,6 +66,7 @@ def nominal_of(model):
     return dict(zip((one.name for one in system.numbering.unknowns), system.scales.nominal.tolist(), strict=True))
 
 
+@pytest.mark.slow
 def test_contacts_say_what_is_small(scene):
     """Presliding for positions and bristles, the speed of a curve for speeds, both where it slides."""
     text = STRAIGHT.format(presliding=3e-6)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 
 import fairlead
 
@@ -45,6 +46,7 @@ def test_a_pickled_model_keeps_its_values_and_runs_to_the_same_bits():
     assert np.array_equal(rows(again), want, equal_nan=True)
 
 
+@pytest.mark.slow
 def test_nothing_compiled_goes_along():
     model = fairlead.load("hundred_blocks", set={"blocks": "1000"})
     before = len(pickle.dumps(model))

@@ -61,6 +61,7 @@ def keeps(result, machine, accuracy, revolutions):
     assert angle[-1] - angle[0] > revolutions * 2 * math.pi
 
 
+@pytest.mark.slow
 def test_a_free_crank_turns_as_its_one_coordinate_says(simulate) -> None:
     result, machine = simulate(FREE), Follower(crank(RADIUS, ROD), MOMENT, MASS)
     expected = machine.at(result.t, 0.3, 10.0)
@@ -72,6 +73,7 @@ def test_a_free_crank_turns_as_its_one_coordinate_says(simulate) -> None:
     assert abs(result["crank.force"] - MASS * acceleration).max() < 1e-4  # of 15 N
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("accuracy", [1e-4, 1e-6])
 def test_a_thousand_revolutions_of_a_crank(simulate, accuracy) -> None:
     result = simulate(FREE, **{"run.stop": "650 s", "run.accuracy": accuracy, "record.every": "50 ms"})
@@ -295,6 +297,7 @@ def hung(n):
     return "\n".join([*lines, "run: {stop: 5 s, accuracy: 1e-6}", 'record: {signals: ["*"], every: 50 ms}']) + "\n"
 
 
+@pytest.mark.slow
 def test_a_pendulum_of_two_coordinates_swings_as_one(simulate, library) -> None:
     from scipy.integrate import solve_ivp
 

@@ -58,6 +58,7 @@ def test_elements_are_the_signals_side_by_side_with_their_places_along_the_line(
     assert np.allclose(found["place"].values[:, 7], (x[0] + x[1]) / 2)
 
 
+@pytest.mark.slow
 def test_nodes_have_the_places_of_nodes_also_where_some_have_none(route):
     nodes = route.elements("line.hose_node.x")
     assert np.allclose(nodes["along"], 0.25 * np.arange(161))
@@ -149,6 +150,7 @@ def test_a_workbook_holds_signals_events_and_the_run(belt, tmp_path):
     assert pandas.read_excel(path)["time [s]"].is_unique
 
 
+@pytest.mark.slow
 def test_a_text_that_looks_like_a_formula_is_a_text(belt, tmp_path):
     openpyxl = pytest.importorskip("openpyxl", reason="the extra fairlead[excel]")
     belt.run["=1+1"] = "=cmd|calc\x00"

@@ -126,11 +126,13 @@ def test_the_core_has_one_motion_and_fewer_unknowns(scene):
     assert len(moving) <= 1
 
 
+@pytest.mark.slow
 def test_energy_adds_up(simulate):
     result = simulate(bend(), **OFF)
     assert result.run["energy"]["closure"] < 1e-6
 
 
+@pytest.mark.slow
 def test_other_masses_are_those_of_a_model_read_anew(scene):
     text = bend()
     changed = scene(text, **OFF).with_values({"line.core.mass": "6 kg/m"}).run(out=None)

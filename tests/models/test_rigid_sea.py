@@ -97,6 +97,7 @@ def test_a_change_of_speed_takes_the_drag_and_the_mass_of_all_the_line(simulate)
     np.testing.assert_allclose(force, want, rtol=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("brief")
 @pytest.mark.parametrize("engine", ["rodas", "stepping"])
 @pytest.mark.parametrize("line", [LIGHTLY_DAMPED, ARRAY], ids=["rope", "array"])
@@ -242,6 +243,7 @@ def test_effects_tell_what_the_waves_of_the_line_out_there_cost(scene):
     assert switched("distributed", length=20) == []
 
 
+@pytest.mark.slow
 def test_all_of_a_line_comes_out_of_the_sea_and_goes_back(simulate):
     """Hauled in until nothing moves with the end but itself, and out again: the tension is that of the line along."""
     speed = "{table: {t: [0 s, 1 s, 11 s, 12 s, 14 s, 15 s, 25 s, 26 s], y: [0, -0.8, -0.8, 0, 0, 0.8, 0.8, 0]}}"

@@ -60,6 +60,7 @@ def test_margins_of_the_whole_route_are_those_of_its_signals(bundled):
     assert line.missing == ()
 
 
+@pytest.mark.slow
 def test_what_slides_on_belts_is_what_is_paid_out_less(bundled):
     """Up to the stop of the weak clamp's belts: their way less that of the end of the line."""
     result = bundled("weak_clamp", {"run.stop": "26 s"})

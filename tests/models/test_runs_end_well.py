@@ -209,6 +209,7 @@ def test_a_budget_of_wall_time_ends_the_run_and_keeps_it(start, netlist, tmp_pat
     assert list(result.events) == list(whole.events)[: len(result.events)]
 
 
+@pytest.mark.slow
 def test_a_broken_limit_is_named_and_exits_with_5(start, netlist, tmp_path) -> None:
     netlist.write_text(netlist.read_text() + "limits: {block.x: {below: 90 mm}}\n")
     code, _, err = finish(start(netlist, "--set", "run.stop=2 s"))

@@ -59,6 +59,7 @@ def turned(record: np.ndarray) -> np.ndarray:
     return np.array(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sin_sin", "up_and_down", "lift_and_drop"])
 def test_the_servo_moves_as_in_a_script_of_its_equations(name: str) -> None:
     file = f"{name}_kp100.csv"

@@ -97,6 +97,7 @@ def test_a_line_whose_normal_force_follows_its_tension_agrees_with_rodas(model, 
     assert ends[1] == pytest.approx(ends[0], abs=1e-3)  # m, of some metres hauled
 
 
+@pytest.mark.slow
 def test_auto_takes_stepping_for_many_contacts_and_says_so(tmp_path):
     short = {"run.stop": "10 ms", "record.every": "5 ms"}
     many = fairlead.load("hundred_blocks", set={"blocks": "100", **short}).run(out=tmp_path / "many")

@@ -185,6 +185,7 @@ def test_a_stop_is_met_without_going_to_and_fro(tmp_path, accuracy):
     assert outcome.counters.unsolved == 0
 
 
+@pytest.mark.slow
 def test_rows_before_a_rope_comes_taut_show_it_loose(simulate):
     """In its end zone it would push, with 1 N here. With few machines no step has a switch inside."""
     bodies = range(45)

@@ -50,6 +50,7 @@ def test_where_a_line_rucks_first_is_told_by_its_tensions(rucking):
     assert sentence(found).startswith(f"line rucks: beyond 160 N first at t = {found['t']:.3g} s, element")
 
 
+@pytest.mark.slow
 def test_a_line_that_does_not_ruck_is_told_its_margin(bundled):
     (found,) = verdicts(bundled("single_bend", {"run.stop": "4 s"}))
     assert not found["rucks"]

@@ -25,6 +25,7 @@ def curvature():
     return loads["line.outer_load[7]"].values.curvature
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(phase=some.floats(0.0, PITCH))
 def test_the_bend_of_the_model_sums_to_its_angle(curvature, phase: float) -> None:

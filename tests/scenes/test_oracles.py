@@ -142,6 +142,7 @@ def test_an_error_that_the_start_would_make_as_well_is_allowed_and_no_other(run)
     assert "differs" in agreement(one, Compared(scaled), "scaled", grown, horizon)
 
 
+@pytest.mark.slow
 def test_a_scene_that_nobody_can_foretell_has_a_horizon():
     """Two pendulums, one on the other, thrown over: what is off at the start grows by e in a fifth of a second."""
     scene = next(one for one in map(CLASSES["ratios"], range(4, 225, 5)) if "rod1" in one.text)

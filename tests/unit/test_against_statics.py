@@ -97,6 +97,7 @@ def test_a_run_of_a_route_is_compared_and_keeps_it(scene, tmp_path):
     assert any(found["statics"] == pytest.approx(want) for want in (100.0, 100 * math.exp(0.3), 60.0))
 
 
+@pytest.mark.slow
 def test_a_run_without_a_route_says_nothing_of_statics(tmp_path):
     answer = CliRunner().invoke(app, ["run", "belt", "--set", "run.stop=0.1 s", "--out", str(tmp_path / "run")])
     assert answer.exit_code == 0, answer.output

@@ -157,6 +157,7 @@ def test_a_bomb_or_python_is_refused(text):
         evaluate(text, {"mu": 0.35})
 
 
+@pytest.mark.slow
 @given(st.text(max_size=60))
 def test_any_text_gives_a_value_or_an_expression_error(text):
     try:

@@ -48,6 +48,7 @@ def test_friction_of_a_scene_uses_its_numbers(answer, tmp_path):
     assert (tmp_path / "results" / "friction.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "creep"),
     [("binding", 0.99e-4 / 1.25), ("saturation", 0.99e-4), ("tanh", 2.6467e-4), ("root", 7.018e-4), ("hold", 0.0)],
@@ -101,6 +102,7 @@ def test_compare_shows_error_creep_and_cost_and_failures_with_their_reason(answe
     assert (tmp_path / "c" / "compare.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_compare_prints_a_table(answer):
     said = answer("compare", "block_and_spring", "--vary", "pad.method=hold,tanh", "--set", "run.stop=2 s")
     assert said.exit_code == 0, said.output

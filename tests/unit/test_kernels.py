@@ -218,6 +218,7 @@ def test_functions_and_powers_say_in_machine_code_what_they_say_in_python(tmp_pa
     contract(load_library(library).Mine)
 
 
+@pytest.mark.slow
 def test_a_member_that_joins_a_family_later_does_not_change_what_the_others_depend_on(scene, library):
     """Its kernel would be compiled again under another name, in every process with another library."""
     belt = fairlead.load("belt")

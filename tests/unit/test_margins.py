@@ -152,6 +152,7 @@ limits: {haul.force: {above: -120 N}}
 """
 
 
+@pytest.mark.slow
 def test_a_run_and_its_margins_agree_on_what_is_broken(scene, tmp_path):
     """The haul pulls with 100 N exp(0.3 pi/2) = 160 N, more than the 120 N allowed."""
     model = scene(CAPSTAN)

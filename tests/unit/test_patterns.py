@@ -21,6 +21,7 @@ def written_out(pattern, any_index):
     return re.compile(r"\.".join(made))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("any_index", [False, True])
 def test_a_pattern_fits_what_its_plain_regular_expression_fits(any_index):
     chance, hits = random.Random(1), 0

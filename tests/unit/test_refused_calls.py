@@ -250,6 +250,7 @@ def test_two_frequencies_may_be_an_array(model):
     assert found.response.frequencies[-1] == pytest.approx(9.0)
 
 
+@pytest.mark.slow
 def test_names_may_come_from_an_iterator(model):
     assert len(fairlead.sensitivity(model, (one for one in ["end(block.x)"]), iter(["block.mass"])).rows) == 1
 

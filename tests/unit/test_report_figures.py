@@ -35,6 +35,7 @@ def is_picture(path: Path) -> bool:
     return path.read_bytes().startswith(PNG_SIGNATURE)
 
 
+@pytest.mark.slow
 def test_a_plot_of_the_netlist_becomes_a_picture_in_the_run_directory(result: Result) -> None:
     (path,) = figures.draw(result, [{"signals": ["line.*.tension", "block.v"], "file": "pull.png"}])
     assert path == result.path / "pull.png"

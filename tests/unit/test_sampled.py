@@ -129,6 +129,7 @@ def test_the_first_sample_is_at_the_start_of_the_run(simulate, library):
     assert result["fast.shown"].max() == 1  # the second would be at 1.05 s, not at 1 s
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("start", "period"), [(0.0, 0.1), (0.3, 0.001)])
 def test_a_hundred_thousand_sample_times_are_exact(scene, library, start, period):
     """Sample k is at start + k T, computed afresh: a sum of periods would be off by a hundred thousand roundings."""

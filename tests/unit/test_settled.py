@@ -45,6 +45,7 @@ def told(result):
     return {one.about: one for one in verdict(result)}
 
 
+@pytest.mark.slow
 def test_a_motion_that_does_not_change_has_settled(scene, tmp_path):
     result = written(scene(ARRAY), tmp_path / "run")
     assert result.run["against_statics"]["drift"]["settled"]
@@ -53,6 +54,7 @@ def test_a_motion_that_does_not_change_has_settled(scene, tmp_path):
     assert "Not settled" not in dict(said["No ruck"].points)
 
 
+@pytest.mark.slow
 def test_extremes_that_go_on_growing_at_constant_speed_are_not_called_steady(scene, tmp_path):
     """From 3 to 5 s the tension falls by 40 N: by 20 N from half to half, of the 50 N that the hose takes."""
     result = written(scene(ARRAY), tmp_path / "run", drifts=40.0)
@@ -68,6 +70,7 @@ def test_extremes_that_go_on_growing_at_constant_speed_are_not_called_steady(sce
     assert "not settled" in dict(summary_rows({"against_statics": result.run["against_statics"]}, "x"))
 
 
+@pytest.mark.slow
 def test_more_and_more_elements_that_ruck_are_not_called_steady_either(scene, tmp_path):
     spells = [(k, 4.0, 5.0) for k in range(28)]
     result = written(scene(ARRAY), tmp_path / "run", rucks=spells)
@@ -91,6 +94,7 @@ def test_a_tick_says_what_it_compares_and_none_stands_for_a_hose_that_statics_mi
     assert (level.mood, level.brief) == ("good", "hose alone as in statics")
 
 
+@pytest.mark.slow
 def test_every_place_that_rucks_is_told_with_when_it_begins(scene, tmp_path):
     spells = [(ON_BEND, 3.0, 3.1), (ON_BEND, 4.0, 4.1), (BEYOND_BELTS, 3.5, 4.5), (BEYOND_BELTS + 1, 3.6, 5.0)]
     result = written(scene(ARRAY), tmp_path / "run", rucks=spells)

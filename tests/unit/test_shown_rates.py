@@ -54,6 +54,7 @@ def test_some_laws_give_the_same_row_as_all(name):
             assert np.array_equal(some, all_asked)
 
 
+@pytest.mark.slow
 def test_of_a_long_line_few_laws_are_asked_for_the_force_of_a_source():
     system = fairlead.load("long_deployment").system
     record = system.recording(["belts.force", "line.core[*].tension"])

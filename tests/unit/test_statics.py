@@ -50,6 +50,7 @@ def share_of(state, name):
     return next(share for share, each in zip(shares(state).shares, state.passages, strict=True) if each.name == name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.35, 0.6])
 def test_the_guidance_route_is_a_product_of_capstans_both_ways(mu):
     found = one(fairlead.load("guidance_route_ideal", set={"mu": str(mu)}))
@@ -230,6 +231,7 @@ def test_a_line_that_lies_on_the_drum_altogether_has_nothing_to_solve(scene):
     assert record(found)["remarks"] == []
 
 
+@pytest.mark.slow
 def test_a_drive_under_control_is_found_through_valve_gear_and_signals(tmp_path):
     """The deployer follows the reference of its controller, the winch keeps its tension by torque."""
     parts = "parts/array_route.yaml, parts/electrohydraulic_drives.yaml"
@@ -330,6 +332,7 @@ def test_every_bundled_route_is_solved_and_shown(model):
     assert "standing still" in answer.output
 
 
+@pytest.mark.slow
 def test_json_has_the_numbers_of_the_table():
     answer = CliRunner().invoke(app, ["statics", "guidance_route_ideal", "--json"])
     (told,) = json.loads(answer.output)
@@ -347,6 +350,7 @@ def test_a_speed_that_is_none_is_a_usage_error(speed):
     assert "--speed" in answer.output
 
 
+@pytest.mark.slow
 def test_the_table_of_a_weak_clamp_says_what_check_says():
     answer = CliRunner().invoke(app, ["statics", "weak_clamp"])
     assert "its belts hold 270 N" in answer.output
