@@ -16,7 +16,7 @@ WORKERS ?= auto
 export PYTHONDONTWRITEBYTECODE :=
 AS_ROOT := $(if $(filter 0,$(shell id -u)),,sudo -n)
 
-.PHONY: help demo test test-all browser hard invariance lint types bench docs pictures clean
+.PHONY: help demo test test-all test-every browser hard invariance lint types bench docs pictures clean
 .DEFAULT_GOAL := help
 
 help:  ## list these commands
@@ -40,7 +40,10 @@ test: engine  ## install with what the tests need, run the tests (WORKERS=0 in o
 	$(ONE_THREAD) $(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m "not slow" $(TESTS)
 
 test-all: engine  ## the rest of the tests, those that take long
-	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m slow $(TESTS)
+	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m "slow and not exhaustive" $(TESTS)
+
+test-every: engine  ## what test-all draws from: all values of every parameter (before a release)
+	$(RUN) -m pytest -n $(WORKERS) --maxprocesses 8 --dist worksteal -m exhaustive $(TESTS)
 
 # A worker would wait for the loop that another one compiles. That of rodas is exported by tests as well: all is made of
 # such bitcode, so that one process types what the loops have in common, once, and another what tests of rooms call.

@@ -21,7 +21,7 @@ import pytest
 
 import fairlead
 from tests.compiling import compile_share, read_share
-from tests.slow import is_left, repeats
+from tests.slow import is_left, left_to_test_every, repeats
 
 Scene = Callable[..., Any]
 
@@ -62,13 +62,15 @@ def pytest_collection(session: pytest.Session) -> Generator[None, object, object
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark as slow what `tests/slow.py` leaves to `make test-all`."""
+    """Mark as slow what `tests/slow.py` leaves to `make test-all`, and as exhaustive what that leaves to be drawn."""
     config.stash[COLLECTED] = [item.nodeid for item in items]
     for item in items:
         if is_left(item.nodeid):
             item.add_marker(pytest.mark.slow)
     for item in repeats(items):
         item.add_marker(pytest.mark.slow)
+    for item in left_to_test_every(items):
+        item.add_marker(pytest.mark.exhaustive)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,11 +1,13 @@
 """Tests that `make test` leaves to `make test-all`: they take long, and others of their file show the mechanism.
 
 Patterns of test names as pytest prints them (`*` stands for anything), beside those that their files mark themselves.
+And of functions with hundreds of slow tests how many of them `make test-all` plays; `make test-every` plays the others.
 """
 
 from __future__ import annotations
 
 import functools
+import hashlib
 import re
 from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterable, Iterator
@@ -589,6 +591,29 @@ EACH_VALUE_ONCE = (
 )
 """Of tests of these names that have several parameters, such as a scene, an engine and an accuracy, `make test` plays
 every value of each, but not each with all values of the others."""
+
+
+DRAWN = {
+    "tests/hard/test_hard_cases.py::test_hard_case": 120,
+}
+"""Of the slow tests of these functions so many are played by `make test-all`: rows of a scoreboard, classes, scenes of
+one sort. They are drawn by their names, so that the draw is the same everywhere, and a new test changes it for one
+other at most."""
+
+
+def left_to_test_every(tests: Iterable[Any]) -> Iterator[Any]:
+    """Of the slow tests of a function in DRAWN those that were not drawn."""
+    found = defaultdict(list)
+    for test in tests:
+        function = test.nodeid.partition("[")[0]
+        if function in DRAWN and test.get_closest_marker("slow"):
+            found[function].append(test)
+    for function, many in found.items():
+        yield from sorted(many, key=_lot)[DRAWN[function] :]
+
+
+def _lot(test: Any) -> str:
+    return hashlib.sha256(test.nodeid.encode()).hexdigest()
 
 
 @functools.cache
