@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import pytest
 
 from tests.conftest import COLLECTED
-from tests.slow import EACH_VALUE_ONCE, LEFT_TO_TEST_ALL, each_value_once, fits, is_left, repeats
+from tests.slow import DRAWN, EACH_VALUE_ONCE, LEFT_TO_TEST_ALL, each_value_once, fits, is_left, left_to_test_every, repeats
 
-PATTERNS = (*LEFT_TO_TEST_ALL, *EACH_VALUE_ONCE)
+PATTERNS = (*LEFT_TO_TEST_ALL, *EACH_VALUE_ONCE, *(f"{function}*" for function in DRAWN))
 ROOT = Path(__file__).parents[2]
 
 
@@ -60,3 +60,21 @@ def test_what_is_slow_already_plays_no_value_and_one_parameter_is_no_product():
     product = [test("test_b[1-1]", slow=True, x=1, y=1), test("test_b[1-2]", x=1, y=2), test("test_b[2-1]", x=2, y=1),
                test("test_b[2-2]", x=2, y=2)]  # fmt: skip
     assert list(repeats([*single, *product])) == [product[3]]
+
+
+def test_of_the_slow_tests_of_a_function_some_are_drawn_whatever_their_order_and_one_more_changes_one_at_most():
+    function, many = next(iter(DRAWN.items()))
+
+    def tests(numbers):
+        return [SimpleNamespace(nodeid=f"{function}[{k}]", get_closest_marker=lambda _kind: True) for k in numbers]
+
+    def drawn(numbers):
+        left = {test.nodeid for test in left_to_test_every(tests(numbers))}
+        return {test.nodeid for test in tests(numbers)} - left
+
+    few, more = drawn(range(3 * many)), drawn(range(3 * many + 1))
+    assert len(few) == len(more) == many
+    assert drawn(reversed(range(3 * many))) == few
+    assert len(few - more) <= 1
+    quick = [SimpleNamespace(nodeid=f"{function}[1]", get_closest_marker=lambda _kind: None)]
+    assert not list(left_to_test_every(quick))
