@@ -30,6 +30,10 @@ class Facts(Protocol):
         """[n]: unknowns of which one may be chosen at will: their values do not count as errors."""
 
     @property
+    def summed(self) -> Booleans:
+        """[n]: algebraic unknowns that are sums and drive nothing: an error of theirs is not larger in what flows."""
+
+    @property
     def guard_inertia(self) -> Floats:
         """[ng]: for a guard on the slip of a contact that may hold, the inertia that resists its force; 0 for others.
 
@@ -183,6 +187,11 @@ class Plain:
 
     @property
     def gauge(self) -> Booleans:
+        """None is."""
+        return np.zeros(len(self.initial), dtype=bool)
+
+    @property
+    def summed(self) -> Booleans:
         """None is."""
         return np.zeros(len(self.initial), dtype=bool)
 

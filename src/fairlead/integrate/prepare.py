@@ -135,7 +135,7 @@ def diagonal(pattern: AnyPattern, n: int) -> Integers:
 
 
 def of_balance(problem: Problem) -> Integers:
-    """[n]: 1 for unknowns without inertia that a balance gives at each instant, as the voltage of a node, or a sum.
+    """[n]: 1 for unknowns without inertia that a balance gives at each instant, as the voltage of a node; 2 for sums.
 
     Not for forces of contacts, whose rows tell slip while they hold, nor for what moves without inertia in such rows,
     nor for how circles of contacts share their load, which nothing reads.
@@ -143,7 +143,7 @@ def of_balance(problem: Problem) -> Integers:
     found = (1 - np.asarray(problem.differential, dtype=np.int64)) * (1 - np.asarray(problem.gauge, dtype=np.int64))
     found[np.asarray(problem.mass_pattern.rows)] = found[columns_of(problem.mass_pattern)] = 0
     found[diagonal(problem.pattern, len(found)) < 0] = 0
-    return found
+    return found * (1 + np.asarray(problem.summed, dtype=np.int64))
 
 
 def _of_contacts(problem: Problem) -> Integers:

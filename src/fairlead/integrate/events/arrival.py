@@ -78,8 +78,10 @@ def arrive(m, located):
     on_row = run.t_piece - recorder.t_row <= 1e-12 * max(abs(run.t_piece), recorder.every)  # a point of the grid
     recorded = recorder.on_grid == 0 or (recorder.between == 1 and not on_row)
     entered_again = point.t == run.t_piece  # for other pivots; the start of the step is gone
-    at_shown = shown_end(m) if (recorded or run.crossed == 1) and not entered_again else point.at_y_piece
-    if run.crossed == 1 and not entered_again:
+    at_event = run.landing == 1 and run.t_piece < run.stop and run.t_piece >= min(run.t_next, run.t_release)
+    at_switch = run.crossed == 1 or at_event
+    at_shown = shown_end(m) if (recorded or at_switch) and not entered_again else point.at_y_piece
+    if at_switch and not entered_again:
         remember_shown(point, recorder, at_shown)
     point.t = run.t_piece
     run.judged = 0
@@ -91,19 +93,18 @@ def arrive(m, located):
         if (keep_positions(problem, point, linear) if kept else correct_forces(problem, point, linear)) == INACCURATE:
             return REPLAN
         judge_again(problem, run, point, events)
-        at_shown = as_shown(m, point.at_y)
+        at_shown = as_shown(m, point.at_y, True)
     run.phase = TRY
-    event_due = run.landing == 1 and (point.t < run.stop and point.t >= min(run.t_next, run.t_release))
     if run.crossed == 1:
         run.located += 1
         # On the interpolant a force is at its limit; the equations have it beyond by the error of the instant.
-        at_limit = as_shown(m, point.at_y if problem.n_moves > 0 else point.at_y_piece)
+        at_limit = as_shown(m, point.at_y if problem.n_moves > 0 else point.at_y_piece, True)
         write_row(problem, recorder, point.t, at_limit, BEFORE)
         remember(problem, point, m.events.loads)
         begin_settling(problem, run, point, events)
         run.phase = SETTLE
-    elif event_due:
-        write_row(problem, recorder, point.t, point.at_y, BEFORE)
+    elif at_event:
+        write_row(problem, recorder, point.t, as_shown(m, point.at_y, True), BEFORE)
         if take_time_event(problem, run, point, events):
             guards.n_fired = 0
             begin_settling(problem, run, point, events)
@@ -139,14 +140,21 @@ def remember_shown(point, recorder, at_shown):
 
 
 @compiled
-def as_shown(m, at_y):
-    """Address of y as it is recorded at an event: never so that a guard rises by it, nor off the one that fired."""
+def as_shown(m, at_y, before):
+    """Address of y as it is recorded at an event, `before` its switches or after them.
+
+    Speeds that follow a stiff law are shown where they balance, but never so that a guard rises by it, nor off the one
+    that fired. What has no inertia is in balance after a settlement; before, it is shown as the end of the piece is.
+    """
     point, guards, recorder = m.point, m.events.guards, m.recorder
     if recorder.shown_apart == 0:
         return at_y
-    y, shown, apart = reals(at_y, point.n), reals(point.at_y_probe, point.n), reals(recorder.at_apart, point.n)
-    for k in range(point.n):
-        shown[k] = y[k] + apart[k]
+    n = point.n
+    y, shown, apart = reals(at_y, n), reals(point.at_y_probe, n), reals(recorder.at_apart, n)
+    piece, stiff = reals(point.at_y_piece, n), indices(recorder.at_is_stiff, n)
+    differential = indices(point.at_differential, n)
+    for k in range(n):
+        shown[k] = y[k] + apart[k] if differential[k] == 1 else y[k]
     evaluate_guards(m.problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     rises = False
@@ -155,7 +163,12 @@ def as_shown(m, at_y):
     fired = indices(guards.at_fired, guards.n_guards)
     for k in range(guards.n_fired):
         rises = rises or abs(g[fired[k]]) > tolerance[fired[k]]
-    return at_y if rises else point.at_y_probe
+    for k in range(n):
+        if differential[k] == 0 and stiff[k] == 1 and before:
+            shown[k] = piece[k] + apart[k]
+        elif rises:
+            shown[k] = y[k]
+    return point.at_y_probe
 
 
 @compiled
@@ -301,7 +314,7 @@ def finish_settling(m, starting):
     run.judged = 1
     run.crossed = 0
     if not starting or recorder.on_grid == 0 or recorder.grid_next == 0:
-        write_row(problem, recorder, point.t, as_shown(m, point.at_y), ORDINARY if starting else AFTER)
+        write_row(problem, recorder, point.t, as_shown(m, point.at_y, False), ORDINARY if starting else AFTER)
     recorder.shown_apart = 0
     if starting:
         recorder.grid_next = 1

@@ -30,8 +30,8 @@ def mark_stiff(problem, matrices, recorder, h):
 
     Of what has inertia the speeds that follow a stiff law within the step: what they hold of the energy is nothing. A
     pressure that is shown elsewhere has another energy. Without inertia all that a balance gives: the error that it is
-    allowed may be large in what flows. Of 1e-4 of 325 V on 1 mohm are left 30 A. A sum of signals, whose own slope is
-    one, is as exact as it is allowed to be, but for `stepping`, which knows it as a mean over the step.
+    allowed may be large in what flows. Of 1e-4 of 325 V on 1 mohm are left 30 A. A sum drives nothing, so that it is as
+    exact as it is allowed to be, but for `stepping`, which knows it as a mean over the step.
     """
     means = recorder.most_inside == PARABOLA
     stiff, position, found = indices(recorder.at_is_stiff, problem.n), indices(problem.at_position_of, problem.n), 0
@@ -39,8 +39,7 @@ def mark_stiff(problem, matrices, recorder, h):
     values = reals(matrices.at_jacobian, matrices.n_jacobian)
     for k in range(problem.n):
         stiff[k] = 0
-        own = abs(values[slope[k]]) if balances[k] == 1 else 0.0
-        if own > 0.0 and (own != 1.0 or means):
+        if balances[k] > 0 and (balances[k] == 1 or means) and values[slope[k]] != 0.0:
             stiff[k] = 1
             found = OF_BALANCES
         elif position[k] >= 0 and follows_within(matrices, k, h):

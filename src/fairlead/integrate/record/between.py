@@ -20,6 +20,13 @@ from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.stiff import FURTHEST, OF_BALANCES
 
+MOST_MOVES = 12
+"""Moves behind the first, at most. Where laws are linear one is enough; a flow through orifices that turns round, whose
+slope changes many times on the way, took no more than this on either engine (test_shown_in_balance.py)."""
+LAST_MOVE = 1e-6
+"""Share of the first move that the last one may have: what is left of the error of an unknown that was to be shown in
+balance, and of what flows."""
+
 
 @compiled
 def zones_inside(m, t, at_y):
@@ -87,7 +94,7 @@ def balance_stiff(m, t, s, at_y):
     nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and what moves by d
     gains r d in it, with W = r M - J: bodies that follow each other would else show the error of their acceleration.
     How far to go along the move that the factors of the step give follows from the residuals before and after it. What
-    has no inertia is moved together, and once more (`balance_again`).
+    has no inertia is moved together, and further (`balance_on`).
     """
     problem, point, core = m.problem, m.point, m.linear.core
     n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
@@ -129,34 +136,60 @@ def balance_stiff(m, t, s, at_y):
                 y[k] -= move[k]
         move[k] = 0.0
     if m.recorder.any_stiff == OF_BALANCES:
-        balance_again(m, y)
+        balance_on(m, t, at_y)
 
 
 @compiled
-def balance_again(m, y):
-    """A second Newton move of what has no inertia, from forces `f`; the first, in `u`, was too far if it is no less.
+def balance_on(m, t, at_y):
+    """Further moves of what has no inertia, behind the first, which is in `u`; f are the forces after it.
 
-    Together they are taken, or neither is: unknowns that depend on each other have residuals that say nothing of one of
-    them. Moves are compared in weights (natural monotonicity test; Deuflhard, Newton Methods, 2004, section 2.1).
+    Unknowns that depend on each other have residuals that say nothing of one of them. So they are moved together, each
+    time by the move d that the factors of the step give, less the part of it that the last two moves tell to be
+    overdone or missing (Anderson's method with one move remembered; Walker, Ni, SIAM J. Numer. Anal. 49:1715, 2011),
+
+        y <- y + d - g (s + d - d_before)    g = <d - d_before, d>/|d - d_before|^2,  s the last change of y
+
+    in weights: of one unknown that is the secant method, and where laws are linear the second move is rounding. Where
+    they do not come to LAST_MOVE of the first, all are taken back: a law without a slope there has no such balance.
     """
-    problem, point, core = m.problem, m.point, m.linear.core
+    problem, point = m.problem, m.point
     n = problem.n
-    f, move, first, weight = (
-        reals(point.at_f, n), reals(point.at_b, n), reals(point.at_u, n), reals(point.at_weight, n),
+    y, f, move, before, change, start, weight = (
+        reals(at_y, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_u, n), reals(point.at_v, n),
+        reals(point.at_x, n), reals(point.at_weight, n),
     )  # fmt: skip
     stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
+    first = 0.0
     for k in range(n):
-        move[k] = f[k] if stiff[k] == 1 and differential[k] == 0 else 0.0
-    core.skip_meters = 1
-    solve(m.linear, point.at_b)
-    core.skip_meters = 0
-    size, before = 0.0, 0.0
+        mine = stiff[k] == 1 and differential[k] == 0
+        before[k] = before[k] if mine else 0.0
+        change[k], start[k] = before[k], y[k] - before[k]
+        first += (before[k] / weight[k]) ** 2 if mine else 0.0
+    done = False
+    for pass_ in range(MOST_MOVES):
+        if pass_ > 0:
+            field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
+            problem.rhs += 1
+        for k in range(n):
+            move[k] = f[k] if stiff[k] == 1 and differential[k] == 0 else 0.0
+        m.linear.core.skip_meters = 1
+        solve(m.linear, point.at_b)
+        m.linear.core.skip_meters = 0
+        size, product, square = 0.0, 0.0, 0.0
+        for k in range(n):
+            if stiff[k] == 1 and differential[k] == 0:
+                now, apart = move[k] / weight[k], (move[k] - before[k]) / weight[k]
+                size, product, square = size + now * now, product + now * apart, square + apart * apart
+        done = size <= LAST_MOVE * LAST_MOVE * first
+        share = product / square if square > 0.0 and not done else 0.0
+        for k in range(n):
+            if stiff[k] == 1 and differential[k] == 0:
+                step = move[k] - share * (change[k] + move[k] - before[k])
+                y[k] += step
+                before[k], change[k] = move[k], step
+            move[k] = 0.0
+        if done:
+            break
     for k in range(n):
-        if stiff[k] == 1 and differential[k] == 0:
-            size += (move[k] / weight[k]) ** 2
-            before += (first[k] / weight[k]) ** 2
-    converges = 4.0 * size <= before
-    for k in range(n):
-        if stiff[k] == 1 and differential[k] == 0:
-            y[k] += move[k] if converges else -first[k]
-        move[k] = 0.0
+        if not done and stiff[k] == 1 and differential[k] == 0:
+            y[k] = start[k]

@@ -227,12 +227,13 @@ def arrive_with_zones(m):
         return BUFFER_FULL
     switched = settling.passes > 0
     if switched:
-        m.point.t = run.t_piece
+        start, m.point.t = m.point.t, run.t_piece
         at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_zones)
         copy(at_start, indices(settling.at_zones_before, problem.n_zones))
         guards.n_fired = 0
         settling.passes = 0
         log_changes(m)
+        m.point.t = start
     copy(reals(guards.at_g, problem.n_guards), reals(m.stepping.contacts.at_g_before, problem.n_guards))
     if problem.samples == 1 and run.landing == 1 and run.t_piece >= run.t_next and run.t_piece < run.stop:
         run.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then

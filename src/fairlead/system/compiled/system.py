@@ -163,6 +163,11 @@ class System:
         return np.array([unknown.kind in ("share", "acceleration") for unknown in self.numbering.unknowns], dtype=bool)
 
     @property
+    def summed(self) -> NDArray[np.bool_]:
+        """[n]: unknowns that add up what components tell them; nothing flows by them."""
+        return np.array([unknown.kind == "sum" for unknown in self.numbering.unknowns], dtype=bool)
+
+    @property
     def uneven(self) -> list[str]:
         """Contacts that hold between a node with inertia and one without, by name."""
         in_mass = np.zeros(self.n, dtype=bool)

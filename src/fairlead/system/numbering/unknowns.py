@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
-from fairlead.component.declare import State
+from fairlead.component.declare import SUM, State
 from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import PORT, key
 from fairlead.component.values import number_given
@@ -26,7 +26,7 @@ class Unknown:
     differential: bool
     mass: float  # its diagonal entry of M, 0 when algebraic
     start: float
-    kind: str  # position, rate, acceleration, potential, state, multiplier, share, ledger
+    kind: str  # position, rate, acceleration, potential, sum, state, multiplier, share, ledger
     nominal: float | None = None  # a size that matters, where its component says one
 
 
@@ -135,7 +135,8 @@ def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool
 def _number_group(made: Numbering, index: int, group: Group, *, rate_matters: bool) -> None:
     (x, x_unit), *rest = group.domain.across
     if not rest:  # one potential: pressure or voltage
-        row = made.add(Unknown(f"{group.name}.{x}", x_unit, group.mass > 0, group.mass, group.start[0], "potential"))
+        kind = "sum" if group.domain is SUM else "potential"
+        row = made.add(Unknown(f"{group.name}.{x}", x_unit, group.mass > 0, group.mass, group.start[0], kind))
         made.position[index] = made.balance[index] = row
         return
     v, v_unit = rest[0]
