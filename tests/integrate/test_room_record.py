@@ -63,7 +63,7 @@ def test_there_is_room_for_a_settlement_or_the_buffer_is_emptied_first(rows, eve
 def inside():
     from fairlead.integrate.record.rows import rows_inside
 
-    return entry(rows_inside, ("run", "point", "events.settling", "stepping.rule", "recorder"), result="i")
+    return entry(rows_inside, ("run", "point", "events.settling", "recorder"), result="i")
 
 
 def piece(D, weight=1e-3, unweighed=0, t_piece=2.0, **numbers):
@@ -101,9 +101,6 @@ def test_a_piece_on_a_grid_has_as_many_rows_inside_as_its_curve_needs_within_a_w
         ({"between": 0}, 0),
         ({"most_inside": 1}, 1),  # stepping knows parabolas
         ({"most_inside": 1, "passes": 1}, 0),  # in which something switched
-        ({"most_inside": 1, "gap": 0.5}, 0),  # that go through the last three ends
-        ({"most_inside": 1, "gap": 0.5, "on_grid": 0}, 1),
-        ({"gap": 0.5}, 3),
         ({"unweighed": 1}, 0),
         ({"t_piece": 0.02}, 0),  # up to a switch at a hundredth of the step, which is straight within its weight
     ],

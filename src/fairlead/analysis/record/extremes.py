@@ -1,8 +1,8 @@
 """The largest and the smallest value of every signal over a run, from the dense output of all steps.
 
 Looked at are all rows an engine hands over: the ends of steps, both sides of events and rows inside steps. Where the
-best of them lies in a step, or at an end of one, that has rows inside, the curve through these rows is searched; in a
-step without, the parabola through its ends and the row before. So an extreme between two rows is found, whatever is
+best of them lies in a step, or at an end of one, that has rows inside, the curve through these rows is searched; where
+steps are too short for that, a parabola through three ends. So an extreme between two rows is found, whatever is
 recorded.
 """
 
@@ -15,8 +15,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.analysis.record.event_rows import Rows
-from fairlead.analysis.record.step_rows import Integers, curved_steps, short_steps
+from fairlead.analysis.record.event_rows import AFTER, BEFORE, Rows
+from fairlead.analysis.record.step_rows import Integers, curved_steps
 from fairlead.results.curves import basis
 
 POINTS = np.linspace(0.0, 1.0, 33)
@@ -24,14 +24,10 @@ STRETCH = 64
 """Rows of which the best one is searched round: a motion may have a peak in each."""
 MARGIN = 0.1
 """Steps are searched of which a row comes as near to the largest value so far, in the range of the signal so far."""
-UNEVEN = 4.0
-"""A parabola through three rows is that of a motion, not of what rings, where its bend has the sign of the parabola
-before and is at most so many times as large (integrate/stepping/step_error.py)."""
+AGREE = 0.25
+"""Share of the largest second difference by which three may differ that are of one smooth curve."""
 Floats = NDArray[np.float64]
 Taken = Callable[[Integers, Integers], Floats]
-Steps = tuple[Integers, int, Callable[[Floats, Floats], tuple[Floats, Floats]]]
-"""[steps, rows]: rows on the curve of each step; which of them is its start, the last being its end; and what tells
-from times and values of these rows [k, rows] the highest value of a step, and after which share of it."""
 
 
 @dataclass
@@ -53,10 +49,9 @@ class Extremes:
         """Take rows of whole steps."""
         if not len(rows.t) or not self.signals:
             return
-        curved = [(which, 0, _peak_of_curves) for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
-        short = [(which, 2, peak_of_ends)] if len(which := short_steps(rows.t, rows.side)) else []
+        steps = [which for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
         before = np.concatenate([self.highest, -self.lowest])
-        best, when = _highest(rows, rows.values[:, : self.signals], [*curved, *short], before)
+        best, when = _highest(rows, rows.values[:, : self.signals], steps, before)
         top, bottom = best[: self.signals], best[self.signals :]
         t_top, t_bottom = when[: self.signals], when[self.signals :]
         higher, lower = top > self.highest, -bottom < self.lowest
@@ -70,7 +65,7 @@ class Extremes:
         return {name: row.tolist() for name, row in rows if np.isfinite(row).all()}
 
 
-def _highest(rows: Rows, values: Floats, steps: list[Steps], before: Floats) -> tuple[Floats, Floats]:
+def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) -> tuple[Floats, Floats]:
     """The highest value of each signal, and of its negative, in these rows, and when: where it is above `before`.
 
     `values` is [rows, signals]. Every stretch of rows tells its highest value; where that comes near to the highest so
@@ -89,17 +84,18 @@ def _highest(rows: Rows, values: Floats, steps: list[Steps], before: Floats) -> 
 
     row, value = _first_best(values, column, sign, stretch)
     t = rows.t[row]
-    for which, start, peak_of in steps:
+    for which in steps:
         for begins in (True, False):
-            step = np.searchsorted(which[:, start], row, side="right") - 1
+            step = np.searchsorted(which[:, 0], row, side="right") - 1
             if not begins:  # the row is the end of a step: that one as well
-                step = np.where((step >= 0) & (which[step, start] == row), step - 1, -1)
+                step = np.where((step >= 0) & (which[step, 0] == row), step - 1, -1)
             of = np.flatnonzero((step >= 0) & (row <= which[step, -1]))
             if len(of):
                 at = which[step[of]]
-                peak, share = peak_of(rows.t[at], taken(of, at))
-                t0, t1 = rows.t[at[:, start]], rows.t[at[:, -1]]
+                peak, share = peak_of_curves(taken(of, at))
+                t0, t1 = rows.t[at[:, 0]], rows.t[at[:, -1]]
                 _raise_to(value, t, of, peak, t0 + share * (t1 - t0))
+    _raise_to(value, t, *peak_of_neighbours(rows, taken, row))
     when = np.full(best.shape, np.nan)
     best[signal, stretch], when[signal, stretch] = value, t
     columns, first = np.arange(len(best)), best.argmax(axis=1)
@@ -147,25 +143,28 @@ def _raise_to(best: Floats, when: Floats, of: Integers, value: Floats, t: Floats
     best[of[higher]], when[of[higher]] = value[higher], t[higher]
 
 
-def peak_of_ends(t: Floats, v: Floats) -> tuple[Floats, Floats]:
-    """Of four rows [k, 4] each: the highest value between the last two, on the parabola through the last three.
+def peak_of_neighbours(rows: Rows, taken: Taken, row: Integers) -> tuple[Integers, Floats, Floats]:
+    """Of ends of short steps: the peaks of parabolas through highest rows and their neighbours; of which, and when.
 
-    On the straight line where that parabola is no motion (UNEVEN).
+    Only where five rows lie on one: where their three second differences agree.
     """
+    inner = np.flatnonzero((row >= 2) & (row + 2 < len(rows.t)))
+    at = row[inner][:, None] + np.arange(-2, 3)
+    t, sides = rows.t[at], rows.side[at]
     gaps = t[:, 1:] - t[:, :-1]
+    plain = (gaps > 0.0).all(axis=1) & ~((sides == BEFORE) | (sides == AFTER)).any(axis=1)
+    inner, at, t, gaps = inner[plain], at[plain], t[plain], gaps[plain]
+    if not len(inner):
+        return inner, np.empty(0), np.empty(0)
+    v = taken(inner, at)
     slopes = (v[:, 1:] - v[:, :-1]) / gaps
-    bends = 2.0 * (slopes[:, 1:] - slopes[:, :-1]) / (gaps[:, :-1] + gaps[:, 1:])
-    rise = v[:, 3] - v[:, 2]
-    bulge = -0.5 * gaps[:, 2] ** 2 * bends[:, 1]
-    smooth = (bends[:, 0] < 0.0) & (bulge > 0.0) & (bends[:, 1] >= UNEVEN * bends[:, 0])
-    bulge = np.where(smooth, bulge, 1.0)
-    share = np.where(smooth, np.clip(0.5 + 0.5 * rise / bulge, 0.0, 1.0), np.where(rise > 0.0, 1.0, 0.0))
-    on_line = np.where(share == 1.0, v[:, 3], v[:, 2] + share * rise)
-    return on_line + np.where(smooth, share * (1.0 - share) * bulge, 0.0), share
-
-
-def _peak_of_curves(_t: Floats, v: Floats) -> tuple[Floats, Floats]:
-    return peak_of_curves(v)
+    bends = (slopes[:, 1:] - slopes[:, :-1]) / (gaps[:, :-1] + gaps[:, 1:])
+    spread = bends.max(axis=1) - bends.min(axis=1)
+    agree = (spread <= AGREE * np.abs(bends).max(axis=1)) & (bends[:, 1] < 0.0)
+    inner, t, v, gaps, slopes, bend = (x[agree] for x in (inner, t, v, gaps, slopes, bends[:, 1]))
+    slope = (slopes[:, 1] * gaps[:, 2] + slopes[:, 2] * gaps[:, 1]) / (gaps[:, 1] + gaps[:, 2])
+    shift = np.clip(-slope / (2.0 * bend), -gaps[:, 1], gaps[:, 2])
+    return inner, v[:, 2] + shift * (slope + bend * shift), t[:, 2] + shift
 
 
 def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.analysis.record.event_rows import AFTER, BEFORE, LITTLE, Rows
+from fairlead.analysis.record.event_rows import LITTLE, Rows
 
 ORDINARY, INSIDE, PASSED, INSIDE_PASSED, GRID = 0, 3, 4, 5, 6  # what a row is, as the engine numbers them
 KEPT = 0.5
@@ -91,19 +91,6 @@ def curved_steps(side: NDArray[np.int8], inside: int) -> Integers:
     ends = np.flatnonzero(~between)
     starts = ends[:-1][np.diff(ends) == inside + 1]
     return on_curve[starts[:, None] + np.arange(inside + 2)]
-
-
-def short_steps(t: NDArray[np.float64], side: NDArray[np.int8]) -> Integers:
-    """[steps, 4]: of steps without rows inside on their curve their start and end, behind the two rows before.
-
-    Only where all four are of one motion: no event lies between them.
-    """
-    on_curve = np.flatnonzero(side != GRID)
-    at = on_curve[np.arange(len(on_curve) - 3)[:, None] + np.arange(4)] if len(on_curve) > 3 else np.zeros((0, 4), int)
-    sides, times = side[at], t[at]
-    ends, events = is_end(sides), (sides == BEFORE) | (sides == AFTER)
-    one = ends[:, 2] & ends[:, 3] & ~events[:, 1] & ~events[:, 2] & (sides[:, 0] != BEFORE)
-    return at[one & (times[:, 1:] > times[:, :-1]).all(axis=1)]
 
 
 def joined(first: Rows, *more: Rows) -> Rows:

@@ -54,7 +54,7 @@ def record_piece(m):
     """
     problem, run, point, recorder = m.problem, m.run, m.point, m.recorder
     if recorder.inside_next == 0:
-        recorder.inside = rows_inside(run, point, m.events.settling, m.stepping.rule, recorder)
+        recorder.inside = rows_inside(run, point, m.events.settling, recorder)
         recorder.inside_next = 1
     if recorder.inside > 0 and recorder.inside_next == 1 and recorder.t_row < point.t:
         if recorder.rows + 4 > recorder.row_capacity:
@@ -114,21 +114,17 @@ def shown_end(m):
 
 
 @compiled
-def rows_inside(run, point, settling, rule, recorder):
+def rows_inside(run, point, settling, recorder):
     """How many rows the piece has inside that are no grid points: those that its curve goes through, or none.
 
     Without a grid all steps have them; with one, steps in the middle of which an unknown is off the straight line by
     more than its weight: a single one where no unknown is off the parabola through it by as much. A step of `stepping`
-    in which something switched has none: it has the laws of its end. Nor has one that follows another: its dense output
-    is the parabola through the last three ends, which are rows themselves (analysis/record/extremes.py).
+    in which something switched has none: it has the laws of its end.
     """
-    of_parabola = recorder.most_inside == PARABOLA
-    if recorder.between == 0 or run.t_piece <= point.t or (of_parabola and settling.passes > 0):
+    if recorder.between == 0 or run.t_piece <= point.t or (recorder.most_inside == PARABOLA and settling.passes > 0):
         return 0
     if recorder.on_grid == 0:
         return recorder.most_inside
-    if of_parabola and rule.gap > 0.0:
-        return 0
     share = (run.t_piece - point.t) / run.h
     y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_x, point.n)
     weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)

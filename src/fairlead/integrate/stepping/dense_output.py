@@ -49,8 +49,7 @@ def show_inside(m):
     """How many rows the accepted step has inside, and what its dense output needs."""
     recorder = m.recorder
     if recorder.on_grid == 1 or recorder.between == 1:
-        recorder.inside = rows_inside(m.run, m.point, m.events.settling, m.stepping.rule, recorder)
-        recorder.inside_next = 1
+        recorder.inside, recorder.inside_next = rows_inside(m.run, m.point, m.events.settling, recorder), 1
         prepare_dense_output(m)
 
 
