@@ -250,7 +250,7 @@ class Model:
         except ModelError as error:
             raise ModelError([*asked.faults, *error.faults]) from None
         asked.refuse()
-        system = self._system_from(netlist)
+        system = self._beginning_with(netlist).system
         path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
         result = run(
             self.netlist, netlist, system, None if path is None else pathlib.Path(path),
@@ -279,18 +279,16 @@ class Model:
         asked.texts("inputs", inputs, '"valve.command"', "name")
         asked.texts("tunable", tunable, '"pad.normal_force"', "name")
         asked.refuse()
-        named = Tunable.of(self, tunable)
         chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters, "Model.start")
-        return Stepping(self.netlist, chosen, self._system_from(chosen), inputs, tunable=named)
+        model = self._beginning_with(chosen)
+        return Stepping(self.netlist, chosen, model.system, inputs, tunable=Tunable.of(model, tunable))
 
-    def _system_from(self, settings: RunSettings) -> System:
-        """The system for a run that starts when these settings say: another one if a motion begins there."""
-        from fairlead.flatten.flatten import begins_with_the_run
+    def _beginning_with(self, settings: RunSettings) -> Model:
+        """The model for a run that starts when these settings say: another one if a motion begins there."""
+        from fairlead.renewal import begins_otherwise
 
-        if settings.start == self.netlist.run.start or not begins_with_the_run(self.system.flat):
-            return self.system
-        begin, stop = repr(settings.start), repr(settings.stop)
-        return self._renewed({"run.start": f"{begin} s", "run.stop": f"{stop} s"}, self).system
+        given = {"run.start": f"{settings.start!r} s", "run.stop": f"{settings.stop!r} s"}
+        return self._renewed(given, self) if begins_otherwise(self.system.flat, settings.start) else self
 
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
         """A model with other `values` of settings (`{"pad.normal_force": "20 N"}`), `more` of parameters (`mu=0.6`).

@@ -45,8 +45,8 @@ class Stages(Protocol):
 def renew(old: Stages, new: Stages) -> None:
     """Make the stages of `new`, of one netlist with `old` but for its values. Raises ModelError as they do."""
     system = old.system
-    begins = old.netlist.run.start == new.netlist.run.start or not begins_with_the_run(old.flattened)
-    made = again(old.assembly, old.flattened.instances, new.netlist, known_types(new.libraries)) if begins else None
+    other = begins_otherwise(old.flattened, new.netlist.run.start)
+    made = None if other else again(old.assembly, old.flattened.instances, new.netlist, known_types(new.libraries))
     if made is not None:
         instances = tuple(made.instances.values())
         new.assembly, new.flattened = made, replace(old.flattened, assembly=made, instances=instances)
@@ -56,6 +56,11 @@ def renew(old: Stages, new: Stages) -> None:
         new.rebuilt = f"All stages were made anew: {why}."
     else:
         new.system = refreshed(system, new.flat)
+
+
+def begins_otherwise(flat: FlatModel, start: float) -> bool:
+    """Whether a motion of a scene is another one in a run that starts at this time [s]."""
+    return start != flat.assembly.netlist.run.start and begins_with_the_run(flat)
 
 
 def _ledger(one: FlatModel, other: FlatModel) -> str:

@@ -168,7 +168,7 @@ def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
     if found.way == INSIDE and found.parts:
         yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
     if means := _followed_at_once(system):
-        what = f"what follows a quantity in time at once ({few(means)}) is known to stepping as means over its steps"
+        what = f"laws that read what follows a quantity in time at once ({few(means)}) get its means over steps"
         yield Fault(_where(system, [means[0].rpartition(".")[0].rpartition(".")[0]]), f"run.engine: {what}.", WAY_OUT)
 
 
