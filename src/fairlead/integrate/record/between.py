@@ -26,6 +26,8 @@ slope changes many times on the way, took no more than this on either engine (te
 LAST_MOVE = 1e-6
 """Share of the first move that the last one may have: what is left of the error of an unknown that was to be shown in
 balance, and of what flows."""
+ROUNDING = 32 * 2.2e-16
+"""What is moved by less than this share of its scale, the weight by its relative part, is moved by rounding."""
 
 
 @compiled
@@ -150,23 +152,25 @@ def balance_on(m, t, at_y):
         y <- y + d - g (s + d - d_before)    g = <d - d_before, d>/|d - d_before|^2,  s the last change of y
 
     in weights: of one unknown that is the secant method, and where laws are linear the second move is rounding. Where
-    they do not come to LAST_MOVE of the first, all are taken back: a law without a slope there has no such balance.
+    they come neither to LAST_MOVE of the first nor to ROUNDING, all are taken back. That is known when a move is FURTHEST
+    times the first, or when it leaves the next as it was but for a part in FURTHEST: a law without a slope there has no
+    such balance, and where unknowns that follow would have to move no moves of these come to one.
     """
     problem, point = m.problem, m.point
     n = problem.n
-    y, f, move, before, change, start, weight = (
+    y, f, move, before, change, start, weight, relative = (
         reals(at_y, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_u, n), reals(point.at_v, n),
-        reals(point.at_x, n), reals(point.at_weight, n),
+        reals(point.at_x, n), reals(point.at_weight, n), reals(point.at_relative, n),
     )  # fmt: skip
     stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
-    first = 0.0
+    first, done = 0.0, True
     for k in range(n):
         mine = stiff[k] == 1 and differential[k] == 0
         before[k] = before[k] if mine else 0.0
         change[k], start[k] = before[k], y[k] - before[k]
-        first += (before[k] / weight[k]) ** 2 if mine else 0.0
-    done = False
-    for pass_ in range(MOST_MOVES):
+        first += (before[k] / weight[k]) ** 2
+        done = done and abs(before[k]) * relative[k] <= ROUNDING * weight[k]
+    for pass_ in range(MOST_MOVES if not done else 0):
         if pass_ > 0:
             field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
             problem.rhs += 1
@@ -175,13 +179,16 @@ def balance_on(m, t, at_y):
         m.linear.core.skip_meters = 1
         solve(m.linear, point.at_b)
         m.linear.core.skip_meters = 0
-        size, product, square = 0.0, 0.0, 0.0
+        size, product, square, done = 0.0, 0.0, 0.0, True
         for k in range(n):
             if stiff[k] == 1 and differential[k] == 0:
                 now, apart = move[k] / weight[k], (move[k] - before[k]) / weight[k]
                 size, product, square = size + now * now, product + now * apart, square + apart * apart
-        done = size <= LAST_MOVE * LAST_MOVE * first
+                done = done and abs(now) * relative[k] <= ROUNDING
+        done = done or size <= LAST_MOVE * LAST_MOVE * first
         share = product / square if square > 0.0 and not done else 0.0
+        if not done and size > FURTHEST * FURTHEST * min(first, square):
+            break
         for k in range(n):
             if stiff[k] == 1 and differential[k] == 0:
                 step = move[k] - share * (change[k] + move[k] - before[k])
