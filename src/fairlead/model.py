@@ -285,7 +285,7 @@ class Model:
 
     def _beginning_with(self, settings: RunSettings) -> Model:
         """The model for a run that starts when these settings say: another one if a motion begins there."""
-        from fairlead.renewal import begins_otherwise
+        from fairlead.flatten.flatten import begins_otherwise
 
         given = {"run.start": f"{settings.start!r} s", "run.stop": f"{settings.stop!r} s"}
         return self._renewed(given, self) if begins_otherwise(self.system.flat, settings.start) else self

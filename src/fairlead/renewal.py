@@ -21,7 +21,7 @@ from fairlead.component.instantiate import Assembly
 from fairlead.component.registry import known_types
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
-from fairlead.flatten.flatten import begins_with_the_run
+from fairlead.flatten.flatten import begins_otherwise
 from fairlead.flatten.same_wiring import difference
 from fairlead.netlist.netlist import Netlist
 from fairlead.system.compile import energy_counted
@@ -56,11 +56,6 @@ def renew(old: Stages, new: Stages) -> None:
         new.rebuilt = f"All stages were made anew: {why}."
     else:
         new.system = refreshed(system, new.flat)
-
-
-def begins_otherwise(flat: FlatModel, start: float) -> bool:
-    """Whether a motion of a scene is another one in a run that starts at this time [s]."""
-    return start != flat.assembly.netlist.run.start and begins_with_the_run(flat)
 
 
 def _ledger(one: FlatModel, other: FlatModel) -> str:

@@ -87,6 +87,16 @@ def test_nor_do_those_of_many_contacts_on_stepping_depend_on_the_grid(model, sig
         assert one.highest == pytest.approx(found[0].highest, abs=1e-3 * size)
 
 
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-4"])
+def test_inside_steps_of_stepping_neighbours_on_a_line_move_alike(accuracy):
+    """No force between them is that of the way in which rows are shown: from 100 N the held end falls to 96.3 N."""
+    settings = {"run.engine": "stepping", "run.accuracy": accuracy, "record.every": "null", "run.stop": "0.1 s"}
+    result = fairlead.load("capstan", set=settings).run(out=None, check=False)
+    tension = np.array([result[f"rope.line[{k}].tension"] for k in range(44, 60)])
+    assert np.abs(np.diff(tension, axis=0)).max() < 2.0
+    assert min(result.extremes(f"rope.line[{k}].tension").lowest for k in range(44, 56)) > 95.0
+
+
 GRIDS = [None, "20 ms", "0.37 s", "5 s", "100 s"]
 BELT = """
     components:

@@ -145,8 +145,13 @@ def _start_sources(flat: FlatModel) -> None:
             _shift(flat, made)
 
 
-def begins_with_the_run(flat: FlatModel) -> bool:
-    """Whether a motion is given by its velocity alone: it then begins where the driven body is, when the run starts."""
+def begins_otherwise(flat: FlatModel, start: float) -> bool:
+    """Whether a motion is another one in a run that starts at this time [s].
+
+    It is if it is given by its velocity alone: it begins where the driven body is, when the run starts.
+    """
+    if start == flat.assembly.netlist.run.start:
+        return False
     sources = [flat.assembly.instances[one.prescribed.by.instance] for one in flat.groups if one.prescribed is not None]
     return any(source.type.answers.starts_at is not None for source in sources)
 

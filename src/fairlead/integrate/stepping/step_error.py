@@ -31,10 +31,11 @@ STILL = 1e-2
 """Where no position changes by more than this share of its weight, HOLD_SHARE of the second difference of a holding
 force counts as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
 UNEVEN = 4.0
-"""Rows inside a step lie on a parabola where the motion is smooth, on the chord where its second derivative c grows by
-more than this or turns round: what is stiff rings at its steps, and a parabola through that shows motions that never
-were. The bulge of the parabola is h^2 c/8, the error of the step h^2 (c - c_before)/12. Where c is four
-times c_before that is half the bulge, which then says nothing."""
+"""The second derivative c of the parabola that rows inside a step lie on is at most so many times the one before, and
+none where it turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were.
+The bulge of the parabola is h^2 c/8, the error of the step h^2 (c - c_before)/12. Where c is four times c_before that is
+half the bulge, and a larger c then says nothing. It is a bound and no switch: of two neighbours on a line one would
+else lie on the parabola and one on the chord, and the force between them would be that difference."""
 
 
 @compiled
@@ -77,7 +78,7 @@ def find_slopes(point, rule, h):
 
 @compiled
 def find_bulges(point, rule, h):
-    """Into the first part of `D`: the parabola of the step less its chord, none where the step is uneven."""
+    """Into the first part of `D`: the parabola of the step less its chord, bounded where the step is uneven."""
     n = point.n
     slope, before = reals(rule.at_mean_slope, n), reals(rule.at_slope_before, n)
     earlier = reals(rule.at_slope_earlier, n)
@@ -85,8 +86,8 @@ def find_bulges(point, rule, h):
     per_near, per_far = 1.0 / (rule.gap + 0.5 * h), 1.0 / rule.gap_before
     for k in range(n):
         curve, curve_before = (slope[k] - before[k]) * per_near, (before[k] - earlier[k]) * per_far
-        even = (curve * curve_before > 0.0) & (abs(curve) <= UNEVEN * abs(curve_before))
-        bulge[k] = -0.5 * h * h * curve if (differential[k] == 1) & even else 0.0
+        bounded = curve if abs(curve) <= UNEVEN * abs(curve_before) else UNEVEN * curve_before
+        bulge[k] = -0.5 * h * h * bounded if (differential[k] == 1) & (curve * curve_before > 0.0) else 0.0
 
 
 @compiled
