@@ -152,9 +152,9 @@ def balance_on(m, t, at_y):
         y <- y + d - g (s + d - d_before)    g = <d - d_before, d>/|d - d_before|^2,  s the last change of y
 
     in weights: of one unknown that is the secant method, and where laws are linear the second move is rounding. Where
-    they come neither to LAST_MOVE of the first nor to ROUNDING, all are taken back. That is known when a move is FURTHEST
-    times the first, or when it leaves the next as it was but for a part in FURTHEST: a law without a slope there has no
-    such balance, and where unknowns that follow would have to move no moves of these come to one.
+    they come neither to LAST_MOVE of the first nor to ROUNDING, all are taken back. That is known when a move is
+    FURTHEST times the first, or when it leaves the next as it was but for a part in FURTHEST: a law without a slope
+    there has no such balance, and where unknowns that follow would have to move no moves of these come to one.
     """
     problem, point = m.problem, m.point
     n = problem.n

@@ -33,8 +33,8 @@ force counts as its error: what is recorded of a force that swings while nothing
 UNEVEN = 4.0
 """The second derivative c of the parabola that rows inside a step lie on is at most so many times the one before, and
 none where it turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were.
-The bulge of the parabola is h^2 c/8, the error of the step h^2 (c - c_before)/12. Where c is four times c_before that is
-half the bulge, and a larger c then says nothing. It is a bound and no switch: of two neighbours on a line one would
+The bulge of the parabola is h^2 c/8, the error of the step h^2 (c - c_before)/12. Where c is four times c_before that
+is half the bulge, and a larger c then says nothing. It is a bound and no switch: of two neighbours on a line one would
 else lie on the parabola and one on the chord, and the force between them would be that difference."""
 
 
