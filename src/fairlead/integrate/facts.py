@@ -56,6 +56,13 @@ class Facts(Protocol):
         """
 
     @property
+    def latch_guard(self) -> Integers:
+        """[ng]: 1 for guards of parts that only tell signals, and that remember that one fired, as a relay does.
+
+        They wait until all others are in their zones: what they read is only tried until then (`latches_wait`).
+        """
+
+    @property
     def met_guard(self) -> Integers:
         """Guards of places at which a stop is met that takes any impulse: known to rounding (settling.py)."""
 
@@ -208,6 +215,11 @@ class Plain:
     @property
     def blow_guard(self) -> Integers:
         """None is of such."""
+        return np.zeros(len(self.guard_machine), dtype=np.int64)
+
+    @property
+    def latch_guard(self) -> Integers:
+        """None is known to."""
         return np.zeros(len(self.guard_machine), dtype=np.int64)
 
     @property

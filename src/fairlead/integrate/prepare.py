@@ -86,6 +86,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "guard_machine": problem.guard_machine,
         "kink_guard": np.asarray(problem.kink_guard, np.int64),
         "blow_guard": np.asarray(problem.blow_guard, np.int64),
+        "latch_guard": np.asarray(problem.latch_guard, np.int64),
         "may_hold": _of_contacts(problem), "met_guard": np.asarray(problem.met_guard, np.int64),
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),

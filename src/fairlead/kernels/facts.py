@@ -18,7 +18,7 @@ from fairlead.kernels.break_away import parameters_as_text, shares_left
 from fairlead.kernels.dependence import carried_ratio, reads
 from fairlead.kernels.derivative import derivative, symbols_in
 from fairlead.kernels.flow_rates import flow_rates, joins, output_rates, yields
-from fairlead.kernels.guard_slots import bounds_what_holds, in_slots
+from fairlead.kernels.guard_slots import bounds_what_holds, in_slots, latches
 from fairlead.kernels.held_pairs import held_pairs
 from fairlead.kernels.in_floats import differs
 from fairlead.kernels.structure import Structure
@@ -279,5 +279,5 @@ def _describe(guard: TracedGuard, facts: KernelFacts, zone: TracedZone) -> dict[
     to = -1 if guard.table else list(facts.traced.zones).index(guard.to)
     return {
         "name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step,
-        "limits": bounds_what_holds(guard, zone),
+        "limits": bounds_what_holds(guard, zone), "latches": latches(guard, facts.traced),
     }  # fmt: skip

@@ -25,6 +25,19 @@ def bounds_what_holds(guard: TracedGuard, zone: TracedZone) -> bool:
     return any(s.name in held for value in guard.values for s in value.free_symbols)
 
 
+def latches(guard: TracedGuard, traced: Traced) -> bool:
+    """True if the zone that a guard leads to remains when the guard is below zero again, as that of a relay does.
+
+    It does not where a way out of it has the same value, reversed.
+    """
+    if guard.step != 0 or not guard.to:
+        return False
+    ways_out = [out.values for out in traced.zones[guard.to].guards]
+    return not any(
+        len(values) == len(guard.values) == 1 and sympy.expand(values[0] + guard.values[0]) == 0 for values in ways_out
+    )
+
+
 def in_slots(traced: Traced) -> Traced:
     """The class with its guards in slots of one role each; where a zone leaves one out, a guard that never fires."""
     roles: list[Role] = []

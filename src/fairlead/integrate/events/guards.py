@@ -25,6 +25,22 @@ def evaluate_guards(problem, run, guards, t, at_y, at_g):
 
 
 @compiled
+def latches_wait(problem, guards):
+    """Leave those that remember out of `fired` as long as any other is in it.
+
+    While zones are still looked for, forces are only tried: a contact holds with ten times its limit, or a stop pulls. A
+    relay would remember that, though it never was.
+    """
+    fired, latch = indices(guards.at_fired, guards.n_guards), indices(problem.at_latch_guard, guards.n_guards)
+    kept = 0
+    for k in range(guards.n_fired):
+        if latch[fired[k]] == 0:
+            fired[kept] = fired[k]
+            kept += 1
+    guards.n_fired = kept if kept > 0 else guards.n_fired
+
+
+@compiled
 def guards_at(m, s, h, at_g):
     """Guards at s on the interpolant."""
     problem, run, point, guards = m.problem, m.run, m.point, m.events.guards

@@ -8,7 +8,7 @@ tells of the force P / SHORT. A law between the points of a table is followed fr
 
 from __future__ import annotations
 
-from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.guards import evaluate_guards, latches_wait
 from fairlead.integrate.events.impulse_load import UNLIMITED, load, load_forces
 from fairlead.integrate.events.least_index import keep_first
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
@@ -51,6 +51,7 @@ def change_zones_for(m):
         if changes or (touches and later[i] - under[i] > least):
             fired[guards.n_fired] = i
             guards.n_fired += 1
+    latches_wait(problem, guards)
     if settling.stage > 0 and guards.n_fired > 1:
         keep_first(m.events)
 

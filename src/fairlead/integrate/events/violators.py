@@ -9,7 +9,7 @@ with which inertia; where it does not, the least index follows at once).
 
 from __future__ import annotations
 
-from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.guards import evaluate_guards, latches_wait
 from fairlead.integrate.events.limits import AT_LIMIT, weigh_limits
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weighted_norm
@@ -56,6 +56,26 @@ def fire_violators(problem, run, point, events):
                 wrong[i] *= inertia[i] / (SLIP_TIME if g[i] > tolerance[i] else settling.look)
             fired[guards.n_fired] = i
             guards.n_fired += 1
+    if settling.stage == 0:
+        functions_first(problem, guards)
+    latches_wait(problem, guards)
+
+
+@compiled
+def functions_first(problem, guards):
+    """Leave in `fired` those alone that tell no more than they read, if there are any: limiters, tables.
+
+    They are functions, and have no state before each is in its piece: a contact behind a limiter would else let go
+    under a force that the limiter does not let pass, and slide on. Where what they read depends on contacts in turn
+    patterns recur, and all change together.
+    """
+    fired, latch = indices(guards.at_fired, guards.n_guards), indices(problem.at_latch_guard, guards.n_guards)
+    tells, kept = indices(problem.at_blow_guard, guards.n_guards), 0
+    for k in range(guards.n_fired):
+        if tells[fired[k]] > 0 and latch[fired[k]] == 0:
+            fired[kept] = fired[k]
+            kept += 1
+    guards.n_fired = kept if kept > 0 else guards.n_fired
 
 
 @compiled

@@ -52,7 +52,7 @@ PROBLEM = Struct(
         "speed_of": "n", "differential": "n", "quadrature": "n", "takes_impulse": "n",
         # the position of each speed (-1: none)
         "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
-        "limit_guard": "n_guards", "bounded_row": "n_guards", "blow_guard": "n_guards",
+        "limit_guard": "n_guards", "bounded_row": "n_guards", "blow_guard": "n_guards", "latch_guard": "n_guards",
         # by row who decides whether it holds, and the number of the circle in which forces are shared (0: none)
         "holder": "n", "circle": "n", "falls": "n_zones", "is_speed": "n", "struck": "n", "integral": "n",
         "zones": "n_zones",

@@ -26,7 +26,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import MIDDLE
-from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.guards import evaluate_guards, latches_wait
 from fairlead.integrate.linear.systems import DONE, INACCURATE, factorise_step, solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals
 from fairlead.integrate.stepping.active_set import (
@@ -115,6 +115,7 @@ def take_theta_step(m, h):
             evaluate_guards_of_step(m, h)
             fire_violators_of_step(guards)
             doubt_captures(m, h)
+            latches_wait(problem, guards)
         if rule.locates == 1 or rule.frozen == 1:
             guards.n_fired = 0
         if guards.n_fired == 0:

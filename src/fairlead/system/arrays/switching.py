@@ -174,6 +174,15 @@ def asked_of_blows(blocks: Sequence[Block]) -> Integers:
     return np.array(found, dtype=np.int64)
 
 
+def latches(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard in a class that only tells signals, of a zone which that class then remembers."""
+    found: list[bool] = []
+    for block in blocks:
+        tells = not any(key(target).kind == PORT for target in block.kernel.structure.targets)
+        found += [tells and any(g["latches"] for g in slot) for slot in _sharing(block)] * block.count
+    return np.array(found, dtype=np.int64)
+
+
 def machine_zones(blocks: Sequence[Block], count: int) -> list[Sequence[str]]:
     """Names of the zones of every machine."""
     names: list[Sequence[str]] = [()] * count

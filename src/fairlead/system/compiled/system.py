@@ -81,6 +81,7 @@ class System:
     met_guard: Integers  # guards of places at which a stop is met
     limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
     blow_guard: Integers  # per guard: 1 if an impulse asks it with the speeds before
+    latch_guard: Integers  # per guard: 1 if a part that only tells signals remembers that it fired
     kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
     machine_names: Sequence[str]
