@@ -53,6 +53,9 @@ class Cylinder(Composite):
 
         w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m
 
+    Where a rod is pulled faster than oil follows, the pressure of a chamber falls to zero and a void opens in it,
+    `void_a` or `void_b`. Oil is drawn to it through the bore, so a Volume at the port stays full.
+
     Without `seal_speed` the seal friction falls at once. At rest the seals hold up to seal_breakaway, by the friction
     method of the scene. With `seal_friction` off the rod slides freely.
 
@@ -82,6 +85,8 @@ class Cylinder(Composite):
     level_b = Output("Pa", "Pressure at the rod side.", name="pressure_b")
     travel = Output("m", "rod.x - body.x, 0 when retracted.")
     friction = Output("N", "Dry friction of the seals, positive when it holds back a rod that goes out.")
+    void_a = Output("m^3", "Volume without oil at the cap side.")
+    void_b = Output("m^3", "Volume without oil at the rod side.")
 
     @derived
     def cap_area(p):
@@ -117,7 +122,8 @@ class Cylinder(Composite):
             children["leak"] = scene.make(Leak, conductance=p.internal_leakage)
             joins += [("cap.port", "leak.a"), ("rod_side.port", "leak.b")]
         ports = {"a": "cap.port", "b": "rod_side.port", "body": "cap.body", "rod": "cap.rod"}
-        shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel"}
+        shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel",
+                 "void_a": "cap.void", "void_b": "rod_side.void"}  # fmt: skip
         if p.seal_friction == "on":
             shown["friction"] = "seal.friction"
         return Expansion(children, joins, ports, shown)

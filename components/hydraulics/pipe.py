@@ -67,7 +67,8 @@ class HydraulicLine(Composite):
     """A pipe or hose in equal sections: half a volume, a column of oil, half a volume.
 
     Waves travel with sqrt(bulk_modulus/rho), which n sections carry up to n/3 waves along the line. The compliance
-    of the walls goes into the bulk modulus of the fluid. Without compressibility it is one column.
+    of the walls goes into the bulk modulus of the fluid. Without compressibility it is one column. Where a void opens
+    is told by section: `volume[0].void` at a, `volume[n].void` at b.
     """
 
     a, b = Hydraulic("one end"), Hydraulic("the other end")

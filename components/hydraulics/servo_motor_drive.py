@@ -93,6 +93,8 @@ class ServoMotorDrive(Composite):
     load_pressure = Output("Pa", "Pressure of a over b.")
     pressure_a = Output("Pa", "Pressure at a.")
     pressure_b = Output("Pa", "Pressure at b.")
+    void_a = Output("m^3", "Volume without oil at a; none is told without compressibility.")
+    void_b = Output("m^3", "Volume without oil at b; none is told without compressibility.")
 
     def check(p):
         """Algebraic pressures need leakage that determines them while the valve is closed."""
@@ -117,6 +119,8 @@ class ServoMotorDrive(Composite):
         told = ("torque", "load_pressure", "pressure_a", "pressure_b")
         shown = {"command": "spool.command", "opening": "spool.opening", "speed": "rotor.speed"}
         shown |= {name: f"{oil}.{name}" for name in told}
+        if p.compressibility == "on":
+            shown |= {"void_a": "volume_a.void", "void_b": "volume_b.void"}
         return Expansion(children, [*joins, tuple(turning)], {**ports, "shaft": "rotor.shaft"}, shown)
 
 
