@@ -1,6 +1,6 @@
 """A double-acting hydraulic cylinder."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.hydraulics.chamber import Chamber
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.leak import Leak
@@ -57,7 +57,7 @@ class Cylinder(Composite):
     `void_a` or `void_b`. Oil is drawn to it through the bore, so a Volume at the port stays full.
 
     Without `seal_speed` the seal friction falls at once. At rest the seals hold up to seal_breakaway, by the friction
-    method of the scene. With `seal_friction` off the rod slides freely.
+    method of the scene. With a `seal_force` of 0, the default, or `seal_friction` off the rod slides freely.
 
     Source: Jelali, Kroll, Hydraulic Servo-systems, 2003 (Stribeck curve of a cylinder).
 
@@ -145,6 +145,8 @@ def seals_make_sense(size, at=""):
 
 def seal_curve(size):
     """The curve of the seals, over the force while they slide."""
+    if size.seal_force == 0:
+        return 0.0
     if size.seal_breakaway is None:
         return 1.0
     ratio = size.seal_breakaway / size.seal_force
@@ -184,8 +186,8 @@ def mechanics(size, seals, scene, children, joins, bodies, rods, loose=""):
     bodies.append("stops.a")
     rods.append("stops.b")
     if seals == "on":
-        children["seal"] = scene.make(Contact, curve=seal_curve(size), normal_force=size.seal_force)
-        if loose:
+        children["seal"] = contact_of(scene, seal_curve(size), normal_force=size.seal_force)
+        if loose and size.seal_force:
             children["seals"] = scene.make(SealForce, force=size.seal_force)
             joins += [(loose, "seals.loose"), ("seals.normal", "seal.normal")]
         bodies.append("seal.a")

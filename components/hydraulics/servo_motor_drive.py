@@ -110,8 +110,9 @@ class ServoMotorDrive(Composite):
         if p.motor_friction == "on":
             children["housing"] = scene.make(Housing)
             children["drag"] = scene.make(RotationalDamper, damping=p.motor.viscous)
+            rubs = p.motor.dry > 0 or p.motor.efficiency < 1
             children["load"] = scene.make(MotorFriction, dry=p.motor.dry, efficiency=p.motor.efficiency)
-            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0)
+            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0 if rubs else 0.0)
             turning += ["drag.b", "rubbing.shaft"]
             joins += [("housing.shaft", "drag.a"), (f"{oil}.loaded", "load.loaded")]
             joins.append(("load.friction", "rubbing.normal"))
