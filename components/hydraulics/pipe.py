@@ -118,8 +118,8 @@ class HydraulicLine(Composite):
         """Sections are for waves, and fronts ring in them."""
         if p.smoothing is None and p.sections > 1 and p.fluid_inertia == p.compressibility == "on":
             time = p.length / p.sections * (p.fluid.density / p.fluid.bulk_modulus) ** 0.5
-            what = f"fronts shorter than {3 * time:.2g} s, as of a valve that shuts faster, come out too high, by up to "
-            what += "47 % of their step in pressure, whatever the number of sections"
+            what = f"fronts shorter than {3 * time:.2g} s, as of a valve that shuts faster, come out too high, by up "
+            what += "to 47 % of their step in pressure, whatever the number of sections"
             yield "sections", what, "Write smoothing: 0.7, which leaves 3 %, or smoothing: 0 where there are none."
 
     def expand(p, scene):

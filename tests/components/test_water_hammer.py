@@ -38,8 +38,8 @@ def overshoot(result, n):
 def damped(smoothing):
     """The same for a half volume at the end of endless sections, by their impedance sqrt(z/y)/sqrt(1 + z y/4).
 
-    With s in units of 2/sqrt(LC) a section has z = 2 s/(1 + 2 smoothing s) and y = 2 s. The inverse Laplace transform of
-    the answer to a step is an integral along a line beside the imaginary axis.
+    With s in units of 2/sqrt(LC) a section has z = 2 s/(1 + 2 smoothing s) and y = 2 s. The inverse Laplace transform
+    of the answer to a step is an integral along a line beside the imaginary axis.
     """
     beside, step = 0.1, 0.005
     w = np.arange(0, 2000, step)
@@ -105,7 +105,8 @@ def test_steady_flow_does_not_depend_on_smoothing(simulate):
 
 def test_who_has_not_decided_is_told(scene):
     """And who has, or has one section, is not."""
-    (said,) = [one for one in map(str, scene(SHUT.format(rise=RISE, n=10, more="", end=2.1)).check()) if "line.sections" in one]
+    model = scene(SHUT.format(rise=RISE, n=10, more="", end=2.1))
+    (said,) = [one for one in map(str, model.check()) if "line.sections" in one]
     assert "47 %" in said
     assert "smoothing: 0.7" in said
     for n, more in ((10, ", smoothing: 0"), (1, "")):
