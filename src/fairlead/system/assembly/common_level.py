@@ -57,11 +57,11 @@ def without_level(flat: FlatModel, blocks: list[Block]) -> Iterator[Open]:
             said = _reads(block, domain)
             for instance in block.instances if said.joined or said.keeping else ():
                 at = {name: _group(flat, instance.path, name) for name in (*said.joined, *said.keeping)}
-                joined = [at[name] for name in said.joined if at[name] is not None]
+                joined = [group for name in said.joined if (group := at[name]) is not None]
                 joints.append(joined)
                 laws.append((block, domain, set(joined)))
                 anchors |= set(joined) if said.anchored else set()
-                keeping += [(at[name], instance.path) for name in said.keeping if at[name] is not None]
+                keeping += [(group, instance.path) for name in said.keeping if (group := at[name]) is not None]
     for found in connected_parts(of_paths(range(len(flat.groups)), joints)):
         part = set(found)
         if part <= light and part.isdisjoint(anchors) and not any(

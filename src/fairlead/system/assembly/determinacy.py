@@ -185,9 +185,14 @@ def _index(block: Block, owners: Iterable[str]) -> int:
 
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
     """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
-    wanted = set(owners)
-    cannot = [i.path for b in blocks if b.kernel.structure.holds.keys() - b.kernel.structure.pairs.keys()
-              for i in b.instances if i.path in wanted]  # fmt: skip
+    wanted, cannot, many = set(owners), list[str](), list[str]()
+    for block in blocks:
+        s = block.kernel.structure
+        mine = [instance.path for instance in block.instances if instance.path in wanted]
+        cannot += mine if s.holds.keys() - s.pairs.keys() - s.ratios.keys() else []
+        many += mine if any(len(ports) > 2 for ports in (*s.pairs.values(), *s.ratios.values())) else []
+    if many and not cannot:
+        return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
     return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
 
 
