@@ -190,7 +190,8 @@ def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
         s = block.kernel.structure
         mine = [instance.path for instance in block.instances if instance.path in wanted]
         cannot += mine if s.holds.keys() - s.pairs.keys() - s.ratios.keys() else []
-        many += mine if any(len(ports) > 2 for ports in (*s.pairs.values(), *s.ratios.values())) else []
+        ports = [*map(len, s.pairs.values()), *map(len, s.ratios.values())]
+        many += mine if max(ports, default=0) > 2 else []
     if many and not cannot:
         return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
     return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
