@@ -1,6 +1,6 @@
 """A double-acting hydraulic cylinder."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.hydraulics.chamber import Chamber
 from fairlead.components.hydraulics.fluid import Fluid
 from fairlead.components.hydraulics.leak import Leak
@@ -53,8 +53,11 @@ class Cylinder(Composite):
 
         w^2 = bulk_modulus (A_a^2/V_a + A_b^2/V_b)/m
 
+    Where a rod is pulled faster than oil follows, the pressure of a chamber falls to zero and a void opens in it,
+    `void_a` or `void_b`. Oil is drawn to it through the bore, so a Volume at the port stays full.
+
     Without `seal_speed` the seal friction falls at once. At rest the seals hold up to seal_breakaway, by the friction
-    method of the scene. With `seal_friction` off the rod slides freely.
+    method of the scene. With a `seal_force` of 0, the default, or `seal_friction` off the rod slides freely.
 
     Source: Jelali, Kroll, Hydraulic Servo-systems, 2003 (Stribeck curve of a cylinder).
 
@@ -82,6 +85,8 @@ class Cylinder(Composite):
     level_b = Output("Pa", "Pressure at the rod side.", name="pressure_b")
     travel = Output("m", "rod.x - body.x, 0 when retracted.")
     friction = Output("N", "Dry friction of the seals, positive when it holds back a rod that goes out.")
+    void_a = Output("m^3", "Volume without oil at the cap side.")
+    void_b = Output("m^3", "Volume without oil at the rod side.")
 
     @derived
     def cap_area(p):
@@ -117,7 +122,8 @@ class Cylinder(Composite):
             children["leak"] = scene.make(Leak, conductance=p.internal_leakage)
             joins += [("cap.port", "leak.a"), ("rod_side.port", "leak.b")]
         ports = {"a": "cap.port", "b": "rod_side.port", "body": "cap.body", "rod": "cap.rod"}
-        shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel"}
+        shown = {"pressure_a": "cap.pressure", "pressure_b": "rod_side.pressure", "travel": "stops.travel",
+                 "void_a": "cap.void", "void_b": "rod_side.void"}  # fmt: skip
         if p.seal_friction == "on":
             shown["friction"] = "seal.friction"
         return Expansion(children, joins, ports, shown)
@@ -139,6 +145,8 @@ def seals_make_sense(size, at=""):
 
 def seal_curve(size):
     """The curve of the seals, over the force while they slide."""
+    if size.seal_force == 0:
+        return 0.0
     if size.seal_breakaway is None:
         return 1.0
     ratio = size.seal_breakaway / size.seal_force
@@ -178,8 +186,8 @@ def mechanics(size, seals, scene, children, joins, bodies, rods, loose=""):
     bodies.append("stops.a")
     rods.append("stops.b")
     if seals == "on":
-        children["seal"] = scene.make(Contact, curve=seal_curve(size), normal_force=size.seal_force)
-        if loose:
+        children["seal"] = contact_of(scene, seal_curve(size), normal_force=size.seal_force)
+        if loose and size.seal_force:
             children["seals"] = scene.make(SealForce, force=size.seal_force)
             joins += [(loose, "seals.loose"), ("seals.normal", "seal.normal")]
         bodies.append("seal.a")

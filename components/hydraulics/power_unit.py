@@ -46,6 +46,7 @@ class PowerUnit(Composite):
     supply_dynamics = Effect("Pump, accumulator and relief valve make the pressure vary.", "off")
     level = Output("Pa", "Pressure of the supply.", name="pressure")
     power = Output("W", "Hydraulic power given.")
+    void = Output("m^3", "Volume without oil in the pressure line; none is told without supply_dynamics.")
 
     def check(p):
         """A pump, and pressures in order."""
@@ -79,4 +80,4 @@ class PowerUnit(Composite):
             line.append("relief.a")
             back.append("relief.b")
         return Expansion(children, [tuple(line), tuple(back)], {**ports, "supply": "line.port"},
-                         {"pressure": "line.pressure", "power": "pump.power"})  # fmt: skip
+                         {"pressure": "line.pressure", "power": "pump.power", "void": "line.void"})  # fmt: skip

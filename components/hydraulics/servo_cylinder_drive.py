@@ -54,6 +54,8 @@ class ServoCylinderDrive(Composite):
     level_a = Output("Pa", "Pressure at the cap side.", name="pressure_a")
     level_b = Output("Pa", "Pressure at the rod side.", name="pressure_b")
     travel = Output("m", "rod.x - body.x, 0 when retracted.")
+    void_a = Output("m^3", "Volume without oil at the cap side; none is told without compressibility.")
+    void_b = Output("m^3", "Volume without oil at the rod side; none is told without compressibility.")
 
     @derived
     def cap_area(p):
@@ -89,7 +91,7 @@ class ServoCylinderDrive(Composite):
         switches = {"cavitation": p.cavitation, "leakage": p.leakage, "seal_friction": p.seal_friction}
         children["cylinder"] = scene.make(Cylinder, fluid=p.fluid, **size, **starts, **switches)
         joins += [("lands.a", "cylinder.a"), ("lands.b", "cylinder.b")]
-        shown |= {name: f"cylinder.{name}" for name in ("pressure_a", "pressure_b", "travel")}
+        shown |= {name: f"cylinder.{name}" for name in ("pressure_a", "pressure_b", "travel", "void_a", "void_b")}
         return Expansion(children, joins, {**ports, "body": "cylinder.body", "rod": "cylinder.rod"}, shown)
 
 

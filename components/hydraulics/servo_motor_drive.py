@@ -93,6 +93,8 @@ class ServoMotorDrive(Composite):
     load_pressure = Output("Pa", "Pressure of a over b.")
     pressure_a = Output("Pa", "Pressure at a.")
     pressure_b = Output("Pa", "Pressure at b.")
+    void_a = Output("m^3", "Volume without oil at a; none is told without compressibility.")
+    void_b = Output("m^3", "Volume without oil at b; none is told without compressibility.")
 
     def check(p):
         """Algebraic pressures need leakage that determines them while the valve is closed."""
@@ -108,8 +110,9 @@ class ServoMotorDrive(Composite):
         if p.motor_friction == "on":
             children["housing"] = scene.make(Housing)
             children["drag"] = scene.make(RotationalDamper, damping=p.motor.viscous)
+            rubs = p.motor.dry > 0 or p.motor.efficiency < 1
             children["load"] = scene.make(MotorFriction, dry=p.motor.dry, efficiency=p.motor.efficiency)
-            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0)
+            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0 if rubs else 0.0)
             turning += ["drag.b", "rubbing.shaft"]
             joins += [("housing.shaft", "drag.a"), (f"{oil}.loaded", "load.loaded")]
             joins.append(("load.friction", "rubbing.normal"))
@@ -117,6 +120,8 @@ class ServoMotorDrive(Composite):
         told = ("torque", "load_pressure", "pressure_a", "pressure_b")
         shown = {"command": "spool.command", "opening": "spool.opening", "speed": "rotor.speed"}
         shown |= {name: f"{oil}.{name}" for name in told}
+        if p.compressibility == "on":
+            shown |= {"void_a": "volume_a.void", "void_b": "volume_b.void"}
         return Expansion(children, [*joins, tuple(turning)], {**ports, "shaft": "rotor.shaft"}, shown)
 
 

@@ -43,6 +43,7 @@ class SingleActingCylinder(Composite):
     level = Output("Pa", "Pressure of the oil.", name="pressure")
     travel = Output("m", "rod.x - body.x, 0 when it is in.")
     friction = Output("N", "Dry friction of the seals, positive when it holds back a rod that goes out.")
+    void = Output("m^3", "Volume without oil, in the chamber.")
 
     def check(p):
         """Seals do not begin below sliding."""
@@ -59,7 +60,7 @@ class SingleActingCylinder(Composite):
         joins = []
         bodies, rods = ["chamber.body", "back.body"], ["chamber.rod", "back.rod"]
         mechanics(p, p.seal_friction, scene, children, joins, bodies, rods)
-        shown = {"pressure": "chamber.pressure", "travel": "stops.travel"}
+        shown = {"pressure": "chamber.pressure", "travel": "stops.travel", "void": "chamber.void"}
         if p.seal_friction == "on":
             shown["friction"] = "seal.friction"
         return Expansion(children, joins, {"a": "chamber.port", "body": "chamber.body", "rod": "chamber.rod"}, shown)

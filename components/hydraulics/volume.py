@@ -33,7 +33,7 @@ class Enclosed(Component, abstract=True):
                          physics=False)  # fmt: skip
     fluid = Part(Fluid, "What fills it.", default="oil")
     level = Output("Pa", "Pressure.", name="pressure")
-    void = Output("m^3", "Volume without oil.")
+    void = Output("m^3", "Volume without oil: the void, or the air.")
 
     def start(p):
         """Pressure at the start."""
@@ -95,7 +95,11 @@ class Volume(Enclosed):
 
     1/bulk_modulus(p) = 1/bulk_modulus + air_share/(n p) (p_0/p)^(1/n),  p_0 = 1 bar
 
-    With air the pressure stays above zero by itself.
+    With air the pressure stays above zero by itself, and `void` is the volume of the air, air_share (p_0/p)^(1/n)
+    of the oil's.
+
+    A void opens where the pressure reaches zero first. Beside a Cylinder that is its chamber, behind the bore: see
+    `void_a` and `void_b` there. Two volumes on one node share their void in proportion.
     """
 
     air = Effect("Entrained air makes the oil soft at low pressure.", "off", off=CavitatingVolume)
@@ -119,4 +123,5 @@ class Volume(Enclosed):
         air = p.air_share * REFERENCE / (n - 1) * exp(log_pressure * (n - 1) / n)
         lifted = inflow * LAG * p.fluid.bulk_modulus / p.volume
         return Law(port=inflow, inflow=port.pressure - pressure - lifted, log_pressure=inflow / compliance,
-                   pressure=pressure, void=0, stored=p.volume * (oil + air), dissipated=inflow * lifted)  # fmt: skip
+                   pressure=pressure, stored=p.volume * (oil + air), dissipated=inflow * lifted,
+                   void=p.volume * p.air_share * exp(-log_pressure / n))  # fmt: skip

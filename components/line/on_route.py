@@ -14,6 +14,7 @@ from fairlead.components.line.laying import Laying
 from fairlead.components.line.line_weight import LineWeight
 from fairlead.components.line.looped import LoopedCore, LoopedHose, step
 from fairlead.components.line.twist_contact import LaidOn, PlanarContact
+from fairlead.components.mechanics.mass import Mass
 from fairlead.components.mechanics.rigid_link import RigidLink
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.route.bearing_load import Told
@@ -23,7 +24,7 @@ from fairlead.components.route.placing import Placed
 from fairlead.components.route.route_line import RouteLine, Surface
 from fairlead.components.route.sea import HANDS_OVER, Sea
 from fairlead.components.route.tensioner import Tensioner
-from fairlead.components.route.tow import SeaDrag, TailEnd
+from fairlead.components.route.tow import LumpedEnd, SeaDrag, TailEnd
 from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.winch import Winch
 from fairlead.components.route.window import Reach, Window, total
@@ -309,13 +310,14 @@ class OnRoute:
         """What pulls at the outboard end; and how much lies on the drum at the start."""
         p, last = self.line.values, self.line.mesh.elements
         for one in self.route.of_type(Sea):
-            s = one.station
-            lumped = s.form == "lumped"
-            beyond = s.beyond if lumped else 0.0
-            per_length, drogue = s.per_length(p.diameter) if lumped else 0.0, 0.5 * s.density * s.drogue
-            pull = {"tail": s.tail, "drogue": drogue, "per_length": per_length}
-            child = self.to.child("tail", TailEnd, **pull, beyond=beyond, place=p.start + p.length)
-            self.to.join(f"{child}.node", f"{self.line.outer}[{last}].flange")
+            s, end = one.station, f"{self.line.outer}[{last}].flange"
+            pull = {"tail": s.tail, "drogue": 0.5 * s.density * s.drogue}
+            if s.form == "lumped":
+                pull |= {"per_length": s.per_length(p.diameter), "dry": s.dry_at(one.begin, p.start + p.length)}
+            child = self.to.child("tail", LumpedEnd if s.form == "lumped" else TailEnd, **pull)
+            self.to.join(f"{child}.node", end)
+            if s.form == "lumped" and s.beyond:
+                self.to.join(f"{self.to.child('behind', Mass, mass=sum(self.line.masses) * s.beyond)}.flange", end)
             self.to.join_to(f"{child}.speed", f"{self.path}.{one.name}.tow.through_water")
         for one in self.route.of_type(Winch):
             if one.station.layers == "on":

@@ -2,8 +2,8 @@
 
 from math import cos, sin
 
-from fairlead.components.friction.contact import Contact
 from fairlead.components.friction.curve import Curve
+from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.mechanics.ground import Ground
 from fairlead.components.mechanics.mass import Mass
 from fairlead.components.rotation.rubbing import METHODS
@@ -44,7 +44,7 @@ class MassOnSlope(Composite):
         if p.rubs == "on":
             word = {} if p.method is None else {"method": p.method}
             children["ground"] = scene.make(Ground)
-            children["contact"] = scene.make(Contact, curve=p.curve, normal_force=weight * cos(p.angle), **word)
+            children["contact"] = contact_of(scene, p.curve, normal_force=weight * cos(p.angle), **word)
             joins += [("ground.flange", "contact.a"), ("contact.b", "body.flange")]
             shown["friction"] = "contact.friction"
         return Expansion(children, joins, {"flange": "body.flange"}, shown)

@@ -1,7 +1,7 @@
 """Friction between two bodies as its force over their speed: what a test of a seal, a guide or a slide gives."""
 
-from fairlead.components.friction.contact import Contact
 from fairlead.components.friction.curve import points_make_sense
+from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.rotation.rubbing import METHODS
 
 from fairlead.component import Choice, Composite, Expansion, Output, Parameter, Table, Translational
@@ -42,8 +42,7 @@ class SlideFriction(Composite):
     def expand(p, scene):
         """A contact pressed with one newton."""
         word = {} if p.method is None else {"method": p.method}
-        drag = {} if p.viscous is None else {"viscous": p.viscous}
-        children = {"contact": scene.make(Contact, curve=curve_of(p), normal_force=PRESSED, **word, **drag)}
+        children = {"contact": contact_of(scene, curve_of(p), p.viscous, normal_force=PRESSED, **word)}
         shown = {"force": "contact.friction", "slip": "contact.slip"}
         return Expansion(children, [], {"a": "contact.a", "b": "contact.b"}, shown)
 

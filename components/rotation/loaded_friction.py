@@ -1,6 +1,7 @@
 """Friction of a gear train that grows with the torques on both of its sides."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.frictionless import contact_of
+from fairlead.components.mechanics.slide_friction import PRESSED
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.rotation.rubbing import METHODS, LeverArm
 from fairlead.components.rotation.shaft_friction import ARM, Turning
@@ -62,20 +63,23 @@ class LoadedFriction(Composite):
     level = Output("N", "Friction level at a radius of 1 m.")
 
     def expand(p, scene):
-        """A contact at a lever arm of one metre, pressed with the level."""
+        """A contact at a lever arm of one metre, pressed with the level, which a viscous part alone does not need."""
         word = {} if p.method is None else {"method": p.method}
         curve = {"curve": "stribeck", "stiction": 1 + p.excess, "coulomb": 1.0, "velocity": p.speed * ARM}
+        pressed, rubs = {"lift": 1e-9}, p.dry or p.by_motor or p.by_load
+        if not rubs:
+            curve, pressed = 0.0, {"normal_force": PRESSED}
         children = {
             "teeth": scene.make(ToothLoad, dry=p.dry, by_motor=p.by_motor, by_load=p.by_load, round_off=p.round_off),
-            "contact": scene.make(Contact, curve=curve, viscous=p.viscous / ARM**2, lift=1e-9, **word),
+            "contact": contact_of(scene, curve, p.viscous / ARM**2, **pressed, **word),
             "lever": scene.make(LeverArm, radius=ARM),
             "turning": scene.make(Turning, radius=ARM),
             "rim_a": scene.make(Rack, radius=ARM),
             "rim_b": scene.make(Rack, radius=ARM),
         }
         joins = [
-            ("rim_a.rack", "contact.a"), ("rim_b.rack", "contact.b"), ("teeth.level", "contact.normal"),
-            ("contact.friction", "lever.friction"), ("contact.slip", "turning.slip"),
+            ("rim_a.rack", "contact.a"), ("rim_b.rack", "contact.b"), ("contact.friction", "lever.friction"),
+            ("contact.slip", "turning.slip"), *([("teeth.level", "contact.normal")] if rubs else []),
         ]  # fmt: skip
         shown = {"torque": "lever.torque", "slip": "turning.speed", "motor": "teeth.motor", "load": "teeth.load",
                  "level": "teeth.level"}  # fmt: skip

@@ -134,7 +134,7 @@ class LossyGear(Composite):
         word = {} if p.method is None else {"method": p.method}
         children = {
             "loss": scene.make(ToothLoss, **given),
-            "rubbing": scene.make(Brake, radius=1.0, curve=1.0, **word),
+            "rubbing": scene.make(Brake, radius=1.0, curve=1.0 if loses(p) else 0.0, **word),
             "teeth": scene.make(TorqueSensor),
             "gear": scene.make(Gear, ratio=p.ratio),
         }
@@ -144,3 +144,11 @@ class LossyGear(Composite):
         ]  # fmt: skip
         shown = {"torque": "teeth.torque", "friction": "rubbing.torque", "skew": "loss.skew"}
         return Expansion(children, joins, {"a": "teeth.a", "b": "gear.b"}, shown)
+
+
+def loses(p):
+    """Whether anything in the parameters EFFICIENCY takes a torque."""
+    tables = (p.efficiency_points, p.back_points, p.bearing_points)
+    if any(one is not None for one in tables) or p.bearing > 0:
+        return True
+    return p.efficiency < 1 or p.efficiency_back not in (None, 1.0)

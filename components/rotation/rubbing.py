@@ -8,6 +8,7 @@ their own; a held clutch costs what a held pad costs. Speeds of curves and creep
 
 from fairlead.components.friction.contact import Contact, small_lift
 from fairlead.components.friction.curve import Curve
+from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.friction.heat import THERMAL, FrictionHeat
 from fairlead.components.mechanics.ground import Ground
 from fairlead.components.rotation.rack import Rack
@@ -87,7 +88,7 @@ def rubbing(p, scene, other):
     own = {} if p.normal_force is None else small_lift(p.faces * p.normal_force)
     creep = {"creep": p.creep} if p.creep is not None and creeps else {}
     children = {
-        "contact": scene.make(Contact, curve=p.curve, **word, **creep, **own),
+        "contact": contact_of(scene, p.curve, **word, **creep, **own),
         "pressing": scene.make(Pressing, faces=p.faces, normal_force=p.normal_force),
         "lever": scene.make(LeverArm, radius=p.radius),
         "rim_b": scene.make(Rack, radius=p.radius),

@@ -1,6 +1,6 @@
 """Friction of a shaft as its torque over its speed: what a bearing, a seal or a gear motor's data sheet gives."""
 
-from fairlead.components.friction.contact import Contact
+from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.mechanics.slide_friction import PRESSED, contradictions, curve_of
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.rotation.rubbing import METHODS, LeverArm
@@ -58,9 +58,9 @@ class ShaftFriction(Composite):
     def expand(p, scene):
         """A contact at a lever arm of one metre, pressed with one newton."""
         word = {} if p.method is None else {"method": p.method}
-        drag = {} if p.viscous is None else {"viscous": p.viscous / ARM**2}
+        drag = None if p.viscous is None else p.viscous / ARM**2
         children = {
-            "contact": scene.make(Contact, curve=curve_of(p), normal_force=PRESSED, **word, **drag),
+            "contact": contact_of(scene, curve_of(p), drag, normal_force=PRESSED, **word),
             "lever": scene.make(LeverArm, radius=ARM),
             "turning": scene.make(Turning, radius=ARM),
             "rim_a": scene.make(Rack, radius=ARM),

@@ -19,9 +19,11 @@ class Sea(Station):
 
     At the outboard end of the line pulls `tail` and a drogue, 1/2 rho drogue |u| u (drogue: C_D A).
 
-    `form: lumped` leaves the drag to the outboard end, for a line whose sea part is not modelled: `beyond` is the
-    length that is in the water outboard of the end at the start, and grows by what is paid out; its inertia
-    (mass per length times `beyond`, as at the start) is added to the end.
+    `form: lumped` leaves the drag of all line in the water to the outboard end, for a line that is not modelled as far
+    as that: `beyond` is the length in the water outboard of the modelled end at the start. With the modelled line that
+    lies in the sea it grows by what is paid out, and falls to none by what is hauled in. Where the sea begins the
+    tension is that of the distributed form in steady tow; modelled line outboard of that has this tension to its end.
+    The inertia of `beyond` is added to the end.
 
     `form: rigid` is for a line that travels through the route into the sea: what is further out than `margin` moves
     as one body with the outboard end. Drag, inertia and so the tension in steady tow are those of the distributed form;
@@ -69,10 +71,18 @@ class Sea(Station):
         """Where it acts along the line."""
         return 0.0 if p.form == "lumped" else p.per_length(diameter)
 
-    def tows(p, diameter, way):
+    def dry_at(p, begin, place):
+        """Place of the outboard end at which no line is in the water, of a sea that begins at `begin`, if lumped.
+
+        At the start the end is at `place`. Line outboard of an end that is not yet in the water hangs down to it.
+        """
+        return min(begin, place) - p.beyond if p.beyond else begin
+
+    def tows(p, diameter, begin, place, way):
         """The tail, the drogue, and drag that is lumped at the end."""
         drogue = 0.5 * p.density * p.drogue
-        return p.tail, drogue + (p.per_length(diameter) * (p.beyond + way) if p.form == "lumped" else 0.0)
+        length = max(place + way - p.dry_at(begin, place), 0.0) if p.form == "lumped" else 0.0
+        return p.tail, drogue + p.per_length(diameter) * length
 
     def keeps_apart(p):
         """The margin."""

@@ -96,10 +96,11 @@ class Station(Family, abstract=True):
         """Drag of a water along a line of that diameter, per length and speed squared [kg/m^2]."""
         return 0.0
 
-    def tows(p, diameter, way):
+    def tows(p, diameter, begin, place, way):
         """What a water and what is in it pull at the outboard end when `way` [m] has been paid out.
 
-        A steady pull [N], and a drag per speed squared [kg/m].
+        The station begins at `begin`, the end was at `place` at the start [m]. A steady pull [N], and a drag per speed
+        squared [kg/m].
         """
         return 0.0, 0.0
 

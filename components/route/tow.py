@@ -1,6 +1,19 @@
 """What the sea does to a line: drag on a node, and the pull at its end."""
 
-from fairlead.component import Component, Input, Law, Output, Parameter, Table, Translational, Waveform, sqrt
+from fairlead.component import (
+    Component,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Table,
+    Translational,
+    Waveform,
+    Zones,
+    guard,
+    sqrt,
+    zone,
+)  # fmt: skip
 
 STILL = 1e-3  # m/s; |u| is rounded off here, so that the drag of 4 m/s is 3e-8 of itself too large
 
@@ -41,26 +54,55 @@ class SeaDrag(Component):
         return Law(node=-force, drag=force, supplied=force * speed, dissipated=force * flow)
 
 
-class TailEnd(Component):
-    """What pulls at the outboard end of a line in the sea: a steady pull, a drogue, and drag that is lumped there.
-
-    pull = tail + (drogue + per_length (beyond + x - start)) |u| u,   u = speed - v
-    """
+class Towed(Component, abstract=True):
+    """Half-model of what pulls at the outboard end of a line in the sea."""
 
     node = Translational("the outboard end")
     tail = Parameter("N", "Steady pull.", default=0.0, least=0)
     drogue = Parameter("kg/m", "1/2 rho C_D A.", default=0.0, least=0)
-    per_length = Parameter("kg/m^2", "1/2 rho C_t pi d of line outboard of the end.", default=0.0, least=0)
-    beyond = Parameter("m", "Line outboard of the end when it is at `place`.", default=0.0, least=0)
-    place = Parameter("m", "Where the end is at the start.", default=0.0)
     speed = Input("m/s", "Speed of the ship through the water.", default=0.0)
     pull = Output("N", "Pull, positive outboard.")
     drag = Output("N", "The part of it that is drag.")
-    asked_with = {"beyond": 10.0, "place": 0.0}  # there is line outboard of the end, wherever it is
+
+
+def towed(p, node, speed, area):
+    """Law of a steady pull, which is given, and of a drag area with 1/2 rho in it [kg/m], whose drag is the water's."""
+    flow = speed - node.v
+    force = drag(area, flow)
+    supplied = force * speed + p.tail * node.v
+    return Law(node=-(force + p.tail), pull=force + p.tail, drag=force, supplied=supplied, dissipated=force * flow)
+
+
+class TailEnd(Towed):
+    """A steady pull and a drogue at the outboard end:  pull = tail + drogue |u| u,  u = speed - v."""
 
     def law(p, node, speed):
-        """The steady pull is given, the drag is the water's."""
-        flow = speed - node.v
-        towed = drag(p.drogue + p.per_length * (p.beyond + node.x - p.place), flow)
-        supplied = towed * speed + p.tail * node.v
-        return Law(node=-(towed + p.tail), pull=towed + p.tail, drag=towed, supplied=supplied, dissipated=towed * flow)
+        """The drogue is in the water, wherever the end is."""
+        return towed(p, node, speed, p.drogue)
+
+
+class LumpedEnd(Towed):
+    """A tail end that also has the drag of all line in the water.
+
+    pull = tail + (drogue + per_length L) |u| u,   u = speed - v,   L = x - dry, and none while the end is inboard of it
+    """
+
+    per_length = Parameter("kg/m^2", "1/2 rho C_t pi d of the line.", least=0)
+    dry = Parameter("m", "Place of the end at which no line is in the water.", default=0.0)
+    zones = Zones("in_water", "out")
+
+    @zone("in_water", "out")
+    def both(p, node, speed, zone):
+        """The line that has been paid out beyond the place where it would be dry."""
+        length = node.x - p.dry if zone == "in_water" else 0
+        return towed(p, node, speed, p.drogue + p.per_length * length)
+
+    @guard("in_water", to="out", unit="m")
+    def leaves(p, node):
+        """The last of it is hauled out."""
+        return p.dry - node.x
+
+    @guard("out", to="in_water", unit="m")
+    def enters(p, node):
+        """The end comes to the water."""
+        return node.x - p.dry

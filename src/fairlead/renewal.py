@@ -26,6 +26,7 @@ from fairlead.flatten.same_wiring import difference
 from fairlead.netlist.netlist import Netlist
 from fairlead.system.compile import energy_counted
 from fairlead.system.compiled.system import System
+from fairlead.system.numbering.contact_cycles import weighed
 from fairlead.system.refresh import refreshed
 
 
@@ -51,11 +52,23 @@ def renew(old: Stages, new: Stages) -> None:
         instances = tuple(made.instances.values())
         new.assembly, new.flattened = made, replace(old.flattened, assembly=made, instances=instances)
         new.flat = laid_under_statics(new.flattened)
-    why = difference(old.flat, new.flat) or _ledger(old.flat, new.flat)
+    why = difference(old.flat, new.flat) or _ledger(old.flat, new.flat) or _shares(system, new.flat)
     if why:
         new.rebuilt = f"All stages were made anew: {why}."
     else:
         new.system = refreshed(system, new.flat)
+
+
+def _shares(system: System, flat: FlatModel) -> str:
+    """What else is left of it: a tie whose values say how contacts about it share a load, as the ratio of a lever."""
+    about = {pair.path for pair in system.numbering.circles}
+    for block in system.blocks if about else ():
+        structure = block.kernel.structure
+        for instance in block.instances if structure.ratios else ():
+            now = next(one for one in flat.instances if one.path == instance.path)
+            if instance.path in about and weighed(instance, structure) != weighed(now, structure):
+                return f"{instance.path} shares otherwise what is held about it"
+    return ""
 
 
 def _ledger(one: FlatModel, other: FlatModel) -> str:

@@ -1,5 +1,6 @@
 """Where nothing determines a pressure, a voltage or a temperature, the message says which part belongs there."""
 
+import numpy as np
 import pytest
 
 from fairlead.errors import ModelError
@@ -116,3 +117,80 @@ def test_inductances_in_series_are_to_be_added(scene, name):
     assert what in str(told.value)
     assert "give one of them the sum" in str(told.value)
     assert "Join the circuit to an Earth" not in str(told.value)
+
+
+def bridge(star="", rails="", coil=True):
+    """Six diodes between three sources in a star, each with a coil in front, and a resistor."""
+    phases = zip("uvw", (0, -120, 120), (1, 3, 5), strict=True)
+    parts, joins = "", ""
+    for x, phase, k in phases:
+        parts += f"""
+          {x}: {{type: VoltageSource, voltage: {{sine: {{amplitude: 325 V, frequency: 50 Hz, phase: {phase} deg}}}}}}
+          l{x}: {{type: {"Inductor, inductance: 1e-3 V*s/A" if coil else "Resistor"}, resistance: 0.1 ohm}}
+          d{k}: {{type: Diode}}
+          d{k + 1}: {{type: Diode}}"""
+        joins += f"""
+          - [{x}.plus, l{x}.plus]
+          - [l{x}.minus, d{k}.plus, d{k + 1}.minus]"""
+    return f"""
+        components:{parts}
+          earth: {{type: Earth}}
+          load: {{type: Resistor, resistance: 50 ohm}}
+          lead: {{type: Resistor, resistance: 10 kohm}}
+        connections:{joins}
+          - [u.minus, v.minus, w.minus{star}]
+          - [d1.minus, d3.minus, d5.minus, load.plus]
+          - [d2.plus, d4.plus, d6.plus, load.minus{rails}]
+        run: {{stop: 40 ms}}
+        record: {{every: 20 us}}
+    """
+
+
+EARTHED, LED = ", earth.terminal, lead.minus", ", lead.plus"
+LEVELS = {
+    "rails behind coils": (bridge(star=EARTHED + LED), r"lu, lv, lw alone.*level of their voltage"),
+    "a star behind coils": (bridge(rails=EARTHED + LED), r"lu, lv, lw alone.*level of their voltage"),
+    "a circuit with a capacitor": ("""
+        components:
+          store: {type: Capacitor, capacity: 1e-3 A*s/V, initial: 10 V}
+          load: {type: Resistor, resistance: 100 ohm}
+        connections: [[store.plus, load.plus], [store.minus, load.minus]]
+        run: {stop: 1 s}
+    """, r"to no place whose voltage is known"),
+    "oil between two lines": ("""
+        components:
+          low: {type: Tank}
+          high: {type: PressureSource, pressure: 2 bar}
+          one: {type: HydraulicLine, length: 1 m, diameter: 10 mm}
+          two: {type: HydraulicLine, length: 1 m, diameter: 10 mm}
+          bend: {type: Orifice, area: 10 mm^2}
+        connections: [[low.port, one.a], [one.b, bend.a], [bend.b, two.a], [two.b, high.port]]
+        effects: {compressibility: off}
+        run: {stop: 1 s}
+    """, r"one\.column\[0\], two\.column\[0\] alone.*level of their pressure"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_check_names_a_part_whose_common_level_nothing_determines(scene, name):
+    """Its laws ask for differences alone, and their sum over the part is an equation without any of its unknowns."""
+    text, what = LEVELS[name]
+    with pytest.raises(ModelError, match=what) as told:
+        scene(text).check()
+    (fault,) = told.value.faults
+    assert fault.way_out.startswith(("Join one of them to an Earth", "Add a Volume there"))
+
+
+@pytest.mark.parametrize("text", [
+    bridge(star=EARTHED, rails=LED), bridge(star=LED, rails=EARTHED), bridge(star=EARTHED + LED, coil=False),
+], ids=["rails led to the Earth", "star led to the Earth", "resistors for coils"])  # fmt: skip
+def test_with_a_way_to_the_earth_it_runs(scene, text):
+    """The mean voltage of a six-pulse bridge: 3 sqrt(3)/pi of the amplitude, less thresholds and commutation."""
+    model = scene(text)
+    model.check()
+    result = model.run(out=None)
+    late = result.t >= 20e-3 - 1e-9
+    mean = np.trapezoid(result["load.current"][late], result.t[late]) / 20e-3
+    ideal = 3 * 3**0.5 / np.pi * 325 - 2 * 0.7
+    coils = 3 * 2 * np.pi * 50 * 1e-3 / np.pi * ("Inductor" in text)  # ohm
+    assert mean == pytest.approx(ideal / (50 + 0.2 + coils), rel=3e-3)

@@ -66,12 +66,15 @@ LEVER = """
       frame: {type: Ground}
       a: {type: Mass, mass: 2 kg}
       b: {type: Mass, mass: 1 kg}
+      pivot: {type: Mass, mass: 1 kg}
       lever: {type: Lever, ratio: 2}
+      third: {type: Contact, normal_force: 10 N, curve: 0.4}
       one: {type: Contact, normal_force: 10 N, curve: 0.3}
       other: {type: Contact, normal_force: 10 N, curve: 0.2}
       push: {type: ForceSource, force: {ramp: {to: 10 N, over: 1 s}}}
     connections:
-      - [frame.flange, one.a, other.a, lever.pivot]
+      - [frame.flange, one.a, other.a, third.a]
+      - [pivot.flange, lever.pivot, third.b]
       - [push.flange, a.flange, one.b, lever.a]
       - [lever.b, b.flange, other.b]
     run: {stop: 1 s}
@@ -96,7 +99,7 @@ PLANETARY = """
 @pytest.mark.parametrize(
     ("text", "contacts", "ways"),
     [
-        (LEVER, ["one", "other"], ("put a Spring between", "a Mass where")),
+        (LEVER, ["one", "other", "third"], ("put a Spring between", "a Mass where")),
         (PLANETARY, ["one", "other", "lock"], ("put a TorsionSpring between", "an Inertia where")),
     ],
     ids=["lever", "planetary"],

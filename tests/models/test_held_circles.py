@@ -196,7 +196,7 @@ UNEQUAL = """
 
 
     class Lever(Component):
-        \"\"\"Holds b to a multiple of the speed of a.\"\"\"
+        \"\"\"Holds b to a multiple of the speed of a, with one force on both, which no lever has.\"\"\"
 
         a, b = Translational(), Translational()
         arm = Parameter("1", "Lever arm.", above=0)
@@ -204,7 +204,7 @@ UNEQUAL = """
 
         def law(p, a, b, force):
             \"\"\"b is geared to a.\"\"\"
-            return Law(a=-p.arm * force, b=+force, force=hold(b.v - p.arm * a.v))
+            return Law(a=-force, b=+force, force=hold(b.v - p.arm * a.v))
 """
 
 
@@ -220,6 +220,35 @@ def test_holds_that_are_no_plain_sums_of_speeds_are_not_guessed_at(scene: Scene,
     """
     with pytest.raises(ModelError, match="one and two hold in a closed circle, and the force of one and two does not"):
         scene(text, libraries=(library(UNEQUAL),)).check()
+
+
+@ENGINES
+def test_levers_whose_arms_are_parameters_share_by_them(simulate: Scene, library, engine: str) -> None:
+    """Two between a block that is pushed and one that stands on its friction: s_j = C_j w, of least sum of squares."""
+    text = f"""
+    components:
+      wall: {{type: Ground}}
+      base: {{type: Mass, mass: 2 kg}}
+      pad: {{type: Contact, method: hold, normal_force: 100 N, curve: 0.5}}
+      block: {{type: Mass, mass: 1 kg}}
+      push: {{type: ForceSource, force: 6 N}}
+      one: {{type: Lever, arm: 2}}
+      two: {{type: Lever, arm: 3}}
+    connections: [[wall.flange, pad.a], [base.flange, pad.b, one.a, two.a], [push.flange, block.flange, one.b, two.b]]
+    run: {{stop: 0.1 s, engine: {engine}}}
+    record: {{signals: [one.told, two.told, pad.friction, block.v]}}
+    """
+    told = 'force = Unknown("N", "Its force.")\n        told = Output("N", "The same.")'
+    proportional = UNEQUAL.replace("a=-force", "a=-p.arm * force").replace("hold\n", "hold, Output\n", 1)
+    proportional = proportional.replace('force = Unknown("N", "Its force.")', told)
+    proportional = proportional.replace("- p.arm * a.v))", "- p.arm * a.v), told=force)")
+    result = simulate(text, libraries=(library(proportional),))
+    slips = np.array([[0.0, 1.0], [-2.0, 1.0], [-3.0, 1.0]])  # pad, one, two by the speeds of base and block
+    slips[0] = 1.0, 0.0
+    exact = np.linalg.lstsq(slips.T, np.array([0.0, 6.0]))[0]
+    got = [result[name][-1] for name in ("pad.friction", "one.told", "two.told")]
+    assert got == pytest.approx(exact, abs=1e-6)
+    assert abs(result["block.v"]).max() < 1e-9
 
 
 @ENGINES

@@ -63,3 +63,27 @@ def test_a_route_is_set_and_recorded_on_a_grid_without_its_friction(effect) -> N
     """As `effects` does."""
     model = fairlead.load("guidance_route", set={f"effects.{effect}": "off", "record.every": "0.1 s"})
     assert said(model.check())
+
+
+GUIDED = """
+    components:
+      body: {{type: MassWithStops, mass: 1 kg, lower: -1 m, upper: 1 m, velocity: 0.5 m/s{more}}}
+      lag: {{type: SignalLag, lag: 1 s}}
+    connections: [[body.{joined}, lag.value]]
+    run: {{stop: 0.1 s}}
+    record: {{signals: [body.x, body.friction]}}
+"""
+
+
+def test_an_output_that_a_part_has_with_other_values_only_is_left_out_with_a_remark(scene):
+    """No effect is switched: a guide that does not rub tells no friction."""
+    (one,) = said(scene(GUIDED.format(more="", joined="x")).check())
+    assert "body.friction: no signal with the values as they are" in one
+    assert not said(scene(GUIDED.format(more=", sliding: 1 N", joined="x")).check())
+    assert not said(scene(GUIDED.format(more="", joined="x").replace("body.friction", "body.v")).check())
+
+
+def test_a_connection_to_it_is_a_mistake_that_says_why(scene):
+    """A signal that a part does not have cannot be read."""
+    with pytest.raises(ModelError, match=r"body\.friction.* with other values or effects only"):
+        scene(GUIDED.format(more="", joined="friction").replace(", body.friction", "")).check()

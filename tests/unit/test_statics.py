@@ -158,16 +158,22 @@ def test_a_pull_beyond_the_cone_says_how_much_is_missing(scene):
 
 
 def test_drag_that_is_lumped_and_drag_along_the_line_pull_alike(scene):
-    def tension(form):
+    def tension(form, length="30 m"):
         sea = f"{{type: Sea, start: 20 m, speed: 4 m/s, tail: 50 N, drogue: 0.01 m^2{form}}}"
         text = scene_of(sea).replace("  - [load.flange, rope.outboard]\n", "").replace(f"  load: {LOAD}\n", "")
+        text = text.replace("length: 30 m", f"length: {length}")
         (state,) = one(scene(text), 0.5).moving[:1]
         return state.tension(10.0)
 
     flow, line = 4 - 0.5, 10.0
     want = 50 + (0.5 * 1025 * 0.003 * math.pi * 0.02 * line + 0.5 * 1025 * 0.01) * flow**2
     assert tension("") == pytest.approx(want)
-    assert tension(", form: lumped, beyond: 10 m") == pytest.approx(want)
+    assert tension(", form: lumped") == pytest.approx(want)
+    assert tension(", form: lumped, beyond: 10 m", "20 m") == pytest.approx(want)
+    assert tension(", form: lumped, beyond: 7 m", "23 m") == pytest.approx(want)
+    assert tension(", form: lumped, beyond: 10 m", "15 m") == pytest.approx(want)  # it hangs down to the water
+    bare = want - 0.5 * 1025 * 0.003 * math.pi * 0.02 * line * flow**2
+    assert tension(", form: lumped", "15 m") == pytest.approx(bare)  # there is no line in the water
     assert tension(", form: rigid") == pytest.approx(want)
 
 

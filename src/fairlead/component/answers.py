@@ -231,6 +231,10 @@ class Answers:
     check: Callable[[Any], Iterable[tuple[str, str, str]]] | None = _asked(
         method("p"), "yields (parameter, what is wrong, way out) for values that contradict each other", EVERYWHERE
     )
+    doubts: Callable[[Any], Iterable[tuple[str, str, str]]] | None = _asked(
+        method("p"), "yields (parameter, what is odd, way out) for values that are allowed and need a thought; `check` "
+        "and a run remark it", EVERYWHERE
+    )  # fmt: skip
     prepare: Callable[[dict[str, Any]], dict[str, Any]] | None = _asked(
         method("given"),
         "the given parameters, completed by those that follow from them, before `p` is made",

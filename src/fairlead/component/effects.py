@@ -14,7 +14,8 @@ Three ways of being absent, by what would otherwise be there:
     a zone          component: the limiting model
 
 The word decides, never the value of a number, so that a new value compiles nothing. `Assembly.effects` lists
-what is on and off, by component.
+what is on and off, by component. The one exception is a contact whose friction is zero by a parameter of its composite,
+which is not made (`friction/frictionless.py`).
 """
 
 from __future__ import annotations

@@ -377,6 +377,8 @@ def _no_such(assembly: Assembly, end: EndPoint, owner: str, port: str) -> Fault:
         known += list(assembly.lines[owner].values.type.declaration.ports) if owner in assembly.lines else []
         known = list(dict.fromkeys(known))
         near = did_you_mean(port, known).replace("mean ", f"mean {owner}.")
+        if owner in assembly.entries and port in assembly.entries[owner].type.declaration.outputs:
+            near = f"It has {port} with other values or effects only, see `fairlead describe {kind}`."
         return Fault(end.where, f"{end.text}: {kind} has ports {listing(known)}. {near}".rstrip())
     names = [*assembly.netlist.components, *assembly.instances]
     near = did_you_mean(owner or end.text, names)

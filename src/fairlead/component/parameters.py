@@ -14,7 +14,7 @@ import functools
 import operator
 import pathlib
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, create_model
@@ -334,10 +334,7 @@ def _contradictions(
     A parameter may be a path such as `stations[2].start`.
     """
     check = kind.answers.check
-    faults = []
-    for name, what, way_out in check(values) if check else ():
-        place = _place(raw, name, where)
-        faults.append(Fault(place, f"{path}{'.' + name if name else ''}: {what.removesuffix('.')}.", way_out))
+    faults = said_of(check(values) if check else (), raw, path, where)
     for name, value in values.given.items():
         listed = enumerate(value) if isinstance(value, list) else ()
         parts = [(f"{name}[{k}]", one) for k, one in listed] or [(name, value)]
@@ -347,6 +344,16 @@ def _contradictions(
                 inner, place = (node.entries, node.where) if node else ({}, where)
                 faults += _contradictions(one.type, one, inner, f"{path}.{inner_path}", place)
     return faults
+
+
+def said_of(
+    said: Iterable[tuple[str, str, str]], raw: Mapping[str, Value], path: str, where: Location
+) -> list[Fault]:
+    """What a class says of its values, each at the place where the parameter stands."""
+    return [
+        Fault(_place(raw, name, where), f"{path}{'.' + name if name else ''}: {what.removesuffix('.')}.", way_out)
+        for name, what, way_out in said
+    ]
 
 
 def _place(raw: Mapping[str, Value], path: str, where: Location) -> Location:

@@ -313,6 +313,7 @@ REPLIES: dict[str, tuple[str, Callable[[Any, Declaration], Any]]] = {
     ),
     "expand": (EXPANSION, _nothing),  # composition.py looks at it
     "check": ("It yields three texts: the parameter (or ''), what is wrong, and a way out.", _check),
+    "doubts": ("It yields three texts: the parameter (or ''), what is odd, and a way out.", _check),
     "prepare": ("It gives a map of all parameters by name: {**given, 'creep': 1e-4}.", _prepare),
     "fastest": ("It gives two numbers: speed without load [rad/s], and torque at rest [N*m].", _two_numbers),
     "begins_in": ("It gives the name of one of its zones.", _zone),

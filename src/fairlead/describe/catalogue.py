@@ -23,8 +23,8 @@ BUNDLED = "fairlead.components."
 INNARDS = frozenset((
     "ActiveForce", "BearingLoad", "BeltSpans", "CavitatingVolume", "ChainStrands", "Chamber", "Clamp",
     "ClampLoad", "Core", "CurrentLimit", "Dancer", "Drum", "ElementaryFunction", "ErrorSeen", "FarNode",
-    "Flank", "FlankLoad", "Growing", "Hose", "Jaws", "LaidOn", "LateralLoad", "LeverArm", "LineWeight",
-    "LoadLoss", "LoopedCore", "LoopedHose", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
+    "Flank", "FlankLoad", "Frictionless", "Growing", "Hose", "Jaws", "LaidOn", "LateralLoad", "LeverArm", "LineWeight",
+    "LoadLoss", "LoopedCore", "LoopedHose", "LumpedEnd", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
     "PlanarContact", "PressedLoad", "Pressing", "Registration", "RelaxingHose", "ReturnSpring", "RigidCore",
     "RoundLoad", "RuckingHose", "SeaDrag", "SealForce", "SpaceState", "Spiral", "SteadyRoll", "StoredNode",
     "TailEnd", "ThrottledCylinder", "ThrottledMotor", "Told", "ToothLoad", "ToothLoss", "Tow", "TransferStage",

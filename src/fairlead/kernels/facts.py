@@ -19,7 +19,7 @@ from fairlead.kernels.dependence import carried_ratio, reads
 from fairlead.kernels.derivative import derivative, symbols_in
 from fairlead.kernels.flow_rates import flow_rates, joins, output_rates, yields
 from fairlead.kernels.guard_slots import bounds_what_holds, in_slots, latches
-from fairlead.kernels.held_pairs import held_pairs
+from fairlead.kernels.held_pairs import held_pairs, held_ratios
 from fairlead.kernels.in_floats import differs
 from fairlead.kernels.structure import Structure
 from fairlead.kernels.swings import by_place, swings
@@ -79,7 +79,7 @@ class KernelFacts:
 
     def structure(self, modes: list[int]) -> Structure:
         """What is stored with the machine code, which answers these modes."""
-        t, paired = self.traced, held_pairs(self.zones)
+        t, paired, ratios = self.traced, held_pairs(self.zones), held_ratios(self.zones)
         has = t.variant.type.declaration
         return Structure(
             inputs=self.inputs, parameters=self.parameters, tables=t.tables, time_tables=t.time_tables,
@@ -94,7 +94,8 @@ class KernelFacts:
             silent=self._silent(), rebounds={
                 u: self._restitution(h) for z in self.zones for u, h in z.holds.items() if h.restitution != 0
             },
-            pairs={u: pair for u, (pair, _) in paired.items()}, senses={u: sense for u, (_, sense) in paired.items()},
+            pairs={u: pair for u, (pair, _) in paired.items()}, ratios={u: texts for u, (texts, _) in ratios.items()},
+            senses={u: sense for u, (_, sense) in {**paired, **ratios}.items()},
             guards={name: [_describe(g, self, zone) for g in zone.guards] for name, zone in t.zones.items()},
             slots=self.slots, fixed_signals=self.fixed[0], fixed_flows=self.fixed[1], fixed_ledger=self.fixed[2],
             linear=not self._curved(self.d_flows, self.target_values),

@@ -8,6 +8,7 @@ import sympy
 
 from fairlead.component.keys import key
 from fairlead.component.trace import TracedZone, symbol
+from fairlead.kernels.break_away import parameters_as_text
 from fairlead.kernels.derivative import derivative
 
 
@@ -37,3 +38,32 @@ def _held_pair(
     if len(senses) != 1:
         return None
     return {port: float(speed) for port, speed in speeds.items()}, float(senses.pop())
+
+
+def held_ratios(zones: Iterable[TracedZone]) -> dict[str, tuple[dict[str, str], float]]:
+    """The same for a class whose coefficients are made of parameters, such as a lever, as texts for `number_of`.
+
+    It holds in all of its zones, as ties do that are no contacts.
+    """
+    each = list(zones)
+    found = {}
+    for unknown in set.intersection(*({*zone.holds} for zone in each)) if each else ():
+        rows = [_held_ratio(zone, unknown, zone.holds[unknown].rates) for zone in each]
+        if rows[0] is not None and all(one == rows[0] for one in rows):
+            found[unknown] = rows[0]
+    return found
+
+
+def _held_ratio(
+    zone: TracedZone, unknown: str, rates: Mapping[str, sympy.Expr]
+) -> tuple[dict[str, str], float] | None:
+    speeds = {key(speed).name: rate for speed, rate in rates.items()}
+    taken = {port: derivative(flow, symbol(f"own:{unknown}")) for port, flow in zone.flows.items()}
+    taken = {port: value for port, value in taken.items() if value != 0}
+    free = {key(s.name) for value in (*taken.values(), *speeds.values()) for s in value.free_symbols}
+    if taken.keys() != speeds.keys() or not free or not all(one.is_fixed for one in free):
+        return None
+    senses = {sympy.simplify(taken[port] / speed) for port, speed in speeds.items()}
+    if len(senses) != 1 or not (sense := senses.pop()).is_Number:
+        return None
+    return {port: parameters_as_text(speed) for port, speed in speeds.items()}, float(sense)

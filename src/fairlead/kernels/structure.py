@@ -37,6 +37,7 @@ class Structure:
     holds: dict[str, list[str]]  # unknown -> zones that hold
     rigid: list[str]  # unknowns of those that take an impulse of any size where they hold
     pairs: dict[str, dict[str, float]]  # unknown -> port -> coefficient of its speed in the slip, see `held_pairs`
+    ratios: dict[str, dict[str, str]]  # likewise, of a tie whose coefficients are made of parameters: port -> text
     senses: dict[str, float]  # unknown -> what a port takes in over that coefficient, for an unknown of one
     guards: dict[str, list[dict[str, Any]]]  # zone -> its guards in slot order
     slots: int

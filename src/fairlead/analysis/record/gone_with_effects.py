@@ -1,8 +1,10 @@
-"""Names in a netlist that no signal has because the user switched an effect.
+"""Names in a netlist that no signal has because the user switched an effect, or gave a value that leaves a part out.
 
 A contact that rubs no more, a valve without dynamics: their signals go with the effect. What was written for the whole
 scene, `record`, plots and `limits`, should not have to be rewritten for each switch, so a name that would be one with
-all effects as their parts have them is left out with a remark. Any other name is a mistake, see names.py.
+all effects as their parts have them is left out with a remark. So is an output that the class of a part declares, and
+that the part does not have with its values, as the friction of a slide that does not rub. Any other name is a mistake,
+see names.py.
 """
 
 from __future__ import annotations
@@ -20,16 +22,27 @@ EFFECTS = "effects"
 
 
 def gone(assembly: Assembly, patterns: Iterable[str]) -> list[str]:
-    """Those of `patterns` that no signal has, and that one would have if no effect were switched."""
-    if not switched(assembly.netlist):
-        return []
+    """Those of `patterns` that no signal has, and that one would have with other effects or values of its part."""
     unknown = _unfit(assembly, patterns)
-    if not unknown:
-        return []
+    without = set(unvalued(assembly, unknown))
+    if not switched(assembly.netlist) or len(without) == len(unknown):
+        return [one for one in unknown if one in without]
     whole, _ = survey(as_declared(assembly.netlist), assembly.types)
     flatten(whole)  # lays lines on their routes, which makes the contacts with devices
     still = set(_unfit(whole, unknown))
-    return [one for one in unknown if one not in still]
+    return [one for one in unknown if one not in still or one in without]
+
+
+def unvalued(assembly: Assembly, patterns: Iterable[str]) -> list[str]:
+    """Those that are outputs which the class of a part declares, and which the part does not have as it is."""
+    names = {
+        f"{path}.{name}": None
+        for path, values in assembly.entries.items()
+        if path in assembly.expansions
+        for name in values.type.declaration.outputs
+        if f"{path}.{name}" not in assembly.aliases
+    }
+    return [one for one in patterns if picked(names, one)]
 
 
 def _unfit(assembly: Assembly, patterns: Iterable[str]) -> list[str]:

@@ -20,11 +20,14 @@ def sparse(netlist: Netlist) -> list[Fault]:
 
 
 def left_out(assembly: Assembly) -> list[Fault]:
-    """A remark on names in `record` and `limits` that are no signals with the effects that the user switched."""
+    """A remark on names in `record` and `limits` that are no signals with the effects and values that are given."""
     places = {text: value.where for value, text in recorded_names(assembly)}
     places |= {text: value.where for text, value in assembly.netlist.limits.items()}
     if not (found := gone(assembly, places)):
         return []
+    if not switched(assembly.netlist):
+        what = f"{listing(found, 3)}: no signal with the values as they are, so left out of record and limits."
+        return [Fault(places[found[0]], what, "The part has it with other values or effects, see `fairlead describe`.")]
     by = listing(switched(assembly.netlist), 3)
     what = f"{listing(found, 3)}: no signal with the effects as they are switched, so left out of record and limits."
     return [Fault(places[found[0]], what, f"What is switched: {by}. Without that they are there again.")]

@@ -3,7 +3,8 @@
     mine.yaml:11:40: route.wheel.friction = 35 (`mu` of the scene) is far outside what it usually is, 0 to 2.
 
 Who declares a parameter says what is usual (`Parameter(usual=...)`); for other ones the unit does, widely. Times are
-held against the time that the run takes. Only what stands in the netlist is remarked.
+held against the time that the run takes. Only what stands in the netlist is remarked, and what a class doubts itself
+(`doubts` of answers.py).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 
 from fairlead.component.given import Parameter, Part, Stations, Waveform
 from fairlead.component.instantiate import Assembly
+from fairlead.component.parameters import said_of
 from fairlead.component.values import Values, Wave
 from fairlead.errors import Fault, Location, shown
 from fairlead.netlist.netlist import Netlist, Value
@@ -29,11 +31,13 @@ STRETCHED = 0.3
 
 
 def unusual(assembly: Assembly) -> Iterator[Fault]:
-    """Values of the netlist far outside what is usual, and times that the run does not reach."""
+    """Values of the netlist far outside what is usual, times that the run does not reach, and what classes doubt."""
     netlist = assembly.netlist
     for name, values in assembly.entries.items():
         if name not in assembly.stand_ins:
-            yield from _in(name, values, netlist.components[name].parameters, netlist)
+            entry, doubts = netlist.components[name], values.type.answers.doubts
+            yield from _in(name, values, entry.parameters, netlist)
+            yield from said_of(doubts(values) if doubts else (), entry.parameters, name, entry.where)
     for path, line in assembly.lines.items():
         yield from _stretched(path, line.line, netlist)
 

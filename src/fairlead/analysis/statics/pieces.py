@@ -60,7 +60,7 @@ def tail(route: LaidRoute, t: float, speed: float, way: float) -> float:
     total = route.pull(route.outboard, t, speed, way)
     for sea in route.seas:
         flow = route.signal(sea, t) - speed
-        steady, area = sea.station.tows(route.says.diameter, way)
+        steady, area = sea.station.tows(route.says.diameter, sea.begin, route.says.start + route.says.length, way)
         total += float(steady) + area * abs(flow) * flow
     return total
 

@@ -92,22 +92,36 @@ def holders(blocks: Sequence[Block], n: int) -> Integers:
 
 
 def stops(flat: FlatModel, blocks: Sequence[Block]) -> tuple[list[str], Memory]:
-    """Stops of which a side moves as given, by name, and the rows of all others.
+    """Stops of which a side moves as given, by name, and the rows of all that let bodies stay as they touch.
 
-    What they keep is then kept by no linear invariant of a method: a given place is exact, that of the body is not.
+    What the others keep is kept by no linear invariant of a method: a given place is exact, that of the body is not,
+    and a body in a relation of positions is moved back to that after every step. It would be moved into its stop, or
+    off.
     """
-    given, loose = list[str](), list[int]()
+    given, loose, related = list[str](), list[int](), _related(flat, blocks)
     for block in blocks:
         s = block.kernel.structure
         for unknown, ports in s.stops.items():
             rows = block.flow_index[:, s.targets.index(f"own:{unknown}")].tolist()
             for row, instance in zip(rows, block.instances, strict=True):
-                groups = [flat.groups[flat.place(PortRef(instance.path, port))[0]] for port in ports]
+                at = [flat.place(PortRef(instance.path, port))[0] for port in ports]
+                groups = [flat.groups[k] for k in at]
+                heavy = all(one.mass > 0 for one in groups if one.free)
                 if any(one.prescribed is not None and one.prescribed.outputs is not None for one in groups):
                     given.append(instance.path)
-                else:
+                elif not (heavy and related.intersection(at)):
                     loose.append(row)
     return given, {"loose": np.array(loose, dtype=np.int64)}
+
+
+def _related(flat: FlatModel, blocks: Sequence[Block]) -> set[int]:
+    """Groups between which relations of positions are kept."""
+    found = set[int]()
+    for block in blocks:
+        if block.kernel.structure.positions:
+            ports = [name for name, one in block.kernel.variant.type.declaration.ports.items() if one.domain.mechanical]
+            found.update(flat.place(PortRef(one.path, port))[0] for one in block.instances for port in ports)
+    return found
 
 
 def takes_impulse(blocks: Sequence[Block], n: int) -> Integers:

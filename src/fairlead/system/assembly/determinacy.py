@@ -8,6 +8,7 @@ found. Each needs an equation of its own that contains it: a perfect matching in
 
 The zones are those a run begins in, the first of each component. An unknown left over, with all that
 alternating paths lead to from it, is the underdetermined part (Dulmage and Mendelsohn 1958), named by its nodes.
+Where all are matched, parts that ask for differences of potentials alone are left, see common_level.py.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.shares import shares
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.assembly.common_level import Open as WithoutLevel
+from fairlead.system.assembly.common_level import said_of, without_level
 from fairlead.system.assembly.left_open import OPEN, as_written
 from fairlead.system.assembly.light_holds import held_entries, light_parts, relations
 from fairlead.system.numbering.unknowns import Numbering, part_rows
@@ -48,7 +51,7 @@ def undetermined(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> 
         return faults
     parts = _unmatched(_incidence(flat, numbering, blocks, start=True))
     if not parts:
-        return []
+        return [_levelless(flat, one) for one in without_level(flat, blocks)]
     always = set().union(*_unmatched(_incidence(flat, numbering, blocks, start=False)))
     return [_open(flat, numbering, blocks, part, always=bool(part & always)) for part in parts]
 
@@ -101,6 +104,16 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
             if not any(node.domain.mechanical for node in nodes):
                 hangs, way_out = OPEN[nodes[0].domain.name].hangs, OPEN[nodes[0].domain.name].anchor
             yield Fault(_written(flat, nodes[0]), f"{_named(flat, nodes)} {hangs}.", way_out)
+
+
+def _levelless(flat: FlatModel, one: WithoutLevel) -> Fault:
+    """The fault of a part whose common level nothing determines."""
+    nodes = [flat.nodes[number] for k in one.groups for number in flat.groups[k].nodes]
+    words = OPEN[nodes[0].domain.name]
+    plain = said_of(one.keeping, words.quantity)
+    if len(nodes) == 1:
+        plain = plain.replace("are joined", "is joined", 1).replace("of their", "of its")
+    return Fault(_written(flat, nodes[0]), f"{_named(flat, nodes)} {plain}.", words.level)
 
 
 def _depends_on_motion(block: Block) -> bool:
@@ -172,9 +185,15 @@ def _index(block: Block, owners: Iterable[str]) -> int:
 
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
     """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
-    wanted = set(owners)
-    cannot = [i.path for b in blocks if b.kernel.structure.holds.keys() - b.kernel.structure.pairs.keys()
-              for i in b.instances if i.path in wanted]  # fmt: skip
+    wanted, cannot, many = set(owners), list[str](), list[str]()
+    for block in blocks:
+        s = block.kernel.structure
+        mine = [instance.path for instance in block.instances if instance.path in wanted]
+        cannot += mine if s.holds.keys() - s.pairs.keys() - s.ratios.keys() else []
+        ports = [*map(len, s.pairs.values()), *map(len, s.ratios.values())]
+        many += mine if max(ports, default=0) > 2 else []
+    if many and not cannot:
+        return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
     return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
 
 

@@ -18,6 +18,7 @@ class Open(NamedTuple):
     way_out: str
     hangs: str
     anchor: str
+    level: str
 
 
 OPEN = {
@@ -27,6 +28,7 @@ OPEN = {
         "Add a Volume there, which is oil that gives way, or a Leak or an Orifice to a place whose pressure is known.",
         "are joined without a Volume, and to no place whose pressure is known",
         "Join one of them to a Tank or a PressureSource, or add a Volume.",
+        "Add a Volume there, which is oil that gives way.",
     ),
     "electrical": Open(
         "voltage",
@@ -34,6 +36,7 @@ OPEN = {
         "Join the circuit to an Earth, or add a Resistor or a Capacitor from there to a place whose voltage is known.",
         "are joined without a Capacitor, and to no place whose voltage is known",
         "Join one of them to an Earth.",
+        "Join one of them to an Earth; by a Resistor of some kiloohm, if no current is to flow there.",
     ),
     "thermal": Open(
         "temperature",
@@ -41,6 +44,7 @@ OPEN = {
         "Add a HeatCapacity there, or a HeatConductor to a FixedTemperature.",
         "are joined without a HeatCapacity, and to no place whose temperature is known",
         "Join one of them to a FixedTemperature, or add a HeatCapacity.",
+        "Add a HeatCapacity there, or a HeatConductor to a FixedTemperature.",
     ),
 }
 """By domain, for those that are not of motion."""

@@ -69,7 +69,8 @@ def drift(ctx, t, y, r):
 def gap(ctx, t, y, r):
     """-gap on the rows of relations of positions, zero elsewhere; of nodes without inertia what is off balance.
 
-    As a relation counts a stop that touches, where one side moves as given. Two bodies that touch stay as they are.
+    As a relation counts a stop that touches, where one side moves as given or is in a relation. Two other bodies that
+    touch stay as they are.
     """
     slips(ctx, t, y, GAP, r)
     loose = i8(ctx[LOOSE])

@@ -13,8 +13,9 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.instantiate import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
+from fairlead.kernels.break_away import number_of
 from fairlead.kernels.structure import Structure
 
 REST = -1  # stands for all groups that never move
@@ -34,7 +35,7 @@ class HeldPair:
 def circles(flat: FlatModel, structures: Mapping[str, Structure]) -> list[HeldPair]:
     """Those that lie on a circle, in the order of the instances."""
     still = _standing(flat, structures)
-    pairs = [one for each in flat.instances for one in _pairs(flat, each.path, structures[each.path], still)]
+    pairs = [one for each in flat.instances for one in _pairs(flat, each, structures[each.path], still)]
     edges = [_edge(flat, pair) for pair in pairs]
     if _forest(edges):
         return []
@@ -72,13 +73,22 @@ def _standing(flat: FlatModel, structures: Mapping[str, Structure]) -> frozenset
     return frozenset(found)
 
 
-def _pairs(flat: FlatModel, path: str, structure: Structure, still: frozenset[int]) -> Iterator[HeldPair]:
-    for unknown, speeds in structure.pairs.items():
+def _pairs(flat: FlatModel, instance: Instance, structure: Structure, still: frozenset[int]) -> Iterator[HeldPair]:
+    path = instance.path
+    for unknown, speeds in {**structure.pairs, **weighed(instance, structure)}.items():
         joined = ends(flat, path, speeds, still)
         moving = [one for one in joined if one[0] != REST]  # a lever whose pivot stands joins two
         if len(moving) <= 2:
             one, other = (*moving, (REST, 1.0), (REST, 1.0))[:2]
             yield HeldPair(path, unknown, (one, other), structure.senses[unknown])
+
+
+def weighed(instance: Instance, structure: Structure) -> dict[str, dict[str, float]]:
+    """Coefficients that are made of parameters, in numbers."""
+    return {
+        unknown: {port: number_of(text, instance.values) for port, text in texts.items()}
+        for unknown, texts in structure.ratios.items()
+    }
 
 
 def ends(
