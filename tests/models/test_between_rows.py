@@ -97,6 +97,31 @@ def test_inside_steps_of_stepping_neighbours_on_a_line_move_alike(accuracy):
     assert min(result.extremes(f"rope.line[{k}].tension").lowest for k in range(44, 56)) > 95.0
 
 
+FALLS_INTO_A_ROPE = """
+    components:
+      floor: {type: Ground}
+      body: {type: Mass, mass: 1 kg}
+      weight: {type: ForceSource, force: 9.81 N}
+      rope: {type: Tether, stiffness: 1e4 N/m, length: 0.1 m}
+      pad: {type: Contact, normal_force: 10 N, curve: 0.1}
+    connections:
+      - [floor.flange, rope.a, pad.a]
+      - [body.flange, rope.b, weight.flange, pad.b]
+    run: {stop: 0.16 s, engine: ENGINE, accuracy: ACCURACY}
+    record: {every: EVERY, signals: [body.v]}
+"""
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("every", ["null", "20 ms"])
+def test_a_peak_in_the_first_step_after_an_event_is_found(simulate, engine, accuracy, every):
+    """Pulled by F = 8.81 N it is fastest where the rope bears that: v^2 = 2 F 0.1 m + F^2/k."""
+    text = FALLS_INTO_A_ROPE.replace("ENGINE", engine).replace("ACCURACY", f"{accuracy:g}").replace("EVERY", every)
+    fastest = np.sqrt(2 * 8.81 * 0.1 + 8.81**2 / 1e4)
+    assert simulate(text).extremes("body.v").highest == pytest.approx(fastest, abs=2 * accuracy)
+
+
 GRIDS = [None, "20 ms", "0.37 s", "5 s", "100 s"]
 BELT = """
     components:

@@ -53,7 +53,8 @@ def test_what_tells_no_more_than_it_reads_changes_before_the_contacts(simulate, 
     """A limiter lets 4 N of 80 N pass, which the pad bears with its 5 N: it was never asked for 80 N."""
     text = PUSHED.replace("OVERLOAD", RELAY.replace("LEVEL", "50")).replace("ENGINE", engine)
     text = text.replace("      power:", "      least: {type: Limiter, high: 4, low: -4}\n      power:")
-    text = text.replace("- [power.signal, motor.force]", "- [power.signal, least.value]\n      - [least.signal, motor.force]")
+    limited = "- [power.signal, least.value]\n      - [least.signal, motor.force]"
+    text = text.replace("- [power.signal, motor.force]", limited)
     result = simulate(text)
     assert abs(result["block.v"]).max() < 1e-9
     assert result["pad.friction"][-1] == pytest.approx(4.0, rel=1e-6)

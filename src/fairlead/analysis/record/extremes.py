@@ -1,9 +1,9 @@
 """The largest and the smallest value of every signal over a run, from the dense output of all steps.
 
 Looked at are all rows an engine hands over: the ends of steps, both sides of events and rows inside steps. Where the
-best of them lies in a step, or at an end of one, that has rows inside, the curve through these rows is searched; where
-steps are too short for that, a parabola through three ends. So an extreme between two rows is found, whatever is
-recorded.
+best of them lies in a step, or at an end of one, that has rows inside, the curve through these rows is searched: of the
+rows of an event, the step that ends there and the one that starts. Where steps are too short for that, a parabola
+through three ends is. So an extreme between two rows is found, whatever is recorded.
 """
 
 from __future__ import annotations
@@ -84,12 +84,12 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
 
     row, value = _first_best(values, column, sign, stretch)
     t = rows.t[row]
+    first, last = np.searchsorted(rows.t, t, side="left"), np.searchsorted(rows.t, t, side="right") - 1
     for which in steps:
-        for begins in (True, False):
-            step = np.searchsorted(which[:, 0], row, side="right") - 1
-            if not begins:  # the row is the end of a step: that one as well
-                step = np.where((step >= 0) & (which[step, 0] == row), step - 1, -1)
-            of = np.flatnonzero((step >= 0) & (row <= which[step, -1]))
+        within = np.searchsorted(which[:, 0], last, side="right") - 1
+        before_it = np.searchsorted(which[:, 0], first, side="left") - 1  # the step that ends at this instant
+        for step, found in ((within, last <= which[within, -1]), (before_it, first == which[before_it, -1])):
+            of = np.flatnonzero((step >= 0) & found)
             if len(of):
                 at = which[step[of]]
                 peak, share = peak_of_curves(taken(of, at))
@@ -98,8 +98,8 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
     _raise_to(value, t, *peak_of_neighbours(rows, taken, row))
     when = np.full(best.shape, np.nan)
     best[signal, stretch], when[signal, stretch] = value, t
-    columns, first = np.arange(len(best)), best.argmax(axis=1)
-    return best[columns, first], when[columns, first]
+    columns, place = np.arange(len(best)), best.argmax(axis=1)
+    return best[columns, place], when[columns, place]
 
 
 def _of_stretches(best_of: np.ufunc, values: Floats) -> Floats:

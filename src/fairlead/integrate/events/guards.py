@@ -28,8 +28,8 @@ def evaluate_guards(problem, run, guards, t, at_y, at_g):
 def latches_wait(problem, guards):
     """Leave those that remember out of `fired` as long as any other is in it.
 
-    While zones are still looked for, forces are only tried: a contact holds with ten times its limit, or a stop pulls. A
-    relay would remember that, though it never was.
+    While zones are still looked for, forces are only tried: a contact holds with ten times its limit, or a stop pulls.
+    A relay would remember that, though it never was.
     """
     fired, latch = indices(guards.at_fired, guards.n_guards), indices(problem.at_latch_guard, guards.n_guards)
     kept = 0
