@@ -20,6 +20,7 @@ from fairlead.integrate import Run
 
 MANY = FEW + 5
 LEVEL, FALLING = "curve: 0.3", "curve: {curve: coulomb, stiction: 0.5, coulomb: 0.3}"
+RELAY = "relay: {type: Relay, upper: 1, lower: 0.5, on: 6, off: 2}"
 SWING = "source: {type: SignalSource, value: {sine: {amplitude: 2, frequency: 500 Hz, offset: 10}}}"
 
 
@@ -47,6 +48,7 @@ def row(count, contact, engine="stepping", more="", joined=""):
         (MANY, f"{LEVEL}, method: binding", "", "", LANDED, "rub0"),
         (MANY, f"{LEVEL}, method: tanh", "", "", INSIDE, ""),
         (MANY, LEVEL, SWING, "[source.signal, rub3.normal]", LANDED, "rub3"),
+        (MANY, LEVEL, RELAY, "[m5.v, relay.value]\n  - [relay.signal, rub3.normal]", LANDED, "rub3"),
     ],
 )
 def test_a_class_is_known_by_its_facts(count, contact, more, joined, way, named, scene):

@@ -21,7 +21,7 @@ from fairlead.component.base import Component, Family
 from fairlead.errors import Fault, Location
 from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
-from fairlead.system.active.timed_limits import timed_limits
+from fairlead.system.active.timed_limits import switched_limits, timed_limits
 from fairlead.system.compiled.system import System
 
 Way = Literal["inside", "landed", "refused"]
@@ -82,6 +82,11 @@ def _swung(system: System, settings: RunSettings) -> Iterable[str]:
     return timed_limits(system, settings.start, settings.stop, turning=True)
 
 
+def _switched(system: System, settings: RunSettings) -> Iterable[str]:
+    """Contacts whose limit follows a part that only tells signals and has zones."""
+    return switched_limits(system)
+
+
 def _any(system: System, settings: RunSettings) -> Iterable[str]:
     """Asks nothing: the class of what is in no other."""
     return ()
@@ -108,6 +113,8 @@ TABLE: tuple[Class, ...] = (
           "it locates the instants at which rigid stops are met"),
     Class("limits of friction given in time that turn ten times and more", LANDED,
           "the force limit of {} varies in time, so that it may be passed and kept again inside a step", _swung),
+    Class("limits of friction that follow a signal which switches (a relay, a state machine)", LANDED,
+          "the force limit of {} jumps with a signal that switches, at an instant inside a step", _switched),
     Class("contacts that creep or bend at rest and have zones (binding)", LANDED,
           "the laws of {} turn within a slip of nearly nothing", _bending),
     Class("limits of friction given in time that turn less often", INSIDE,

@@ -1,4 +1,6 @@
-"""Contacts that hold whose force limit follows something given in time: facts of every kernel, laid over one System.
+"""Contacts that hold whose force limit follows something given in time, or a signal that switches.
+
+These are facts of every kernel, laid over one System.
 
     given in time      a quantity in time that is not constant in some piece in force between start and stop
     follows            a signal, a prescribed motion or an own unknown of a law that reads it, and so on from law to law
@@ -16,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.keys import OWN, key
+from fairlead.component.keys import OWN, PORT, key
 from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import Wave, polynomial
 from fairlead.kernels.structure import Structure
@@ -43,7 +45,25 @@ def timed_limits(system: System, start: float, stop: float, *, turning: bool = F
     beating = [_beats(block, start, stop, moves) for block in system.blocks]
     if not any(beats.any() for beats in beating):
         return []
-    varies = _spread(system, beating)
+    return _that_follow(system, beating, np.zeros(len(system.memory["z"]), dtype=bool))
+
+
+def switched_limits(system: System) -> list[str]:
+    """Paths of the components whose limit follows a part that only tells signals and has zones, as a relay."""
+    if not any(block.kernel.structure.holds for block in system.blocks):
+        return []
+    switches = np.zeros(len(system.memory["z"]), dtype=bool)
+    for block in system.blocks:
+        s = block.kernel.structure
+        if len(s.zones) > 1 and not any(key(target).kind == PORT for target in s.targets):
+            switches[block.sig_index] = True
+    nothing = [np.zeros(block.count, dtype=bool) for block in system.blocks]
+    return _that_follow(system, nothing, switches) if switches.any() else []
+
+
+def _that_follow(system: System, beating: list[Booleans], varies: Booleans) -> list[str]:
+    """Components whose limit follows what beats in a law, or what lies at these places in z."""
+    varies = _spread(system, beating, varies)
     found: list[str] = []
     for block, beats in zip(system.blocks, beating, strict=True):
         reached = _reached(block, beats, varies, _read_by_limits(block.kernel.structure))
@@ -87,9 +107,8 @@ def _swings(given: PiecewisePolynomial | Wave, start: float, stop: float) -> Ite
         yield float(abs(part.omega) * lasts.sum() / np.pi)
 
 
-def _spread(system: System, beating: list[Booleans]) -> Booleans:
-    """By place in z: whether it follows what is given in time."""
-    varies = np.zeros(len(system.memory["z"]), dtype=bool)
+def _spread(system: System, beating: list[Booleans], varies: Booleans) -> Booleans:
+    """By place in z: whether it follows what is given in time, or what varies already."""
     while True:
         before = np.count_nonzero(varies)
         for block, beats in zip(system.blocks, beating, strict=True):
