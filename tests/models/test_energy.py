@@ -66,3 +66,20 @@ def test_the_heat_of_friction_only_grows(bundled, name: str) -> None:
     if "energy.dissipated" in result:
         heat = result["energy.dissipated"]
         assert np.diff(heat).min() >= -1e-9 * heat.max()
+
+
+STARTS_IN_A_STOP = """
+    components:
+      rest: {type: MassWithStops, mass: 2 kg, lower: 0, upper: 10 mm, sliding: 3 N, breakaway: 4 N, restitution: 0.5,
+             position: 10 mm, velocity: 0.2 m/s}
+    run: {stop: 0.5 s, accuracy: ACCURACY}
+"""
+
+
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-4", "1e-6", "1e-9"])
+def test_what_is_lost_in_an_impact_at_the_start_counts(simulate, accuracy):
+    """Of m v^2/2 = 0.04 J three quarters are lost in the stop, the rest in the friction behind it."""
+    energy = simulate(STARTS_IN_A_STOP.replace("ACCURACY", accuracy)).run["energy"]
+    assert energy["dissipated"] == pytest.approx(0.04, rel=1e-3)
+    assert energy["stored_change"] == pytest.approx(-0.04, rel=1e-3)
+    assert energy["closure"] < 1e-3

@@ -45,7 +45,8 @@ class Ledger:
         if not len(rows):
             return
         if self.first is None:
-            self.first = rows[0].copy()
+            self.first = before_the_start(rows[0])
+            self.most = abs(float(self.first[2]))
         self.last = rows[-1].copy()
         for sizes in (np.abs(rows - self.first), np.abs(rows[:, 2])):
             self.most = max(self.most, float(np.fmax.reduce(sizes, axis=None)))  # what is no number says nothing
@@ -60,6 +61,15 @@ class Ledger:
             "closure": missing / self.most if self.most > NOTHING else None,
             "supplied": supplied, "dissipated": dissipated, "stored_change": stored, "throughput": self.most,
         }  # fmt: skip
+
+
+def before_the_start(row: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What the first row (3,) was before an impact at the start of the run.
+
+    Both integrals are zero there, so what the row has of them was lost, or given by what moves as prescribed, at once.
+    """
+    dissipated, supplied, stored = row
+    return np.array([0.0, 0.0, stored + dissipated - supplied])
 
 
 def resolved(system: Instance) -> float:
