@@ -48,6 +48,9 @@ class MovingSheave(Composite):
     rubbing = Parameter("N*m", "Dry torque of the bearing.", default=None, above=0)
     mu = Parameter("1", "Coefficient of friction of rope on sheave, with traction on.", default=0.3, above=0)
     wrap = Parameter("rad", "Angle that the rope wraps, with traction on.", default=pi, least=0, usual=(0, 7))
+    rope_mass = Parameter(
+        "kg", "Of the rope on the sheave, with traction on; needed if the rope has damping.", default=None, above=0
+    )
     method = Choice(METHODS, "Treatment of sticking; the scene's when not given.", default=None)
     hands_on = ("method",)
     traction = Effect("The rope slips on the sheave.", "off")
@@ -58,12 +61,19 @@ class MovingSheave(Composite):
     strain_in = Output("1", "Strain of the side behind.")
     strain_out = Output("1", "Strain of the side ahead.")
 
+    def check(p):
+        """The rope on the sheave has one speed."""
+        if p.traction == "on" and p.damping is not None and p.rope_mass is None:
+            what = "traction is on and the rope has damping, so what it slips at on the sheave depends on its own speed"
+            yield "damping", what, "Give rope_mass, the mass of the rope on the sheave, or leave damping out."
+
     def expand(p, scene):
         """Two sides and a roller between them."""
         viscous = {} if p.damping is None else {"damping": p.damping}
         side = {"length": p.length, "stiffness": p.stiffness, "tension": p.tension, "strands": p.share, **viscous}
         given = {name: getattr(p, name) for name in ("radius", "moment", "mu", "wrap", "traction")}
         given |= {name: getattr(p, name) for name in ("rubbing", "method") if getattr(p, name) is not None}
+        given |= {} if p.rope_mass is None else {"web_mass": p.rope_mass}
         children = {
             "inward": scene.make(WebAccumulator, **side),
             "outward": scene.make(WebAccumulator, **side),

@@ -377,3 +377,36 @@ def test_an_empty_core_may_go_back_by_a_turn(scene):
     result = scene(WOUND).run(out=None, check=False)
     assert "roll is used up" in result.run["sentence"]
     assert result["roll.radius"][-1] == pytest.approx(0.049, rel=1e-5)
+
+
+SHEAVE = """
+    components:
+      drum: {type: SpeedSource, speed: 1 rad/s}
+      rack: {type: Rack, radius: 0.1 m}
+      sheave: {type: MovingSheave, length: 3 m, stiffness: 50 kN, tension: 100 N, radius: 0.1 m, moment: 0.05 kg*m^2,
+               mu: 0.1, effects: {traction: on} MORE}
+      place: {type: Mass, mass: 10 kg}
+      pull: {type: ForceSource, force: 200 N}
+      end: {type: Ground}
+    connections:
+      - [drum.shaft, rack.pinion]
+      - [rack.rack, sheave.a]
+      - [sheave.b, end.flange]
+      - [sheave.place, place.flange, pull.flange]
+    run: {stop: 2 s}
+"""
+
+
+def test_a_damped_rope_that_slips_on_a_moving_sheave_needs_its_mass_there(scene):
+    with pytest.raises(fairlead.ModelError, match="Give rope_mass"):
+        scene(SHEAVE.replace("MORE", ", damping: 500 N*s")).check()
+
+
+def test_with_it_the_ratio_of_tensions_stays_within_eulers(simulate):
+    """As the rope slips over the sheave, the ratio is that of Euler's formula but for its mass and what swings."""
+    result = simulate(SHEAVE.replace("MORE", ", damping: 500 N*s, rope_mass: 0.2 kg"))
+    taut = (result["sheave.tension_in"] > 10) & (result["sheave.tension_out"] > 10)
+    ratio = np.abs(np.log(result["sheave.tension_in"][taut] / result["sheave.tension_out"][taut]))
+    assert taut.any()
+    assert ratio.max() < 0.1 * np.pi + 0.02
+    assert result.run["energy"]["closure"] < 1e-3
