@@ -112,3 +112,28 @@ def test_a_stop_that_is_let_go_in_an_impact_never_pulled(simulate, engine):
     result = simulate(STRUCK.replace("ENGINE", engine).replace("FORCE", "-5 N"))
     assert result["stop.force"].min() >= 0.0
     assert result["pulled.signal"].min() == 1.0
+
+
+TIE = """
+    components:
+      floor: {type: Ground}
+      block: {type: Mass, mass: 1 kg}
+      pad: {type: Contact, normal_force: 20 N, curve: {curve: coulomb, stiction: 0.5, coulomb: 0.3}}
+      pull: {type: ForceSource, force: {ramp: {to: 10 N, over: 2 s}}}
+      hold: {type: SampleHold, period: PERIOD}
+      level: {type: SignalSource, value: 20}
+    connections:
+      - [floor.flange, pad.a]
+      - [pad.b, block.flange, pull.flange]
+      - [level.signal, hold.value]
+    run: {engine: ENGINE, stop: 2.2 s}
+    record: {signals: [block.x]}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("period", ["0.3 s", "2 s", "0.25 s"])
+def test_a_sampler_beside_it_decides_no_tie(simulate, engine, period):
+    """The load ends at what the pad just bears, and rises no further."""
+    result = simulate(TIE.replace("ENGINE", engine).replace("PERIOD", period))
+    assert abs(result["block.x"]).max() < 1e-9

@@ -30,7 +30,7 @@ from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
 from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
-from fairlead.integrate.events.violators import distance_to_look, move_ahead
+from fairlead.integrate.events.violators import distance_to_look, event_is_due, move_ahead
 from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.point.controller import restart, weigh, weighted_norm
@@ -280,11 +280,11 @@ def settle_here(m):
         return REBOUND_RUBS
     if run.stop_asked == 1:
         return CHATTER
-    if run.crossed == 1 and run.landing == 1 and point.t < run.stop:
+    if event_is_due(run, point):
         run.crossed = 0
-        if point.t >= min(run.t_next, run.t_release) and take_time_event(problem, run, point, events):
-            begin_settling(problem, run, point, events)
-            return GO_ON
+        take_time_event(problem, run, point, events)
+        begin_settling(problem, run, point, events)
+        return GO_ON
     finish_settling(m, starting)
     return GO_ON
 

@@ -39,7 +39,7 @@ def fire_violators(problem, run, point, events):
     for i in met:
         if tolerance[i] < g[i] <= known_to:
             g[i] = 0.0  # a time is no better known than that, so the stop is not passed
-    at_limit = looked_ahead(guards)
+    at_limit = looked_ahead(guards) and not event_is_due(run, point)
     if at_limit:
         look_ahead(problem, run, point, events)
         for i in met:
@@ -76,6 +76,12 @@ def functions_first(problem, guards):
             fired[kept] = fired[k]
             kept += 1
     guards.n_fired = kept if kept > 0 else guards.n_fired
+
+
+@compiled
+def event_is_due(run, point):
+    """True if a time event follows at this instant: what rises until then says nothing of what rises behind it."""
+    return run.crossed == 1 and run.landing == 1 and point.t < run.stop and point.t >= min(run.t_next, run.t_release)
 
 
 @compiled
