@@ -1,5 +1,7 @@
 """What stands where a part would have a contact whose friction is zero by its parameters: no zone, no unknown."""
 
+from collections.abc import Mapping
+
 from fairlead.components.friction.contact import Contact
 
 from fairlead.component import Component, Input, Law, Output, Translational
@@ -30,9 +32,9 @@ def contact_of(scene, curve, viscous=None, **given):
 
 
 def never_rubs(curve):
-    """Whether a curve, in any form that a part may give it, is a coefficient of zero at all speeds."""
-    if not hasattr(curve, "items") and not hasattr(curve, "given"):
+    """Whether a curve, a number, a map or a Curve, is a coefficient of zero at all speeds."""
+    if isinstance(curve, float | int):
         return curve == 0
-    said = curve.given if hasattr(curve, "given") else curve
-    word = said.get("curve", "coulomb") if not hasattr(curve, "given") else curve.type.word
-    return word == "coulomb" and not (said["coulomb"] or said.get("stiction") or said.get("backward"))
+    written = isinstance(curve, Mapping)
+    word, given = (curve["curve"], curve) if written else (curve.type.word, curve.given)
+    return word == "coulomb" and not (given["coulomb"] or given.get("stiction") or given.get("backward"))

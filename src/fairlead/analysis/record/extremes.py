@@ -87,8 +87,9 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
     first, last = np.searchsorted(rows.t, t, side="left"), np.searchsorted(rows.t, t, side="right") - 1
     for which in steps:
         within = np.searchsorted(which[:, 0], last, side="right") - 1
-        before_it = np.searchsorted(which[:, 0], first, side="left") - 1  # the step that ends at this instant
-        for step, found in ((within, last <= which[within, -1]), (before_it, first == which[before_it, -1])):
+        ending = np.searchsorted(which[:, 0], first, side="left") - 1
+        ends_here = (first <= which[ending, -1]) & (which[ending, -1] <= last)
+        for step, found in ((within, last <= which[within, -1]), (ending, ends_here)):
             of = np.flatnonzero((step >= 0) & found)
             if len(of):
                 at = which[step[of]]
