@@ -65,5 +65,5 @@ def engine_settings(netlist: Netlist, settings: RunSettings, system: System, pat
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
         max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,
-        dwell=settings.shortest_zone, on_chatter=settings.chatter,
+        dwell=settings.dwell, on_chatter=settings.chatter,
     )  # fmt: skip

@@ -100,7 +100,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
-        summary["dwell"] = asked.dwell
+        summary["dwell"] = asked.longest_dwell
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
         found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.open_.remarks(),

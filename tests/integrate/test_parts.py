@@ -12,14 +12,15 @@ OF_THE_PROBLEM = {
 }  # fmt: skip
 OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
-    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell",
+    "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "dwell_given",
+    "step_floor_given",
     "least_theta", "fixed_step",
 }  # fmt: skip
 OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
 OF_A_SETTLEMENT = {
     "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "least_look", "nearness",
-    "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest",
+    "own_time", "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest",
 }  # fmt: skip
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",

@@ -15,6 +15,7 @@ from math import inf, isfinite
 from typing import Any, NamedTuple
 
 from fairlead.integrate.codes import GO_ON, NOT_FINITE, REPLAN, SINGULAR_MATRIX, STEP_FLOOR
+from fairlead.integrate.events.chatter import dwell_here
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_up import TOO_LONG, mend_start, settle_at_start, take_again, take_much_shorter
 from fairlead.integrate.events.pace import (
@@ -111,7 +112,7 @@ def up_to_crossing(m, h):
     """Accept a step whose error is small enough, up to its first crossing; or give it up for what that shows."""
     problem, run, guards, recorder = m.problem, m.run, m.events.guards, m.recorder
     found = find_first_crossing(m, h)
-    if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, guards, h):
+    if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, m.point, guards, h):
         return take_much_shorter(run, guards, h)
     if found == COMPANION:
         return mend_start(m, h)
@@ -178,7 +179,7 @@ def limits_are_rough(problem, point, guards):
 
 
 @compiled
-def turns_at_limit(run, guards, h):
+def turns_at_limit(run, point, guards, h):
     """True if guards fired that were at their limits where zones were settled, and all are below at the end.
 
     The load of a spring that turns in the hand at the limit of its contact leaves it with no slope, and the interpolant
@@ -186,7 +187,8 @@ def turns_at_limit(run, guards, h):
     """
     ng = guards.n_guards
     g, end, tolerance = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(guards.at_guard_tolerance, ng)
-    fired, turns = indices(guards.at_fired, ng), guards.n_fired > 0 and run.adaptive == 1 and DOUBT * h >= run.dwell
+    fired, turns = indices(guards.at_fired, ng), guards.n_fired > 0 and run.adaptive == 1
+    turns = turns and DOUBT * h >= dwell_here(run, point)
     for k in range(guards.n_fired):
         i = fired[k]
         turns = turns and abs(g[i]) <= tolerance[i] and end[i] < 0.0

@@ -59,6 +59,8 @@ Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 Bytes = NDArray[np.uint8]
 
+MOST_DWELL, DWELL_SHARE = 1e-6, 1e-2
+"""Share of the span, and of the accuracy in it, that a dwell is at most when it is not given."""
 CALLBACKS = (
     "rhs", "jacobian", "mass", "guards", "switch", "slip", "next_time", "at_time", "outputs", "forces", "drift",
     "slopes", "gap", "ahead", "swings",
@@ -234,9 +236,18 @@ class Run:
     max_passes: int | None = None
     """Passes of one settling before it counts as not settled; None: 100, and four for every machine."""
     dwell: float | None = None
-    """A machine that toggles again and again within this time chatters; None: 1e-6 of the span."""
+    """A machine that toggles again and again within this time chatters. None: a hundredth of the accuracy, at most
+    1e-6, of the span, and no longer than nothing moves by more than a tenth of its error weight."""
     on_chatter: Literal["warn", "hold", "stop"] = "warn"
     """warn: name it and go on; hold: freeze its zone for one dwell each time; stop: end the run."""
+
+    @property
+    def longest_dwell(self) -> float:
+        """The dwell [s] that was given, or else the most that it may be."""
+        if self.dwell is not None:
+            return self.dwell
+        share = MOST_DWELL if self.accuracy is None else min(MOST_DWELL, DWELL_SHARE * self.accuracy)
+        return share * (self.stop - self.start)
 
 
 class Status(IntEnum):

@@ -42,7 +42,6 @@ Duration = Annotated[Seconds, Field(gt=0)]
 
 LONGEST_FILE_NAME = 200  # bytes; file systems take 255
 SHORTEST = 1e-12  # s, and as a share of the times themselves: below it matrices of the engines are rounded away
-MOST_DWELL, DWELL_SHARE = 1e-6, 1e-2  # of the span
 
 
 class RunSettings(Strict):
@@ -75,13 +74,8 @@ class RunSettings(Strict):
     chatter: Literal["warn", "hold", "stop"] = "warn"
     """What happens to a contact that toggles faster than its dwell."""
     dwell: Duration | None = None
-    """Shortest time a zone lasts before its toggling counts as chatter; a hundredth of the accuracy, at most 1e-6, of
-    the span when not given."""
-
-    @property
-    def shortest_zone(self) -> float:
-        """The dwell in force, s: well below the error that switches have in time, so that holding a zone costs none."""
-        return self.dwell or min(MOST_DWELL, DWELL_SHARE * self.accuracy) * (self.stop - self.start)
+    """Shortest time a zone lasts before its toggling counts as chatter. When not given a hundredth of the accuracy, at
+    most 1e-6, of the span, and no longer than nothing moves by more than a tenth of its error weight."""
 
     @model_validator(mode="after")
     def _ends_after_it_starts(self) -> RunSettings:

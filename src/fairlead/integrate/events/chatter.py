@@ -2,9 +2,15 @@
 
     chatters    a machine that toggles CHATTER_STREAK times in a row, each within a dwell of the one before
     stalls      STALL_LIMIT settlements in a row, each within a progress floor of the one before
+
+A dwell and a floor that are given count as they are. Else they are shares of the span, but a dwell is no longer than
+nothing moves by more than STILL of its error weight, and a floor a small part of that: a scene may move much faster
+than it lasts, and what lasts longer than its own motion is no chatter, nor may it be held.
 """
 
 from __future__ import annotations
+
+from math import inf
 
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
@@ -14,6 +20,40 @@ STALL_LIMIT = 5
 """Switches in a row, each within a progress floor of the one before, that earn a machine a dwell."""
 HOLD, STOP = 1, 2
 """What `on_chatter` says, but for 0: warn."""
+STILL = 0.1
+"""Of an error weight: what moves less while a zone is held is right to well below its error."""
+NO_WAY = 1e-3
+"""Of STILL: switches nearer to each other than nothing moves by this share of it do not advance."""
+RESOLVED = 1e-14
+"""Of the time: what is shorter is rounding of the time."""
+
+
+@compiled
+def floor_here(run, point):
+    """The progress floor [s] that counts at the point."""
+    if run.step_floor_given == 1:
+        return run.progress_floor
+    return max(min(run.progress_floor, NO_WAY * still_for(point)), RESOLVED * abs(point.t))
+
+
+@compiled
+def dwell_here(run, point):
+    """The dwell [s] that counts at the point."""
+    if run.dwell_given == 1:
+        return run.dwell
+    return min(run.dwell, still_for(point))
+
+
+@compiled
+def still_for(point):
+    """The time [s] in which nothing moves by more than STILL weights, by the slopes at the last settlement."""
+    n, fastest = point.n, 0.0
+    slope, weight = reals(point.at_slope, n), reals(point.at_weight, n)
+    differential, unweighed = indices(point.at_differential, n), indices(point.at_unweighed, n)
+    for k in range(n):
+        if differential[k] == 1 and unweighed[k] == 0:
+            fastest = max(fastest, abs(slope[k]) / weight[k])
+    return STILL / fastest if fastest > 0.0 else inf
 
 
 @compiled
@@ -22,7 +62,7 @@ def watch_progress(problem, run, point, events):
     guards, settling = events.guards, events.settling
     if guards.n_fired == 0:
         return
-    settling.stalls = settling.stalls + 1 if point.t - settling.t_last_switch < run.progress_floor else 0
+    settling.stalls = settling.stalls + 1 if point.t - settling.t_last_switch < floor_here(run, point) else 0
     settling.t_last_switch = point.t
     if settling.stalls >= STALL_LIMIT:
         fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
@@ -40,7 +80,7 @@ def watch_chatter(m, z):
     run, point, settling = m.run, m.point, m.events.settling
     last, streak = reals(settling.at_last_toggle, settling.n_zones), indices(settling.at_streak, settling.n_zones)
     if point.t > last[z]:
-        streak[z] = streak[z] + 1 if point.t - last[z] < run.dwell else 0
+        streak[z] = streak[z] + 1 if point.t - last[z] < dwell_here(run, point) else 0
         last[z] = point.t
         if streak[z] >= CHATTER_STREAK:
             indices(settling.at_chatters, settling.n_zones)[z] += 1
@@ -54,5 +94,6 @@ def watch_chatter(m, z):
 @compiled
 def block(problem, run, point, guards, z):
     """Hold machine z in its zone for one dwell."""
-    reals(guards.at_blocked_until, problem.n_zones)[z] = point.t + run.dwell
-    run.t_release = min(run.t_release, point.t + run.dwell)
+    until = point.t + max(dwell_here(run, point), RESOLVED * abs(point.t))
+    reals(guards.at_blocked_until, problem.n_zones)[z] = until
+    run.t_release = min(run.t_release, until)

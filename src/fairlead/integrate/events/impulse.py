@@ -5,7 +5,7 @@
 dV is what the speeds change by, P the impulse in every row. A rigid row takes any impulse. Friction is limited by a
 force, and an impulse is a force beyond all limits for no time. So the guards of what may hold are asked once more, with
 
-    speed = v + dV        force = P / SHORT
+    speed = v + dV        force = P in almost no time (impulse_load.py)
 
 A contact whose normal force is finite lets go. One whose normal force is an impulse itself holds while |P_t| <= mu P_n,
 and slides with P_t = mu P_n beyond that, because C has the slopes of the law; it is caught if that would turn its slip
@@ -43,7 +43,15 @@ from fairlead.integrate.events.impulse_changes import (
     find_change_of_speed,
     integrate_impulses,
 )
-from fairlead.integrate.events.impulse_load import LIMITED, SHORT, UNLIMITED, least_impulse, load, takes_any
+from fairlead.integrate.events.impulse_load import (
+    LIMITED,
+    SHORT,
+    UNLIMITED,
+    find_own_time,
+    least_impulse,
+    load,
+    takes_any,
+)
 from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
 from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, find_rebound
 from fairlead.integrate.linear.systems import DONE, factorise_consistent, solve, solve_watched
@@ -74,6 +82,7 @@ def resolve_impact(m):
     weigh(point, point.at_y)
     if find_change_of_speed(problem, point) <= NO_IMPACT:
         return DONE
+    find_own_time(m)
     status = solve_under_load(m)
     parts = count_parts(m) if status == DONE else 0
     if parts > 0:
@@ -90,11 +99,11 @@ def resolve_impact(m):
     if back == RUBS:
         return RUBBED
     if back == REBOUND:
-        throw_back(problem, m.run, point, guards)
+        throw_back(m)
     change_speeds(problem, point, matrices, back, supports)
     if problem.n_integrals > 0:
         integrate_impulses(m)
-    turn_round(problem, m.run, point, guards)
+    turn_round(m)
     return RELEASED if guards.n_fired > 0 else factorise_at(problem, point, m.linear, point.at_y, point.at_ft)
 
 
@@ -237,8 +246,10 @@ def factorise_at(problem, point, linear, at_y, at_drift):
 
 
 @compiled
-def throw_back(problem, run, point, guards):
+def throw_back(m):
     """Set u = (1 + e) dV, and fill `fired` with the guards of the stops that part again."""
+    problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
+    brief = SHORT * m.events.settling.own_time
     n, ng = problem.n, problem.n_guards
     y, b, r, e = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_v, n), reals(point.at_y_probe, n)
     dv, parting = reals(point.at_u, n), reals(point.at_x, n)
@@ -247,7 +258,7 @@ def throw_back(problem, run, point, guards):
         dv[k] *= 1.0 + e[k]
         parting[k] = y[k] + dv[k]
         if takes[k] == UNLIMITED and r[k] != 0.0 and e[k] > 0.0 and abs(b[k]) > least:
-            parting[k] = -b[k] / (SHORT * (run.stop - run.start))
+            parting[k] = -b[k] / brief
     evaluate_guards(problem, run, guards, point.t, point.at_x, guards.at_g)
     under, g, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng)
     may_hold, fired = indices(problem.at_may_hold, ng), indices(guards.at_fired, ng)

@@ -1,8 +1,10 @@
 """The load of an impulse: impulses as forces that act for no time, and which of them are rounding.
 
-    force = P / SHORT
+    force = P / (SHORT T)
 
-So the zones that a law has under an impulse are asked of it as under any force (impulse_zones.py).
+T is the time in which the fastest body goes as far as it is from zero, or as the least size of its place that counts
+(`nominal`): how long a run lasts says nothing of an impact. So the zones that a law has under an impulse are asked of
+it as under any force (impulse_zones.py).
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 LIMITED, UNLIMITED = 1, 2
 """What a row that may hold takes: an impulse as small as rounding leaves it, or any."""
 SHORT = 1e-12
-"""Share of the span during which an impulse acts as a force: less than time can resolve in a run."""
+"""Share of T during which an impulse acts as a force: beside it, all other forces do nothing in that time."""
 LEAST_IMPULSE = 1e-10
 """Share of the largest impulse below which one is rounding: that row keeps the force it has."""
 
@@ -26,11 +28,28 @@ def load(m):
     y, loaded = reals(m.point.at_y, n), reals(m.point.at_y_probe, n)
     for k in range(n):
         loaded[k] = y[k]
-    load_forces(m.problem, m.run, m.point)
+    load_forces(m.problem, m.events.settling, m.point)
 
 
 @compiled
-def load_forces(problem, run, point):
+def find_own_time(m):
+    """Set T, with the speeds before and after u = dV; the span where nothing moves that has a place."""
+    problem, run, point = m.problem, m.run, m.point
+    n = problem.n
+    y, dv, weight = reals(point.at_y, n), reals(point.at_u, n), reals(point.at_weight, n)
+    relative, position = reals(point.at_relative, n), indices(problem.at_position_of, n)
+    own = run.stop - run.start
+    for v in range(n):
+        x = position[v]
+        if x >= 0 and relative[x] > 0.0:
+            fastest = max(abs(y[v]), abs(y[v] + dv[v]))
+            if fastest * own * relative[x] > weight[x]:
+                own = weight[x] / (relative[x] * fastest)
+    m.events.settling.own_time = own
+
+
+@compiled
+def load_forces(problem, settling, point):
     """Put the impulses in b into `y_probe` as forces, and the shares of circles whose friction takes one."""
     n = problem.n
     b, loaded, differential = reals(point.at_b, n), reals(point.at_y_probe, n), indices(problem.at_differential, n)
@@ -40,7 +59,7 @@ def load_forces(problem, run, point):
     for k in range(n):
         least = force if takes_any(problem, k) else (of_circle[circle[k] - 1] if circle[k] > 0 else inf)
         if differential[k] == 0 and abs(b[k]) > least:
-            loaded[k] = b[k] / (SHORT * (run.stop - run.start))
+            loaded[k] = b[k] / (SHORT * settling.own_time)
 
 
 @compiled

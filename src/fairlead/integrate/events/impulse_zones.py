@@ -2,7 +2,7 @@
 
 Contacts and stops are asked with the speeds v + dV, for they hold if they come to rest or touch then. What only tells
 signals, as a limiter between the force of a stop and the brake that it presses, tells all through the impulse what it
-tells of the force P / SHORT. A law between the points of a table is followed from the speeds before. Such guards
+tells of the force of that load. A law between the points of a table is followed from the speeds before. Such guards
 (`blow_guard`) are asked with the speeds before and the load, and zones go back in the settlement after the impulse.
 """
 
@@ -11,10 +11,11 @@ from __future__ import annotations
 from fairlead.integrate.events.guards import evaluate_guards, latches_wait
 from fairlead.integrate.events.impulse_load import UNLIMITED, load, load_forces
 from fairlead.integrate.events.least_index import keep_first
+from fairlead.integrate.events.violators import place_rounding
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 
 PROBE_TIME = 1e-6
-"""Share of the span after which it is asked which stops come nearer: long enough to be more than rounding of places."""
+"""Share of T (impulse_load.py) after which it is asked which stops come nearer: more than rounding of places."""
 LEAST_APPROACH = 1e-8
 """Share of the largest change of speed at which stops that touch must approach to take part: less is rounding."""
 
@@ -31,10 +32,10 @@ def change_zones_for(m):
     struck = indices(problem.at_struck, n)
     for k in range(n):
         loaded[k] = y[k] + (b[k] if struck[k] == 1 else 0.0)
-    load_forces(problem, run, point)
+    load_forces(problem, settling, point)
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    least = LEAST_APPROACH * move_on(m)
+    least = max(LEAST_APPROACH * move_on(m), place_rounding(problem, point))
     load(m)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_later)
     g, under, tolerance = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
@@ -65,7 +66,7 @@ def move_on(m):
     differential, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
     values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
     columns = indices(matrices.at_mass_columns, matrices.n_mass)
-    later, most = PROBE_TIME * (run.stop - run.start), 0.0
+    later, most = PROBE_TIME * m.events.settling.own_time, 0.0
     for k in range(n):
         moved[k] = loaded[k]
         most = max(most, abs(dv[k]))
@@ -79,16 +80,17 @@ def move_on(m):
 
 
 @compiled
-def turn_round(problem, run, point, guards):
+def turn_round(m):
     """Fire the guards of contacts that slide against the direction of their zones now, before a law is asked there.
 
     What friction is behind rest means nothing, and need not be finite: some laws are exponential in the speed. One that
     slides in name, as others hold its sides, is judged by what it shares of the impulses.
     """
+    problem, run, point, guards = m.problem, m.run, m.point, m.events.guards
     g, inertia = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_inertia, guards.n_guards)
     tolerance, fired = reals(guards.at_guard_tolerance, guards.n_guards), indices(guards.at_fired, guards.n_guards)
     copy(reals(point.at_y, problem.n), reals(point.at_y_probe, problem.n))
-    load_forces(problem, run, point)
+    load_forces(problem, m.events.settling, point)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
     before = guards.n_fired
     for i in range(guards.n_guards):

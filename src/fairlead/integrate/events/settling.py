@@ -3,7 +3,8 @@
     contacts whose friction falls, as soon as there is more than one of them in it: in the order of release (release.py)
     all violators change at once
     if a pattern of zones recurs, or their number has not fallen for a while: those at least half as wrong
-        as the worst; if a pattern recurs again: the worst alone; and again: the one of least index
+        as the worst; if a pattern recurs again: the worst alone; and again: the one of least index; and again: that
+        and all at once in turn, since two diodes in a row that a current leaves together change by no single switch
     a pattern that leaves an unknown open, as a node without inertia of which all contacts slide: one near it
     no settlement within `max_passes` is an error that names what still switches
 
@@ -186,6 +187,8 @@ def choose(problem, events):
     if settling.stage == ALL and settling.waited > PATIENCE:
         next_stage(problem, events)
     if settling.stage == ALL:
+        return
+    if settling.stage > LEAST_INDEX and (settling.passes - settling.stage_from) % 2 == 1:
         return
     if settling.stage >= LEAST_INDEX:
         keep_first(events)

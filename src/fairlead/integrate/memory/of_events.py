@@ -40,7 +40,7 @@ SETTLING = Struct(
         "stage", "stage_from", "fewest", "waited", "switches", "settling_passes",
     ),
     numbers=(
-        "t_last_switch", "look", "least_look", "nearness",
+        "t_last_switch", "look", "least_look", "nearness", "own_time",
     ),
     reals={
         "wrong": "n_guards", "last_toggle": "n_zones", "rank": "n_zones", "patterns_met": "passes",

@@ -14,6 +14,8 @@ RUN = Struct(
         "first_sample",
         # the step at which to look whether less would do, whether this is a part, whether its rim has changed
         "narrow_at", "narrowed", "woken",
+        # 1 where a user gave them: they count as they are then (chatter.py)
+        "dwell_given", "step_floor_given",
         # counters
         "steps", "rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
         "rejected_diverged", "rejected_singular", "located", "time_events", "partial_steps",

@@ -16,6 +16,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import GO_ON, REPLAN, SINGULAR_MATRIX, STEP_FLOOR, UNSETTLED
+from fairlead.integrate.events.chatter import still_for
 from fairlead.integrate.events.given_up import TOO_LONG, settle_at_start, take_again
 from fairlead.integrate.events.pace import not_finite_here, smallest_step
 from fairlead.integrate.linear.systems import SINGULAR
@@ -117,7 +118,7 @@ def find_pivots(m, h):
 @compiled
 def jump_at_start(run, point, rule):
     """True if a law jumps where the step begins: no step could end there."""
-    return rule.t_cut - point.t <= max(1e-9 * (run.stop - run.start), smallest_step(run, point))
+    return rule.t_cut - point.t <= max(min(1e-9 * (run.stop - run.start), still_for(point)), smallest_step(run, point))
 
 
 @compiled
