@@ -52,7 +52,8 @@ BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost", "not_give
 SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier", "mean_before")
 BY_GUARD = ("g", "g_before", "g_end", "continuous")
 BY_MACHINE = (
-    "zones", "last_toggle", "blocked_until", "streak", "chatters", "switches_by_machine", "released", "released_by",
+    "zones", "last_toggle", "held_for", "blocked_until", "streak", "chatters", "switches_by_machine",
+    "released", "released_by",
 )  # fmt: skip
 
 

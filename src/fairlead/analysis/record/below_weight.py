@@ -66,8 +66,8 @@ class BelowWeight:
         if not len(rows) or not len(self.names):
             return
         mine = rows[:, self.columns]
-        self.least = np.minimum(self.least, np.where(np.isnan(mine), np.inf, mine).min(axis=0))
-        self.most = np.maximum(self.most, np.where(np.isnan(mine), -np.inf, mine).max(axis=0))
+        self.least = np.fmin(self.least, np.fmin.reduce(mine, axis=0))
+        self.most = np.fmax(self.most, np.fmax.reduce(mine, axis=0))
 
     def summary(self) -> list[dict[str, Any]]:
         """For run.json, by family: `signal` pattern, `size` and `weight` in `unit`, whether it `moves`."""

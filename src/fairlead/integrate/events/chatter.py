@@ -22,6 +22,9 @@ HOLD, STOP = 1, 2
 """What `on_chatter` says, but for 0: warn."""
 STILL = 0.1
 """Of an error weight: what moves less while a zone is held is right to well below its error."""
+AGAIN = 4.0
+"""Dwells after one within which the next is twice as long: what bounces ever faster and has no zone to rest in falls
+through then, and is named, where it would bounce again and again after ever so short a fall."""
 NO_WAY = 1e-3
 """Of STILL: switches nearer to each other than nothing moves by this share of it do not advance."""
 RESOLVED = 1e-14
@@ -70,7 +73,7 @@ def watch_progress(problem, run, point, events):
         for k in range(guards.n_fired):
             z = machine[fired[k]]
             if z >= 0:
-                block(problem, run, point, guards, z)
+                block(problem, run, point, events, z)
                 chatters[z] += 1
 
 
@@ -85,15 +88,20 @@ def watch_chatter(m, z):
         if streak[z] >= CHATTER_STREAK:
             indices(settling.at_chatters, settling.n_zones)[z] += 1
             if run.on_chatter == HOLD:
-                block(m.problem, run, point, m.events.guards, z)
+                block(m.problem, run, point, m.events, z)
             elif run.on_chatter == STOP:
                 m.linear.factors.culprit = z
                 run.stop_asked = 1
 
 
 @compiled
-def block(problem, run, point, guards, z):
-    """Hold machine z in its zone for one dwell."""
-    until = point.t + max(dwell_here(run, point), RESOLVED * abs(point.t))
-    reals(guards.at_blocked_until, problem.n_zones)[z] = until
-    run.t_release = min(run.t_release, until)
+def block(problem, run, point, events, z):
+    """Hold machine z in its zone for one dwell; twice as long as before where that was just over, up to `run.dwell`."""
+    until = reals(events.guards.at_blocked_until, problem.n_zones)
+    held = reals(events.settling.at_held_for, problem.n_zones)
+    dwell = dwell_here(run, point)
+    if point.t - until[z] <= AGAIN * held[z]:
+        dwell = min(max(dwell, 2.0 * held[z]), run.dwell)
+    held[z] = max(dwell, RESOLVED * abs(point.t))
+    until[z] = point.t + held[z]
+    run.t_release = min(run.t_release, until[z])

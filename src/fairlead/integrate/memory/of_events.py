@@ -43,7 +43,8 @@ SETTLING = Struct(
         "t_last_switch", "look", "least_look", "nearness", "own_time",
     ),
     reals={
-        "wrong": "n_guards", "last_toggle": "n_zones", "rank": "n_zones", "patterns_met": "passes",
+        "wrong": "n_guards", "last_toggle": "n_zones", "held_for": "n_zones", "rank": "n_zones",
+        "patterns_met": "passes",
     },
     indices={
         "rim": "n_zones", "zones_before": "n_zones", "zones_given": "n_zones", "zones_history": "passes_zones",
