@@ -16,6 +16,7 @@ from fairlead.component import (
 )  # fmt: skip
 
 HALF = 0.5  # above it a signal counts as on
+ROOM = 1e-6  # of a period: sums of periods are rounded
 HOLDS = {"and": ("both",), "or": ("a_alone", "b_alone", "both"), "xor": ("a_alone", "b_alone")}  # by gate: the zones
 
 
@@ -116,19 +117,21 @@ class SignalTimer(Component):
     keep = Choice(("off", "on"), "Whether what has elapsed is kept while the value is off.", default="off")
     period = Parameter("s", "Time between samples.", default=0.01, above=0)
     lasted = Discrete("s", "Time for which it has been on.")
+    was = Discrete("1", "1 if it was on at the last sample.")
     done = Discrete("1", "1 when the delay is over.")
     elapsed = Output("s", "Time for which it has been on.")
+    last = Output("1", "1 if it was on at the last sample.")
     signal = Output("1", "1 when the delay is over.")
 
-    def law(p, lasted, done):
+    def law(p, lasted, was, done):
         """Held between samples."""
-        return Law(elapsed=lasted, signal=done)
+        return Law(elapsed=lasted, last=was, signal=done)
 
     @sampled(every="period")
-    def sample(p, value, reset, lasted):
-        """A sample at which it is on stands for the time after it; half a sample is the room for rounding."""
+    def sample(p, value, reset, lasted, was):
+        """A sample at which it was on stands for the time since; what is left for rounding is ROOM."""
         on = exceeds(value, HALF)
-        before = lasted if p.keep == "on" else lasted * on
-        over = exceeds(before - p.delay + p.period / 2, 0.0)
         cleared = 1 - exceeds(reset, HALF)
-        return Law(lasted=cleared * (before + on * p.period), done=cleared * over * (1 if p.keep == "on" else on))
+        kept = cleared * (lasted + was * p.period) * (1 if p.keep == "on" else on)
+        over = exceeds(kept - p.delay + ROOM * p.period, 0.0)
+        return Law(lasted=kept, was=cleared * on, done=cleared * over * (1 if p.keep == "on" else on))

@@ -16,7 +16,7 @@ TOLD_BY = {
     "PositionActuator": {"place": "x", "moving": "v"}, "SpeedActuator": {"place": "angle", "moving": "speed"},
     "VelocityActuator": {"place": "x", "moving": "v"}, "LoadSensingPump": {"delivered": "flow"},
     "SignalEdge": {"was": "last", "found": "signal", "edges": "count"}, "TransferStage": {"gathered": "signal"},
-    "SignalTimer": {"lasted": "elapsed", "done": "signal"},
+    "SignalTimer": {"lasted": "elapsed", "was": "last", "done": "signal"},
     "SpaceState": {"gathered": "signal"}, "SecondOrder": {"told": "signal", "rate": "slope"},
     "Accumulator": {"log_pressure": "pressure"}, "Bristle": {"moved": "slid"}, "CavitatingVolume": {"empty": "void"},
     "Chamber": {"oil": "pressure", "empty": "void"}, "ContinuousPi": {"summed": "integral", "applied": "command"},

@@ -83,7 +83,7 @@ def stubs(code: Code) -> str:
 def _statuses() -> Mapping[str, int]:
     """Statuses by the names that the wrapper has for them."""
     named = ("PAUSED", "BUFFER_FULL", "REPLAN", "STEP_FLOOR", "NOT_FINITE", "UNSETTLED", "INCONSISTENT", "CHATTER",
-             "MAX_STEPS", "MAX_EVENTS", "REBOUND_RUBS")  # fmt: skip
+             "MAX_STEPS", "MAX_EVENTS", "REBOUND_RUBS", "GIVEN_APART")  # fmt: skip
     return {name: getattr(codes, name) for name in named} | {"SINGULAR": int(Status.SINGULAR)}
 
 

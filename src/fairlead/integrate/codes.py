@@ -14,7 +14,7 @@ GO_ON = 100
 """Not a status of a run: the loop takes the next phase."""
 FINISHED, PAUSED, BUFFER_FULL, REPLAN, NARROW, WIDEN = 0, -1, -2, -3, -4, -5
 STEP_FLOOR, NOT_FINITE, UNSETTLED, INCONSISTENT, SINGULAR_MATRIX = 1, 2, 3, 4, 5
-CHATTER, MAX_STEPS, MAX_EVENTS, REBOUND_RUBS = 6, 7, 8, 11
+CHATTER, MAX_STEPS, MAX_EVENTS, REBOUND_RUBS, GIVEN_APART = 6, 7, 8, 11, 13
 
 KNOWN_ZONES = 8
 """Rows of a machine are remembered for so many zones (stepping/row_cache.py); those of more are not."""

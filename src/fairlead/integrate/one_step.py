@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 from fairlead.integrate.codes import GO_ON, NOT_FINITE, REPLAN, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import dwell_here
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
+from fairlead.integrate.events.given_apart import judge_given
 from fairlead.integrate.events.given_up import TOO_LONG, mend_start, settle_at_start, take_again, take_much_shorter
 from fairlead.integrate.events.pace import (
     DOUBT,
@@ -76,6 +77,7 @@ def trial_of(method: OneStep) -> Any:
         if status == INACCURATE:
             return REPLAN
         judge_end(m.problem, run, point, recorder, status)
+        judge_given(m, h)
         if run.error <= 1.0 or run.adaptive == 0:
             prepare(m, h)
             judge_inside(m, h)

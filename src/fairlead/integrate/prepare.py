@@ -109,6 +109,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
     }  # fmt: skip
     numbers["n_integrals"] = int(given["integral"].sum())
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
+    numbers["rigid_circles"] = int(((given["takes_impulse"] >= RIGID) & (given["circle"] > 0)).any())
     if contacts:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)
         given |= {"controlled": controlled(problem)}

@@ -271,6 +271,7 @@ class Status(IntEnum):
     INTERRUPTED = 10
     REBOUND_RUBS = 11
     ENDED = 12
+    GIVEN_APART = 13
 
     @property
     def is_budget(self) -> bool:

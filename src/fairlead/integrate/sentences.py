@@ -14,7 +14,7 @@ MOST_NAMED = 6
 def culprits_of(status: Status, memory: Memory, problem: Problem) -> tuple[str, ...]:
     """Unknowns or machines to look at first, by name."""
     number = memory.number
-    if status in (Status.STEP_FLOOR, Status.NOT_FINITE, Status.INCONSISTENT):
+    if status in (Status.STEP_FLOOR, Status.NOT_FINITE, Status.INCONSISTENT, Status.GIVEN_APART):
         return (problem.unknown_names[int(number["worst"])],)
     if status == Status.SINGULAR and number["culprit"] >= 0:
         culprit = int(number["culprit"])
@@ -97,6 +97,11 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.CHATTER: (
             f"{when}: {names} switches to and fro faster than its dwell of {dwell:.2g} s. Its zones "
             "have no consistent choice at this point; add hysteresis, or hold it (on_chatter: hold)."
+        ),
+        Status.GIVEN_APART: (
+            f"{when}: motions that are given move apart what {names} and other parts without give hold together, and "
+            "none of them can open. Put something that gives between them (a spring, a contact with friction), or let "
+            "a force or a torque drive one of them."
         ),
         Status.REBOUND_RUBS: (
             f"{when}: {names} rebounds while friction takes part in the impact, and how much that gives back along "

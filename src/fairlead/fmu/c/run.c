@@ -166,6 +166,9 @@ static void tell(Run *run, int status) {
     case STATUS_REBOUND_RUBS:
         snprintf(run->message, MESSAGE, "t = %.6g s: a stop rebounds while friction takes part in the impact.", t);
         break;
+    case STATUS_GIVEN_APART:
+        snprintf(run->message, MESSAGE, "t = %.6g s: given motions move apart what parts without give hold together.", t);
+        break;
     case STATUS_REPLAN:
         snprintf(run->message, MESSAGE, "t = %.6g s: there is no memory to choose another order of pivots.", t);
         break;

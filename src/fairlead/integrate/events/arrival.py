@@ -7,6 +7,7 @@ from fairlead.integrate.codes import (
     BEFORE,
     BUFFER_FULL,
     CHATTER,
+    GIVEN_APART,
     GO_ON,
     INCONSISTENT,
     ORDINARY,
@@ -22,6 +23,7 @@ from fairlead.integrate.codes import (
 )
 from fairlead.integrate.events.consistent import NOT_CONSISTENT, correct_forces, keep_positions
 from fairlead.integrate.events.first_sample import settle_for_sample, take_first_sample
+from fairlead.integrate.events.given_apart import APART, moves_apart
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse import RUBBED
@@ -111,6 +113,12 @@ def arrive(m, located):
             run.phase = SETTLE
         else:
             recorder.rows -= 1
+    elif moves_apart(m):
+        write_row(problem, recorder, point.t, as_shown(m, point.at_y, True), BEFORE)
+        remember(problem, point, m.events.loads)
+        guards.n_fired = 0
+        begin_settling(problem, run, point, events)
+        run.phase = SETTLE
     if run.phase == TRY:
         if not better:
             copy(reals(guards.at_g_end, problem.n_guards), reals(guards.at_g, problem.n_guards))
@@ -278,6 +286,8 @@ def settle_here(m):
         return UNSETTLED
     if status == RUBBED:
         return REBOUND_RUBS
+    if status == APART:
+        return GIVEN_APART
     if run.stop_asked == 1:
         return CHATTER
     if event_is_due(run, point):

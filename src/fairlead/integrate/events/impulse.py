@@ -21,6 +21,9 @@ friction in a circle takes an impulse, its limit is mu P_n, and its guard compar
 none does, its limit is a force, of which shares of impulses say nothing: the guard sees the shares of forces. Circles
 that have no body in common are judged apart.
 
+Where rigid rows of a circle slip after that, what they hold a body to is given and differs (given_apart.py): who would
+have to pull opens, though no speed changes; if nobody can, the run ends.
+
 A slip whose dV is below the error weights is no impact but rounding, and so is one that a contact says it may take
 (`within`): `project` takes these away.
 
@@ -36,6 +39,7 @@ from __future__ import annotations
 
 from math import isfinite, sqrt
 
+from fairlead.integrate.events.given_apart import APART, LEAST_APART, slip_of_given
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse_changes import (
     any_support_moves,
@@ -80,7 +84,9 @@ def resolve_impact(m):
     if status != DONE:
         return status
     weigh(point, point.at_y)
-    if find_change_of_speed(problem, point) <= NO_IMPACT:
+    moved = find_change_of_speed(problem, point)
+    contradicted = problem.rigid_circles == 1 and stays_apart(m)
+    if moved <= NO_IMPACT and not contradicted:
         return DONE
     find_own_time(m)
     status = solve_under_load(m)
@@ -92,6 +98,8 @@ def resolve_impact(m):
     change_zones_for(m)
     if guards.n_fired > 0:
         return RELEASED
+    if contradicted and stays_apart(m):  # once more, for the row in `worst`
+        return APART
     supports = any_support_moves(problem, point)
     back = NO_REBOUND
     if problem.rebounds != 0:
@@ -105,6 +113,16 @@ def resolve_impact(m):
         integrate_impulses(m)
     turn_round(m)
     return RELEASED if guards.n_fired > 0 else factorise_at(problem, point, m.linear, point.at_y, point.at_ft)
+
+
+@compiled
+def stays_apart(m):
+    """True if rigid rows of a circle still slip after the change of speed in u."""
+    point = m.point
+    y, dv, after = reals(point.at_y, point.n), reals(point.at_u, point.n), reals(point.at_y_probe, point.n)
+    for k in range(point.n):
+        after[k] = y[k] + dv[k]
+    return slip_of_given(m.problem, point, m.linear.matrices, point.t, point.at_y_probe) > LEAST_APART
 
 
 @compiled

@@ -15,8 +15,9 @@ PROBLEM = Struct(
         "n", "n_algebraic", "n_guards", "n_zones", "n_outputs",
         # whether guards have inertias
         "weighs_guards",
-        # impacts: whether any row takes impulses; unknowns of the energy ledger (-1: there is none)
-        "takes_impulses", "rebounds", "n_integrals", "n_balanced", "n_light", "dissipated_at", "supplied_at",
+        # impacts: whether any row takes impulses, and any such is in a circle; unknowns of the energy ledger (-1: none)
+        "takes_impulses", "rigid_circles", "rebounds", "n_integrals", "n_balanced", "n_light", "dissipated_at",
+        "supplied_at",
         # positions that move back to relations, and those of which the acceleration is an unknown, as of relations that
         # hold for ever
         "n_moves", "n_accelerated",

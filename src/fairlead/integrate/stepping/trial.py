@@ -27,6 +27,7 @@ from math import isfinite
 from fairlead.integrate.codes import BUFFER_FULL, GO_ON, MIDDLE, TRY, WIDEN
 from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
+from fairlead.integrate.events.given_apart import judge_given
 from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, mend_start, settle_at_start
 from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose, smallest_step
 from fairlead.integrate.events.settling import log_changes
@@ -111,6 +112,7 @@ def finish_inside(m, h, status):
     if rule.theta_now == MIDDLE:
         refine_end(problem, point, linear, stepping, h)
     run.error = find_error(m, h)
+    judge_given(m, h)
     judge_swings(problem, run, point, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
@@ -131,6 +133,7 @@ def finish_located(m, h):
         stop_slip(m)
         return settle_at_start(m)
     run.error = end_located(m, h)
+    judge_given(m, h)
     judge_swings(problem, run, point, h)
     if not isfinite(run.error) or run.error > 1.0:
         return reject_error(m, h)
