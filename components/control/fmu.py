@@ -4,7 +4,8 @@ from fairlead.component import Composite, Entries, Expansion, File, Parameter
 from fairlead.foreign.block import TIME_LIMIT, block_of
 from fairlead.foreign.description import read_fmu
 from fairlead.foreign.refusals import Refused
-from fairlead.foreign.signals import signals_of, starts_of
+from fairlead.foreign.signals import signals_of, started
+from fairlead.foreign.starts import sized, starts_of, unmet
 
 ROUNDED = 1e-9  # by which a communication step may miss a multiple of a fixed step, relative
 
@@ -29,25 +30,31 @@ class Fmu(Composite):
     def check(p):
         """The file is an FMU that runs here, with the variables and units that the netlist speaks of."""
         try:
-            fmu = read_fmu(p.file)
+            fmu = sized(read_fmu(p.file), p.parameters)
         except Refused as error:
             yield "file", f"{p.file.name} {error.what}", error.way_out
             return
         yield from signals_of(fmu, p.inputs, p.outputs)[1]
-        yield from starts_of(fmu, p.parameters)[1]
+        starts, wrong = starts_of(fmu, p.parameters)
+        yield from wrong
         step = p.period or fmu.step
         if step is None:
             yield "", f"period is missing; {p.file.name} names no step of its own", "Give the communication step."
         elif fmu.fixed_step and not _is_multiple(step / fmu.fixed_step):
             what = f"{p.file.name} steps by {fmu.fixed_step:g} s, and period = {step:g} s is no multiple of it"
             yield "period" if p.period else "", what, "Give a multiple."
+        else:
+            for what in unmet(fmu, starts.of_clocks, step):
+                told = f"{p.file.name} takes steps of one length only, and {what}"
+                yield "period" if p.period else "", told, "Give a period of which it is a multiple."
 
     def expand(p, scene):
         """One block, whose signals are handed out."""
-        fmu = read_fmu(p.file)
-        signals, starts = signals_of(fmu, p.inputs, p.outputs)[0], starts_of(fmu, p.parameters)[0]
+        fmu = sized(read_fmu(p.file), p.parameters)
+        starts = starts_of(fmu, p.parameters)[0]
+        signals = started(signals_of(fmu, p.inputs, p.outputs)[0], starts.numbers)
         kind = block_of(fmu, signals, allowed=scene.foreign_code)
-        block = scene.make(kind, period=p.period or fmu.step, starts=starts, time_limit=p.time_limit)
+        block = scene.make(kind, period=p.period or fmu.step, starts=starts.told, time_limit=p.time_limit)
         names = {one.name: f"fmu.{one.name}" for one in signals.inputs}
         return Expansion({"fmu": block}, [], names, {one.name: f"fmu.{one.name}" for one in signals.outputs})
 
