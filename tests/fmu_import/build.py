@@ -74,6 +74,8 @@ CLOCKS: Variables = (
     {"name": "d", "ref": 104, "causality": "input", "kind": "Clock", "intervalVariability": "countdown"},
     {"name": "trigger", "ref": 105, "causality": "input", "kind": "Clock", "intervalVariability": "triggered"},
     {"name": "out", "ref": 106, "causality": "output", "kind": "Clock", "intervalVariability": "triggered"},
+    {"name": "fourth", "ref": 107, "causality": "output", "kind": "Clock", "intervalVariability": "triggered",
+     "clocks": "106"},
     {"name": "u", "ref": 50, "causality": "input", "variability": "discrete", "start": 0, "clocks": "100"},
     {"name": "total", "ref": 51, "causality": "output", "variability": "discrete", "clocks": "100"},
     {"name": "every", "ref": 70, "causality": "parameter", "variability": "fixed", "start": 0.3, "unit": "s"},

@@ -13,7 +13,7 @@
 enum { INSTANTIATED = 1, CONFIGURATION = 2, INITIALIZATION = 4, EVENT = 8, STEP = 16 };
 enum { MOST = 64, TEXT = 64, CLOCKS = 8 };
 /* References of clocks: 100 and on. */
-enum { R, Q, P, G, D, TRIGGER, OUT };
+enum { R, Q, P, G, D, TRIGGER, OUT, FOURTH };
 
 typedef struct {
     char kind[16];
@@ -57,6 +57,7 @@ static Rich *rich(const char *kind, bool events, bool early) {
     m->counter = 1;
     m->next = 1;
     m->interval[R] = 0.25; m->interval[Q] = 0.5; m->interval[P] = 0.3; m->interval[G] = 0.1;
+    if (!strcmp(kind, "lost")) m->interval[P] = NAN;
     m->last[R] = 0.1 - 0.25;                              /* its shift is 0.1 */
     m->last[Q] = -0.5; m->last[P] = 0.15 - 0.3; m->last[G] = 0;
     return m;
@@ -103,6 +104,7 @@ static int tick(Rich *m, int one) {
     m->last[one] = m->t;
     if (one == R) {
         m->active[OUT] = m->ticks[R] % 2 == 0;            /* every second one */
+        m->active[FOURTH] = m->ticks[R] % 4 == 0;         /* of these every second one */
         m->due = m->t + 0.05;                             /* the countdown */
         m->told = false;
     }

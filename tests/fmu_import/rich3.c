@@ -165,7 +165,10 @@ fmi3Status fmi3SetClock(fmi3Instance c, const fmi3ValueReference r[], size_t n, 
 }
 fmi3Status fmi3GetClock(fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Clock v[]) {
     IN(EVENT, "GetClock");
-    for (size_t k = 0; k < n; k++) v[k] = ((Rich *)c)->active[r[k] - 100];
+    for (size_t k = 0; k < n; k++) {
+        if (r[k] - 100 == FOURTH && !((Rich *)c)->active[OUT]) return wrong("clock 107 without the tick of its clock");
+        v[k] = ((Rich *)c)->active[r[k] - 100];
+    }
     return fmi3OK;
 }
 fmi3Status fmi3GetIntervalDecimal(fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Float64 v[],

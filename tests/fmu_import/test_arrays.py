@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from fairlead.errors import ModelError
+from fairlead.errors import ModelError, RunError
 
 RUN = "run: {stop: 0.15 s}\n"
 
@@ -82,6 +82,17 @@ def test_one_value_is_for_all_elements(matrix, load):
         {RUN}
     """).run(out=None)
     np.testing.assert_allclose(outputs(result, "y", 3), [0.012] * 3, rtol=1e-15)
+
+
+def test_an_element_that_is_no_number_is_told(matrix, load):
+    scene = f"""
+        components:
+          fmu: {{type: Fmu, file: rich_matrix3.fmu, period: 0.1 s,
+                parameters: {{W: [[1, 0], [2, 0], [3, -1e305]], u: [0, 1e308]}}}}
+        {RUN}
+    """
+    with pytest.raises(RunError, match=r"fmu.*rich_matrix3\.fmu gives y_3 \(its y\[3\]\) = -inf\. Look at its inputs"):
+        load(scene).run(out=None)
 
 
 @pytest.mark.slow

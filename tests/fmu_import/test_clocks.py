@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from fairlead.errors import ModelError
-from tests.fmu_import.build import EVENT_MODE
+from fairlead.errors import ModelError, RunError
+from tests.fmu_import.build import CLOCKS, EVENT_MODE
 
 CLOCKED = """
     components:
@@ -32,7 +32,10 @@ def r(t):
 
 
 def test_each_kind_of_clock_ticks_at_its_times(clocked, load):
-    """r: 0.1 + 0.25 k, q: 0.5 k, p: 0.15 + 0.3 k, g after 0.1, 0.2, 0.3 ..., d 0.05 after r; out every second r."""
+    """r: 0.1 + 0.25 k, q: 0.5 k, p: 0.15 + 0.3 k, g after 0.1, 0.2, 0.3 ..., d 0.05 after r; out every second r.
+
+    The clock `fourth` is clocked itself, and may be asked only when `out` ticks.
+    """
     result = load(CLOCKED % ("0.25 s", "")).run(out=None)
     for t in (0.0, 0.25, 0.5, 1.25, 2.75):
         wanted = {
@@ -42,6 +45,7 @@ def test_each_kind_of_clock_ticks_at_its_times(clocked, load):
         found = {name: result.at(f"{TICKS}{name}", t + 0.01) for name in wanted}
         assert found == wanted, t
         assert result.at("fmu.out", t + 0.01) == wanted["r"] // 2
+        assert result.at("fmu.fourth", t + 0.01) == wanted["r"] // 4
 
 
 def test_a_clocked_input_is_the_one_of_the_last_point_and_a_clocked_output_is_held(clocked, load):
@@ -53,7 +57,7 @@ def test_a_clocked_input_is_the_one_of_the_last_point_and_a_clocked_output_is_he
 
 @pytest.mark.slow
 def test_a_triggered_clock_ticks_when_its_signal_rises(clocked, load):
-    """Points are every 0.25 s, and values of another FMU are one sample old: 0 before its first one, then 1, 2, 3, 4."""
+    """Points are every 0.25 s, and values of another FMU are one sample old: 0 before its first, then 1, 2, 3, 4."""
     result = load(CLOCKED % ("0.25 s", "")).run(out=None)
     np.testing.assert_array_equal(result.at(f"{TICKS}trigger", [0.9, 1.3, 2.3, 3.05]), [1, 2, 3, 3])
 
@@ -103,6 +107,23 @@ run: {{stop: 1 s}}
 """).check()
     found = "\n".join(map(str, refused.value.faults))
     assert re.search(told, found), found
+
+
+P = next(one for one in CLOCKS if one["name"] == "p")
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "told"),
+    [
+        ("lost", EVENT_MODE, r"t = 0 s: fmu.*lost3\.fmu: it gives the clock p an interval of nan s"),
+        pytest.param("clocked", 'hasEventMode="true"', r"its clock p ticks at 0\.15 s, between two communication po",
+                     marks=pytest.mark.slow),
+    ],
+)  # fmt: skip
+def test_an_interval_that_the_fmu_gives_at_run_time_is_judged(make, load, kind, more, told):
+    file = make(kind, rich=True, variables=[P], more=more, name=f"only_{kind}").name
+    with pytest.raises(RunError, match=told):
+        load(f"components: {{fmu: {{type: Fmu, file: {file}, period: 0.25 s}}}}\nrun: {{stop: 1 s}}").run(out=None)
 
 
 ODD = {"name": "r", "ref": 100, "causality": "input", "kind": "Clock"}

@@ -50,6 +50,16 @@ def test_a_stair_rises_at_its_time_events_whether_points_meet_them_or_not(make, 
     assert result.at("fmu.visits", 4.45) == 4
 
 
+def test_an_fmu_whose_steps_have_one_length_has_its_events_at_communication_points(make, load):
+    make("stair", rich=True, more='hasEventMode="true"', name="even_stair")
+    result = load("""
+        components: {fmu: {type: Fmu, file: even_stair3.fmu, period: 0.25 s}}
+        run: {stop: 2.5 s}
+    """).run(out=None)
+    points = 0.25 * np.arange(10)
+    np.testing.assert_array_equal(result.at("fmu.counter", points + 0.01), 1 + np.floor(points))
+
+
 @pytest.mark.slow
 def test_inputs_that_change_are_set_in_event_mode_and_others_cause_none(make, load):
     make("stair", rich=True)

@@ -141,7 +141,7 @@ def told_of(fmu: Fmu, signals: Signals) -> dict[str, Any]:
         "inputs": [value(one.variable) for one in signals.inputs],
         "outputs": [value(one.variable) for one in signals.outputs],
         "clocks": [[one.name, one.reference, one.timing, one.interval, one.shift] for one in fmu.clocks.values()],
-        "watched": [one.reference for one in fmu.variables.values()
+        "watched": [[one.reference, list(one.clocks)] for one in fmu.variables.values()
                     if one.kind == "Clock" and one.causality in ("output", "local")],
     }  # fmt: skip
 

@@ -67,10 +67,11 @@ class Events:
     """Visits to event mode, of an FMU that has one."""
 
     def __init__(
-        self, fmu: Any, clocks: Iterable[list[Any]], watched: list[int], intervals: list[list[Any]]
+        self, fmu: Any, clocks: Iterable[list[Any]], watched: list[list[Any]], intervals: list[list[Any]]
     ) -> None:
         """Of an instance; `watched` are output clocks, `intervals` those that the netlist gives to clocks."""
-        self.fmu, self.watched, self.given = fmu, watched, dict(intervals)
+        self.fmu, self.given = fmu, dict(intervals)
+        self.watched: dict[int, set[int]] = {one: set(only_with) for one, only_with in watched}
         self.clocks = [Clock(*one) for one in clocks]
 
     def name(self, reference: int) -> str:
@@ -103,7 +104,7 @@ class Events:
             self.fmu.setClock(sorted(active), [True] * len(active))
         give(active)
         for _ in range(MOST_UPDATES):
-            active = active | self._ticking(agenda)
+            active = self._with_ticking(agenda, active)
             if active:
                 take(active)
             again, end, _, _, defined, when = self.fmu.updateDiscreteStates()
@@ -119,14 +120,19 @@ class Events:
             raise Told(f"it names nan as the time of its next event, at {at:.9g} s")
         self._reschedule(agenda, at, timed)
 
-    def _ticking(self, agenda: Agenda) -> set[int]:
-        """Output clocks that tick now; each is asked once, which also ends its tick."""
-        if not self.watched:
-            return set()
-        ticking = {one for one, on in zip(self.watched, self.fmu.getClock(self.watched), strict=True) if on}
-        for one in ticking:
-            agenda.counts[one] += 1
-        return ticking
+    def _with_ticking(self, agenda: Agenda, active: set[int]) -> set[int]:
+        """Active clocks and output clocks that tick now; each is asked once, which also ends its tick.
+
+        An output clock may itself be clocked, and is then asked only while one of those clocks is active.
+        """
+        left = dict(self.watched)
+        while asked := [one for one, only_with in left.items() if not only_with or only_with & active]:
+            ticking = {one for one, on in zip(asked, self.fmu.getClock(asked), strict=True) if on}
+            for one in ticking:
+                agenda.counts[one] += 1
+            active = active | ticking
+            left = {one: only_with for one, only_with in left.items() if one not in asked}
+        return active
 
     def _reschedule(self, agenda: Agenda, at: float, ticked: set[int]) -> None:
         """Next ticks of clocks. Raises Told."""

@@ -7,7 +7,8 @@
     inputs, outputs   [type, reference, elements, place, clocks] of each signal
     structure, starts [type, reference, elements, [[place, value], ...]]
     clocks            [name, reference, timing, interval or null, shift] of those that tick by themselves
-    intervals         [reference, seconds] of clocks, as the netlist gives them;  watched: references of output clocks
+    intervals         [reference, seconds] of clocks, as the netlist gives them
+    watched           [reference, clocks at whose ticks alone it is asked] of output clocks
 
 What the code prints goes to standard error, and a mark behind it when a question ends in an error. The process ends as
 soon as its standard input does, even inside the FMU.
