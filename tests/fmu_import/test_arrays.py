@@ -76,6 +76,7 @@ def test_one_element_is_a_signal_or_set_and_the_others_keep_their_values(matrix,
     np.testing.assert_allclose(found, [0.005 + 0.012, 0.001, 0.004, 2], rtol=1e-15)
 
 
+@pytest.mark.slow
 def test_one_value_is_for_all_elements(matrix, load):
     result = load(f"""
         components: {{fmu: {{type: Fmu, file: rich_matrix3.fmu, period: 0.1 s, parameters: {{W: 2 mm, u: 3}}}}}}
@@ -84,6 +85,7 @@ def test_one_value_is_for_all_elements(matrix, load):
     np.testing.assert_allclose(outputs(result, "y", 3), [0.012] * 3, rtol=1e-15)
 
 
+@pytest.mark.slow
 def test_an_element_that_is_no_number_is_told(matrix, load):
     scene = f"""
         components:

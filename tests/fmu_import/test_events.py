@@ -50,6 +50,7 @@ def test_a_stair_rises_at_its_time_events_whether_points_meet_them_or_not(make, 
     assert result.at("fmu.visits", 4.45) == 4
 
 
+@pytest.mark.slow
 def test_an_fmu_whose_steps_have_one_length_has_its_events_at_communication_points(make, load):
     make("stair", rich=True, more='hasEventMode="true"', name="even_stair")
     result = load("""
@@ -72,8 +73,8 @@ def test_inputs_that_change_are_set_in_event_mode_and_others_cause_none(make, lo
     assert still.at("fmu.visits", 0.94) == 0
 
 
-@pytest.mark.parametrize(("version", "slow"), [(3, False), (2, True)])
-def test_a_step_that_is_discarded_is_done_in_shorter_ones(make, load, version, slow):
+@pytest.mark.parametrize("version", [3, pytest.param(2, marks=pytest.mark.slow)])
+def test_a_step_that_is_discarded_is_done_in_shorter_ones(make, load, version):
     """Steps above 30 ms are discarded: of FMI 3 as if they had not been tried, of FMI 2 after a part of them."""
     make("choosy", version, rich=version == 3, name="choosy",
          variables=[{"name": "x", "ref": 30 if version == 3 else 0, "causality": "output"}],

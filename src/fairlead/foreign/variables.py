@@ -1,7 +1,8 @@
 """A variable of an FMU as its description has it: a number, a text, an array of them, or a clock.
 
 An array of FMI 3 has the dimensions of its description, each a number or the name of a structural parameter. Its
-elements are called as in the standard's structured naming, `u[1]` and `u[2,3]`: from 1 on, the last index fastest.
+elements are called as the standard forms names, `u[1]` and `u[2,3]`: from 1 on, as it counts elements elsewhere, and
+in its order, the last index fastest.
 """
 
 from __future__ import annotations
