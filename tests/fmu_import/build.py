@@ -83,7 +83,7 @@ CLOCKS: Variables = (
       for k, name in enumerate(("r", "q", "p", "g", "d", "trigger"))),
 )
 HALF = '<ClockType name="half" intervalVariability="fixed" intervalDecimal="0.5"/>'
-RICH = {"matrix": ARRAYS, "ball": RICH_BALL, "stair": STAIR, "clocked": CLOCKS}
+RICH = {"matrix": ARRAYS, "ball": RICH_BALL, "stair": STAIR, "strict": STAIR, "clocked": CLOCKS}
 EVENT_MODE = 'hasEventMode="true" canHandleVariableCommunicationStepSize="true"'
 ONE: Variables = ({"name": "x", "ref": 0, "causality": "output"},)
 KINDS = {"decay": DECAY, "ball": BALL, "counter": COUNTER}

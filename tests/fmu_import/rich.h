@@ -55,7 +55,7 @@ static Rich *rich(const char *kind, bool events, bool early) {
     for (int k = 0; k < MOST; k++) m->w[k] = 1;
     m->h = 1; m->e = 0.5; m->g = 10;
     m->counter = 1;
-    m->next = 1;
+    m->next = strcmp(kind, "strict") ? 1 : 0.1;
     m->interval[R] = 0.25; m->interval[Q] = 0.5; m->interval[P] = 0.3; m->interval[G] = 0.1;
     if (!strcmp(kind, "lost")) m->interval[P] = NAN;
     m->last[R] = 0.1 - 0.25;                              /* its shift is 0.1 */
@@ -86,7 +86,7 @@ static int go(Rich *m, double t, double step, bool *event, double *done) {
         int status = fly(m, step, done, event);
         if (status) return status;
     }
-    if (is(m, "stair") && t + step > m->next + 1e-9) return wrong("a step passes over the event at %.17g", m->next);
+    if ((is(m, "stair") || is(m, "strict")) && t + step > m->next + 1e-9) return wrong("a step passes over the event at %.17g", m->next);
     if (is(m, "choosy") && step > 0.03) return 2;
     if (is(m, "choosy")) m->h *= exp(-step);
     if (is(m, "stands")) { *event = true; *done = 0; }
@@ -126,6 +126,7 @@ static bool update(Rich *m) {
         return true;
     }
     if (is(m, "stair") && m->t >= m->next - 1e-9) { m->counter++; m->next += 1; }
+    if (is(m, "strict") && m->t >= m->next) { m->counter++; m->next += 0.1; }
     return false;
 }
 

@@ -154,7 +154,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
     Rich *m = c;
     *again = update(m);
     *end = *nominals = *values = false;
-    *defined = is(m, "stair");
+    *defined = is(m, "stair") || is(m, "never") || is(m, "strict");
     *next = m->next;
     return fmi3OK;
 }

@@ -24,6 +24,7 @@ DISCARD, REACHED, TERMINATED = 2, 2, 3  # fmi2Status and fmi2StatusKind, FMI 2.0
 AT_ONE_TIME = 1e-9
 """Part of a communication step within which two times are one: far above what sums of steps round off."""
 MOST_VISITS = 1000  # to event mode while time stands still
+MOST_NUDGES = 6  # beyond a time event that the FMU does not see yet
 SHORTEST = 2.0**-20  # of a communication step, that a step is cut to when the FMU discards it
 
 
@@ -85,8 +86,7 @@ class Instance:
                 self._give(set(), unclocked=True)
             elif pending or changed or self._due():
                 self.fmu.enterEventMode()
-                self._visit(risen, unclocked=True)
-                self._visit_until_done()
+                self._settle(risen, unclocked=True)
         self._take(set(), unclocked=True)
         return {"outputs": [self._number(number, value) for number, value in enumerate(where.outputs)]}
 
@@ -106,8 +106,7 @@ class Instance:
             where.agenda = self.events.initialise(begin)
         self.fmu.exitInitializationMode()
         if self.events is not None:
-            self._visit(set(), unclocked=False)  # event mode is where initialisation ends
-            self._visit_until_done()
+            self._settle(set(), unclocked=False)  # event mode is where initialisation ends
 
     def _advance(self, at: float, to: float) -> bool:
         """Go on from `at` to `to`, through all events before it. Returns whether there is one at `to`. Raises Told."""
@@ -126,8 +125,7 @@ class Instance:
             at = self.where.at
             if to - at > self.close and self.events is not None and (pending or self._due()):
                 self.fmu.enterEventMode()
-                self._visit(set(), unclocked=False)
-                self._visit_until_done()
+                self._settle(set(), unclocked=False)
         return pending
 
     def _due(self) -> bool:
@@ -135,24 +133,40 @@ class Instance:
         assert self.where.at is not None
         return self.where.agenda.next() <= self.where.at + self.close
 
-    def _visit(self, triggered: set[int], *, unclocked: bool) -> None:
-        """Handle events in event mode, which it is in, and leave it. Raises Told."""
+    def _settle(self, triggered: set[int], *, unclocked: bool) -> None:
+        """Handle all that is due at this time, in event mode, which it is in, and leave that. Raises Told.
+
+        An FMU may see its time event only a rounding error after the time that it named: then it is brought a little
+        further, as the standard allows (FMI 3.0, nextEventTime); where no step may be split, up to the next point.
+        """
+        where = self.where
+        assert where.at is not None
+        named = self._visit(triggered, unclocked=unclocked)
+        for again in range(MOST_VISITS):
+            if not self._due():
+                return
+            if named is not None and where.agenda.time_event == named:
+                if not self.splits:
+                    return
+                if again > MOST_NUDGES:
+                    raise Told(f"it names {named:.9g} s as the time of its next event, and has none there")
+                self._do_step(where.at, where.at + self.close * 2.0**again)
+            self.fmu.enterEventMode()
+            named = self._visit(set(), unclocked=False)
+        raise Told(f"its events at {where.at:.9g} s do not come to an end")
+
+    def _visit(self, triggered: set[int], *, unclocked: bool) -> float | None:
+        """Visit event mode, which it is in, and leave it. Returns the time event it was due for. Raises Told."""
+        where = self.where
         assert self.events is not None
-        assert self.where.at is not None
+        assert where.at is not None
+        named = where.agenda.time_event
         self.events.visit(
-            self.where.agenda, self.where.at, self.close, triggered,
+            where.agenda, where.at, self.close, triggered,
             lambda active: self._give(active, unclocked=unclocked), lambda active: self._take(active, unclocked=False),
         )  # fmt: skip
         self.fmu.enterStepMode()
-
-    def _visit_until_done(self) -> None:
-        """Handle what is due at the same time. Raises Told."""
-        for _ in range(MOST_VISITS):
-            if not self._due():
-                return
-            self.fmu.enterEventMode()
-            self._visit(set(), unclocked=False)
-        raise Told(f"its events at {self.where.at:.9g} s do not come to an end")
+        return named
 
     def _do_step(self, at: float, goal: float) -> bool:
         """One doStep, shorter where it is discarded. Returns whether the FMU has an event where it is. Raises Told."""
