@@ -13,8 +13,8 @@ ROUNDED = 1e-9  # by which a communication step may miss a multiple of a fixed s
 class Fmu(Composite):
     """An FMU for co-simulation: it gets its inputs every `period`, and its outputs are held in between.
 
-    Its signals are the inputs and outputs of the FMU, in SI. Foreign code runs only where it is allowed
-    (`--allow-fmu`), in a process of its own.
+    Its signals are the inputs and outputs of the FMU, in SI, of arrays each element. Events and clocks of FMI 3 are
+    handled inside a step. Foreign code runs only where it is allowed (`--allow-fmu`), in a process of its own.
     """
 
     file = File("The FMU, relative to the netlist and in its folder or below.", ending=".fmu")
@@ -23,7 +23,7 @@ class Fmu(Composite):
     inputs = Entries("Inputs by name: the variable, or {of: VARIABLE, unit: N}; all of them when not given.",
                      default=None)  # fmt: skip
     outputs = Entries("Outputs by name, likewise.", default=None)
-    parameters = Entries("Values of parameters of the FMU, by its names.", default=())
+    parameters = Entries("Values of parameters of the FMU, by its names; lists for arrays.", default=())
     time_limit = Parameter("s", "Longest that one call of the FMU may take; then its process is ended.",
                            default=TIME_LIMIT, above=0)  # fmt: skip
 

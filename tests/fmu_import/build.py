@@ -38,7 +38,8 @@ COUNTER: Variables = (
     {"name": "last.step", "ref": 1, "causality": "output", "unit": "s"},
 )
 ARRAYS: Variables = (
-    {"name": "n", "ref": 1, "causality": "structuralParameter", "kind": "UInt64", "variability": "fixed", "start": 2},
+    {"name": "n", "ref": 1, "causality": "structuralParameter", "kind": "UInt64", "variability": "fixed", "start": 2,
+     "max": 4000},
     {"name": "m", "ref": 2, "causality": "structuralParameter", "kind": "UInt64", "variability": "fixed", "start": 3},
     {"name": "u", "ref": 10, "causality": "input", "start": "0 0", "dims": ("#1",)},
     {"name": "W", "ref": 11, "causality": "parameter", "variability": "fixed", "start": 1, "unit": "mm",
@@ -173,7 +174,7 @@ def scalar2(number: int, one: dict[str, Any]) -> str:
 def scalar3(number: int, one: dict[str, Any]) -> str:
     """A variable of FMI 3."""
     kind = one.get("kind", "Float64")
-    known = attributes(one, "name", "causality", "variability", "initial", "unit", "clocks", "declaredType",
+    known = attributes(one, "name", "causality", "variability", "initial", "unit", "max", "clocks", "declaredType",
                        "intervalVariability", "intervalDecimal", "shiftDecimal", "intervalCounter", "shiftCounter",
                        "resolution", "supportsFraction")  # fmt: skip
     sizes = "".join(_dimension(one) for one in one.get("dims", ()))

@@ -11,8 +11,9 @@ import functools
 import math
 import pathlib
 import re
+import xml.etree.ElementTree as ET
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -93,6 +94,7 @@ def _read(file: pathlib.Path, written: int, size: int) -> Fmu:
         clocks, text = clocks_of(text)
         told = read_model_description(as_fmu(text), validate=False)
         variables = {one.name: variable_of(one) for one in told.modelVariables}
+        variables |= {name: replace(variables[name], most=most) for name, most in _largest_sizes(text)}
     except Refused:
         raise
     except Exception as error:  # what FMPy and lxml raise for damaged descriptions has no common base
@@ -148,6 +150,14 @@ def _platform(names: list[str], identifier: str, here: str) -> None:
     source = any(name.startswith("sources/") for name in names)
     compiled = ", or compile its sources:  fmpy compile FILE" if source else ""
     raise Refused(f"has no code for this machine ({here}); {has}", f"Export it for {here}{compiled}.")
+
+
+def _largest_sizes(text: bytes) -> Iterator[tuple[str, int]]:
+    """Structural parameters with their `max`, which FMPy does not read."""
+    if b"structuralParameter" in text:
+        for one in ET.fromstring(text).iterfind("ModelVariables/UInt64"):
+            if one.get("causality") == "structuralParameter" and "max" in one.attrib:
+                yield one.attrib["name"], int(one.attrib["max"])
 
 
 def _base(unit: Any) -> BaseUnit:

@@ -75,9 +75,11 @@ def sized(fmu: Fmu, entries: Entries) -> Fmu:
         variable = fmu.variables.get(name)
         if variable is not None and variable.causality == "structuralParameter":
             try:
-                sizes.append((name, int(_value(fmu, variable, said))))
-            except (Refused, ValueError):
+                start = Start(variable, tuple(_values(fmu, variable, said)))
+                _check_size(variable, start)
+            except Refused:
                 continue
+            sizes.append((name, int(start.values[0][1])))
     return shaped(fmu, tuple(sizes))
 
 
@@ -112,10 +114,11 @@ def unmet(fmu: Fmu, intervals: Mapping[str, float], period: float) -> Iterator[s
 
 
 def _check_size(variable: Variable, start: Start) -> None:
-    """A size of arrays is at least 1. Raises Refused."""
-    size = start.values[0][1]
-    if not isinstance(size, int) or size < 1:
-        raise Refused(f"{variable.name} = {size} is the size of arrays", "Give a whole number from 1 on.")
+    """A size of arrays is at least 1, and no more than the FMU takes. Raises Refused."""
+    size, most = start.values[0][1], variable.most
+    if not isinstance(size, int) or size < 1 or (most is not None and size > most):
+        bounds = "from 1 on" if most is None else f"from 1 to {most}"
+        raise Refused(f"{variable.name} = {size} is no size that its arrays may have", f"Give a whole number {bounds}.")
 
 
 def _interval(fmu: Fmu, variable: Variable, said: Any) -> float:
@@ -147,10 +150,19 @@ def _values(fmu: Fmu, variable: Variable, said: Any) -> Iterator[tuple[int, Valu
     elif isinstance(said, list | tuple):
         for place, one in enumerate(_flat(variable, said, variable.shape, "")):
             indices = ",".join(str(index + 1) for index in _indices(place, variable.shape))
-            yield place, _value(fmu, element(variable, indices), one)
+            yield place, _element_value(fmu, element(variable, indices), one)
     else:
         value = _value(fmu, replace(variable, dimensions=()), said)
         yield from ((place, value) for place in range(math.prod(variable.shape)))
+
+
+def _element_value(fmu: Fmu, one: Variable, said: Any) -> Value:
+    """A value of a list. Raises Refused, with the name of the element."""
+    try:
+        return _value(fmu, one, said)
+    except Refused as error:
+        named = error.what if one.name in error.what else f"{one.name}: {error.what}"
+        raise Refused(named, error.way_out) from None
 
 
 def _flat(variable: Variable, said: Any, shape: tuple[int, ...], where: str) -> Iterator[Any]:
@@ -171,11 +183,9 @@ def _flat(variable: Variable, said: Any, shape: tuple[int, ...], where: str) -> 
 
 def _lists(variable: Variable) -> str:
     """How an array is written."""
-    *outer, last = variable.shape
-    inner = f"a list of {last} value{'s' * (last != 1)}"
-    for size in reversed(outer):
-        inner = f"a list of {size} such lists: {inner}"
-    sizes = f" Its size is set by {listing(variable.sized_by)}." if variable.sized_by else ""
+    plural = "s" * (variable.shape[-1] != 1)
+    inner = f"a list of {' lists of '.join(map(str, variable.shape))} value{plural}"
+    sizes = f" Its size is set by {listing(dict.fromkeys(variable.sized_by))}." if variable.sized_by else ""
     return f"Write {inner}; or one value for all elements.{sizes}"
 
 

@@ -39,6 +39,7 @@ class Variable:
     clocks: tuple[int, ...] = ()  # references of those at whose ticks alone it may be read or set
     timing: str = ""  # of a clock: constant, fixed, tunable, changing, countdown or triggered
     sized_by: tuple[str, ...] = ()  # structural parameters among the dimensions
+    most: int | None = None  # of a structural parameter, which is a size
     place: int = 0
     size: int = 1  # values behind its reference
 
