@@ -50,14 +50,17 @@ def test_a_stair_rises_at_its_time_events_whether_points_meet_them_or_not(make, 
     assert result.at("fmu.visits", 4.45) == pytest.approx(4)
 
 
-def test_a_time_event_that_the_fmu_sees_a_rounding_error_late_is_handled(make, load):
+@pytest.mark.parametrize("period", [0.1, pytest.param(0.3, marks=pytest.mark.slow)])
+def test_a_time_event_that_the_fmu_sees_a_rounding_error_late_is_handled(make, load, period):
     """It adds 0.1 to 0.1 and compares exactly; points are at k * 0.1, which is at times below that sum."""
     make("strict", rich=True)
-    result = load("""
-        components: {fmu: {type: Fmu, file: rich_strict3.fmu, period: 0.1 s}}
-        run: {stop: 3.05 s}
+    result = load(f"""
+        components: {{fmu: {{type: Fmu, file: rich_strict3.fmu, period: {period} s}}}}
+        run: {{stop: 6.05 s}}
     """).run(out=None)
-    np.testing.assert_allclose(result.at("fmu.counter", 0.1 * np.arange(31) + 0.02), 1 + np.arange(31), atol=1e-9)
+    points = period * np.arange(round(6 / period) + 1)
+    wanted = 1 + np.round(10 * points)
+    np.testing.assert_allclose(result.at("fmu.counter", points + 0.02), wanted, atol=1e-9)
 
 
 @pytest.mark.slow

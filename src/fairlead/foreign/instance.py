@@ -126,6 +126,7 @@ class Instance:
             if to - at > self.close and self.events is not None and (pending or self._due()):
                 self.fmu.enterEventMode()
                 self._settle(set(), unclocked=False)
+                at = self.where.at
         return pending
 
     def _due(self) -> bool:
@@ -161,12 +162,13 @@ class Instance:
         assert self.events is not None
         assert where.at is not None
         named = where.agenda.time_event
+        due = named is not None and named <= where.at + self.close
         self.events.visit(
             where.agenda, where.at, self.close, triggered,
             lambda active: self._give(active, unclocked=unclocked), lambda active: self._take(active, unclocked=False),
         )  # fmt: skip
         self.fmu.enterStepMode()
-        return named
+        return named if due else None
 
     def _do_step(self, at: float, goal: float) -> bool:
         """One doStep, shorter where it is discarded. Returns whether the FMU has an event where it is. Raises Told."""
@@ -186,7 +188,7 @@ class Instance:
         event, end, early, reached = said or (False, False, False, 0.0)
         goal = at + step if step < goal - at else goal
         if end:
-            raise Told(f"it asks to end the simulation at {goal:.9g} s")
+            raise Told(f"it asks to end the simulation at {reached if early else goal:.9g} s")
         if early and not self.splits:
             raise Told(f"it came back early, at {reached:.9g} s, and nobody allowed it")
         if early and not at - self.close <= reached <= goal + self.close:
