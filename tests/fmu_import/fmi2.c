@@ -43,8 +43,12 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real step, fmi2Boolean fi
     return !strcmp(((Model *)c)->kind, "ends") && t >= 0.045 ? fmi2Discard : run(c, t, step);
 }
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind what, fmi2Boolean *v) {
-    *v = what == fmi2Terminated;
+    *v = what == fmi2Terminated && strcmp(((Model *)c)->kind, "choosy");
     return fmi2OK;
+}
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind what, fmi2Real *v) {
+    *v = ((Model *)c)->reached;
+    return what == fmi2LastSuccessfulTime && *v > 0 ? fmi2OK : fmi2Discard;
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *s) {
@@ -62,5 +66,5 @@ NOT(fmi2GetDirectionalDerivative) NOT(fmi2EnterEventMode) NOT(fmi2NewDiscreteSta
 NOT(fmi2EnterContinuousTimeMode) NOT(fmi2CompletedIntegratorStep) NOT(fmi2SetTime) NOT(fmi2SetContinuousStates)
 NOT(fmi2GetDerivatives) NOT(fmi2GetEventIndicators) NOT(fmi2GetContinuousStates)
 NOT(fmi2GetNominalsOfContinuousStates) NOT(fmi2SetRealInputDerivatives) NOT(fmi2GetRealOutputDerivatives)
-NOT(fmi2CancelStep) NOT(fmi2GetStatus) NOT(fmi2GetRealStatus) NOT(fmi2GetIntegerStatus)
+NOT(fmi2CancelStep) NOT(fmi2GetStatus) NOT(fmi2GetIntegerStatus)
 NOT(fmi2GetStringStatus)

@@ -17,6 +17,7 @@ typedef struct {
     int64_t whole[SIZE];
     int truth[SIZE];
     char text[TEXT];
+    double reached; /* in a step that was discarded */
 } Model;
 
 /* The kind is the token in the description. */
@@ -24,6 +25,7 @@ static Model *make(const char *kind) {
     Model *m = calloc(1, sizeof *m);
     strncpy(m->kind, kind, sizeof m->kind - 1);
     if (!strcmp(kind, "decay")) { m->number[0] = 1.0; m->number[1] = 1.0; }
+    if (!strcmp(kind, "choosy")) m->number[0] = 1.0;
     if (!strcmp(kind, "ball")) { m->number[0] = 1.0; m->number[1] = 0.0; m->number[2] = 0.5; m->number[3] = 10.0; }
     return m;
 }
@@ -43,8 +45,14 @@ static void fall(Model *m, double step) {
     *v -= g * step;
 }
 
-/* 0: done, 3: error */
+/* 0: done, 2: discarded after a part of it, 3: error */
 static int run(Model *m, double t, double step) {
+    if (!strcmp(m->kind, "choosy")) {
+        double part = step > 0.03 ? 0.02 : step;
+        m->number[0] *= exp(-part);
+        m->reached = t + part;
+        return part < step ? 2 : 0;
+    }
     if (!strcmp(m->kind, "decay")) m->number[0] *= exp(-m->number[1] * step);
     if (!strcmp(m->kind, "ball")) fall(m, step);
     if (!strcmp(m->kind, "counter")) { m->whole[0]++; m->truth[0] = !m->truth[0]; m->number[0] = t; m->number[1] = step; }

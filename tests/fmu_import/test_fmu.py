@@ -127,7 +127,7 @@ def patiently(monkeypatch):
     ask = ForeignProcess.ask
 
     def asked(self, question, limit):
-        return ask(self, question, limit if (question.get("from") or 0.0) > 0.045 else 120.0)
+        return ask(self, question, limit if question.get("to", 0.0) > 0.055 else 120.0)
 
     monkeypatch.setattr(ForeignProcess, "ask", asked)
 

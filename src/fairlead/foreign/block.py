@@ -23,6 +23,7 @@ from fairlead.foreign.description import Fmu
 from fairlead.foreign.process import ForeignProcess
 from fairlead.foreign.refusals import ForeignError, Refused
 from fairlead.foreign.signals import Signals
+from fairlead.foreign.variables import Variable
 
 TIME_LIMIT = 30.0
 """s, of every call; a step of a large model takes some seconds, and a user waits no longer than that for a hang."""
@@ -41,7 +42,7 @@ class State:
 class ForeignBlock(Controller, abstract=True):
     """Base of blocks for FMUs; `block_of` makes the class for one."""
 
-    starts = Entries("What is set before the start: variables of the FMU with values as it takes them.", default=())
+    starts = Entries("What is set before the start, of variables and clocks of the FMU.", default=())
     time_limit = Parameter("s", "Longest that one call may take.", default=TIME_LIMIT, above=0)
     _fmu: ClassVar[Fmu]
     _signals: ClassVar[Signals]
@@ -58,8 +59,8 @@ class ForeignBlock(Controller, abstract=True):
         return float(vars(self)["time_limit"])
 
     @property
-    def _set(self) -> tuple[tuple[str, Any], ...]:
-        return tuple(vars(self)["starts"])
+    def _starts(self) -> dict[str, Any]:
+        return dict(vars(self)["starts"])
 
     def begin(self) -> None:
         """Start the process, and load the FMU there. Raises ForeignError."""
@@ -69,12 +70,8 @@ class ForeignBlock(Controller, abstract=True):
         self._process, self._state, self._points = ForeignProcess(fmu.file.name), None, 0
         self._begin = math.nan
         self._process.occupant = weakref.ref(self)
-        named = {side: [[one.variable.kind, one.variable.reference] for one in getattr(signals, side)]
-                 for side in ("inputs", "outputs")}  # fmt: skip
-        starts = [[fmu.variables[name].kind, fmu.variables[name].reference, value] for name, value in self._set]
-        opening = {"do": "open", "file": str(fmu.file), "folder": self._process.folder, "version": fmu.version,
-                   "token": fmu.token, "identifier": fmu.identifier, "name": fmu.name, "starts": starts,
-                   "keeps_state": fmu.keeps_state, **named}  # fmt: skip
+        opening = {"do": "open", "folder": self._process.folder, "period": self._step,
+                   **told_of(fmu, signals), **self._starts}  # fmt: skip
         try:
             self._ask(opening)
         except BaseException:
@@ -94,10 +91,8 @@ class ForeignBlock(Controller, abstract=True):
             raise ForeignError(f"{error.what}. {error.way_out}") from None
         if self._points == 0:
             self._begin = t
-        before = self._begin + (self._points - 1) * self._step if self._points else None
         now = self._begin + self._points * self._step
-        length = self._step if before is None else now - before  # so that it arrives at `now` to the last bit
-        said = self._ask({"do": "step", "begin": self._begin, "from": before, "step": length, "inputs": given})
+        said = self._ask({"do": "step", "to": now, "inputs": given})
         self._points += 1
         found = {}
         for one, value in zip(self._signals.outputs, said["outputs"], strict=True):
@@ -134,6 +129,23 @@ class ForeignBlock(Controller, abstract=True):
         return made
 
 
+def told_of(fmu: Fmu, signals: Signals) -> dict[str, Any]:
+    """What the process is told of an FMU: worker.py says what it is."""
+
+    def value(one: Variable) -> list[Any]:
+        return [one.kind, one.reference, one.size, one.place, list(one.clocks)]
+
+    return {
+        "file": str(fmu.file), "version": fmu.version, "token": fmu.token, "identifier": fmu.identifier,
+        "name": fmu.name, "keeps_state": fmu.keeps_state, "events": fmu.events, "splits": fmu.splits,
+        "inputs": [value(one.variable) for one in signals.inputs],
+        "outputs": [value(one.variable) for one in signals.outputs],
+        "clocks": [[one.name, one.reference, one.timing, one.interval, one.shift] for one in fmu.clocks.values()],
+        "watched": [[one.reference, list(one.clocks)] for one in fmu.variables.values()
+                    if one.kind == "Clock" and one.causality in ("output", "local")],
+    }  # fmt: skip
+
+
 def not_allowed(kind: type) -> str:
     """The file of an FMU that may not run, of a class of block for one; "" for any other class."""
     return kind._fmu.file.name if issubclass(kind, ForeignBlock) and not kind._allowed else ""
@@ -142,9 +154,9 @@ def not_allowed(kind: type) -> str:
 @functools.lru_cache(maxsize=256)
 def block_of(fmu: Fmu, signals: Signals, *, allowed: bool) -> type[ForeignBlock]:
     """The class of block for an FMU with these signals."""
-    declared: dict[str, Any] = {one.name: Input(one.scale.unit, one.variable.description, one.start, signed=True)
+    declared: dict[str, Any] = {one.name: Input(one.scale.unit, one.description, one.start, signed=True)
                                 for one in signals.inputs}  # fmt: skip
-    declared |= {one.name: Output(one.scale.unit, one.variable.description) for one in signals.outputs}
+    declared |= {one.name: Output(one.scale.unit, one.description) for one in signals.outputs}
     body = {
         "_fmu": fmu,
         "_signals": signals,

@@ -11,41 +11,22 @@ import functools
 import math
 import pathlib
 import re
+import xml.etree.ElementTree as ET
 import zipfile
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from fairlead.errors import listing, shown
+from fairlead.foreign.clocks import Clock, as_fmu, clocks_of
 from fairlead.foreign.refusals import Refused
+from fairlead.foreign.variables import Variable, variable_of
 
 DESCRIPTION = "modelDescription.xml"
 MOST_XML = 50_000_000  # bytes of the description; the largest of the standard's cross-check have some 10 MB
 MOST_BYTES = 2_000_000_000  # of all that is unpacked
 VERSIONS = {"2.0": 2, "3.0": 3}
 PACKAGE = "An FMU is read with the package FMPy; install it with  pip install 'fairlead[fmu]'"
-
-
-@dataclass(frozen=True)
-class Variable:
-    """A variable of an FMU as its description has it."""
-
-    name: str
-    reference: int
-    kind: str  # Real, Float32, Int8, Boolean, Enumeration, String ...
-    causality: str
-    variability: str
-    initial: str
-    unit: str
-    start: str | None
-    scalar: bool
-    description: str
-    items: tuple[tuple[str, int], ...] = ()  # of an enumeration: words with their numbers
-
-    @property
-    def numeric(self) -> bool:
-        """Whether it can be a signal."""
-        return self.scalar and self.kind not in ("String", "Binary", "Clock")
 
 
 @dataclass(frozen=True)
@@ -72,10 +53,26 @@ class Fmu:
     step: float | None  # s, of its default experiment
     fixed_step: float | None  # s; communication steps are multiples of it
     keeps_state: bool
+    events: bool = False  # it has an event mode
+    splits: bool = False  # its steps may have any length, and may end early
+    clocks: Mapping[str, Clock] = field(default_factory=dict)  # the time-based ones
 
     def of(self, *causalities: str) -> list[Variable]:
         """Variables that can be signals, of these causalities."""
         return [one for one in self.variables.values() if one.causality in causalities and one.numeric]
+
+
+@functools.lru_cache(maxsize=256)
+def shaped(fmu: Fmu, sizes: tuple[tuple[str, int], ...]) -> Fmu:
+    """The FMU with arrays as large as structural parameters make them: their start, or what `sizes` says."""
+    given = dict(sizes)
+
+    def size(one: int | str) -> int:
+        return one if isinstance(one, int) else given.get(one, int(fmu.variables[one].start or 1))
+
+    arrays = {one.name: replace(one, dimensions=tuple(map(size, one.dimensions)))
+              for one in fmu.variables.values() if one.dimensions}  # fmt: skip
+    return replace(fmu, variables={**fmu.variables, **arrays}) if arrays else fmu
 
 
 def read_fmu(file: pathlib.Path) -> Fmu:
@@ -87,32 +84,42 @@ def read_fmu(file: pathlib.Path) -> Fmu:
 @functools.lru_cache(maxsize=64)
 def _read(file: pathlib.Path, written: int, size: int) -> Fmu:
     """Once for every content, so that one file is one class of block."""
-    names = _archive(file)
+    names, text = _archive(file)
     try:
         import fmpy
         from fmpy.model_description import read_model_description
     except ImportError as missing:
         raise Refused(f"cannot be read without a package ({missing})", f"{PACKAGE}.") from None
     try:
-        told = read_model_description(str(file), validate=False)
+        clocks, text = clocks_of(text)
+        told = read_model_description(as_fmu(text), validate=False)
+        variables = {one.name: variable_of(one) for one in told.modelVariables}
+        variables |= {name: replace(variables[name], most=most) for name, most in _largest_sizes(text)}
+    except Refused:
+        raise
     except Exception as error:  # what FMPy and lxml raise for damaged descriptions has no common base
         raise Refused(f"has a {DESCRIPTION} that cannot be read: {shown(str(error))}", "Export it again.") from error
     of_run = told.coSimulation
     if of_run is None:
-        raise Refused("is for model exchange only", "Export it for co-simulation.")
+        kind = "scheduled execution" if told.scheduledExecution is not None else "model exchange"
+        raise Refused(f"is for {kind} only", "Export it for co-simulation.")
+    if not of_run.hasEventMode and (ticking := [one.name for one in variables.values() if one.kind == "Clock"]):
+        raise Refused(f"has clocks ({listing(ticking)}) and no event mode (hasEventMode), in which they tick",
+                      "Export it with an event mode, or without clocks.")  # fmt: skip
     version = VERSIONS[told.fmiVersion]
     _platform(names, of_run.modelIdentifier, fmpy.platform if version == 2 else fmpy.platform_tuple)
     step = told.defaultExperiment.stepSize if told.defaultExperiment is not None else None
     return Fmu(
         file, version, told.modelName or file.stem, told.guid, of_run.modelIdentifier,
-        {one.name: _variable(one) for one in told.modelVariables},
+        variables,
         {unit.name: _base(unit.baseUnit) for unit in told.unitDefinitions if unit.baseUnit is not None},
         _positive(step), _positive(of_run.fixedInternalStepSize), bool(of_run.canGetAndSetFMUstate),
+        bool(of_run.hasEventMode), bool(of_run.canHandleVariableCommunicationStepSize), clocks,
     )  # fmt: skip
 
 
-def _archive(file: pathlib.Path) -> list[str]:
-    """Names of the files in it, of an archive with a description of a version that is known."""
+def _archive(file: pathlib.Path) -> tuple[list[str], bytes]:
+    """Names of the files in it, and its description, of an archive of a version that is known. Raises Refused."""
     try:
         with zipfile.ZipFile(file) as archive:
             held = {info.filename: info for info in archive.infolist()}
@@ -130,7 +137,7 @@ def _archive(file: pathlib.Path) -> list[str]:
     version = found[1].decode(errors="replace") if found else ""
     if version not in VERSIONS:
         raise Refused(f"is of FMI version {shown(version) or 'unknown'}", f"Export it for FMI {listing(VERSIONS)}.")
-    return list(held)
+    return list(held), text
 
 
 def _platform(names: list[str], identifier: str, here: str) -> None:
@@ -145,14 +152,12 @@ def _platform(names: list[str], identifier: str, here: str) -> None:
     raise Refused(f"has no code for this machine ({here}); {has}", f"Export it for {here}{compiled}.")
 
 
-def _variable(one: Any) -> Variable:
-    declared = one.declaredType
-    items = tuple((item.name, int(item.value)) for item in declared.items) if declared is not None else ()
-    unit = one.unit or (declared.unit if declared is not None else None) or ""
-    return Variable(
-        one.name, int(one.valueReference), one.type, one.causality or "local", one.variability or "", one.initial or "",
-        unit, one.start, not one.dimensions, one.description or "", items,
-    )  # fmt: skip
+def _largest_sizes(text: bytes) -> Iterator[tuple[str, int]]:
+    """Structural parameters with their `max`, which FMPy does not read."""
+    if b"structuralParameter" in text:
+        for one in ET.fromstring(text).iterfind("ModelVariables/UInt64"):
+            if one.get("causality") == "structuralParameter" and "max" in one.attrib:
+                yield one.attrib["name"], int(one.attrib["max"])
 
 
 def _base(unit: Any) -> BaseUnit:

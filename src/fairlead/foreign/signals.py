@@ -1,27 +1,29 @@
-"""Which variables of an FMU are signals of a component, and what its parameters are set to.
+"""Which variables of an FMU are signals of a component.
 
     inputs: {speed: shaft.w}                     the input `speed` is the variable shaft.w
     outputs: {pull: {of: F, unit: N}}            of a variable that the FMU gives without a unit
-    parameters: {gain: 0.3, "pid.Ti": 20 ms}     by the names of the FMU
+    outputs: {second: "y[2]"}                    an element of an array
 
-Nothing given: all inputs and outputs that are one number, under their own names, in which every character that is no
-letter, digit or underscore becomes an underscore.
+Nothing given: all inputs and outputs that are numbers, under their own names, in which every character that is no
+letter, digit or underscore becomes an underscore; `y[2]` becomes `y_2`.
 """
 
 from __future__ import annotations
 
 import keyword
+import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from fairlead.component.controller import Controller
-from fairlead.errors import did_you_mean, listing, shown
-from fairlead.foreign.description import Fmu, Variable
+from fairlead.errors import did_you_mean, shown
+from fairlead.foreign.clocks import COUNTED
+from fairlead.foreign.description import Fmu
 from fairlead.foreign.refusals import Refused
 from fairlead.foreign.units import Scale, scale_of
-from fairlead.quantities import QuantityError, si
+from fairlead.foreign.variables import ELEMENT, Variable, element, elements, form, names_of, what_it_is
 
 NAME = re.compile(r"[A-Za-z_]\w*$")
 TAKEN = {*dir(Controller), "p", "t", "self", "starts", "time_limit", "period"}
@@ -30,6 +32,12 @@ RANGES = {f"{sign}Int{bits}": (0 if sign else -(2 ** (bits - 1)), 2 ** (bits - (
           for sign in ("", "U") for bits in (8, 16, 32, 64)} | {"Integer": (-(2**31), 2**31 - 1)}  # fmt: skip
 EXACT = 2**53  # whole numbers up to here are exact in a signal
 FLOATS = ("Real", "Float64", "Float32")
+MOST_ELEMENTS = 1000  # of one array that are signals without being named
+MAY_BE = {
+    "inputs": ("input",),
+    "outputs": ("output", "local", "calculatedParameter", "parameter", "structuralParameter"),
+    "parameters": ("parameter", "structuralParameter", "input", "local", "output"),
+}
 Wrong = tuple[str, str, str]  # a path in the parameters of the component, what is wrong, a way out
 
 
@@ -42,9 +50,15 @@ class Signal:
     scale: Scale
 
     @property
+    def description(self) -> str:
+        """What it is, in a sentence."""
+        counted = COUNTED if self.variable.kind == "Clock" else ""
+        return f"{self.variable.description} {counted}".strip()
+
+    @property
     def start(self) -> float:
         """What the description says it is at first, in SI."""
-        return self.scale.si(float(_number(self.variable.start or "0", self.variable)))
+        return self.scale.si(_number(self.variable.start or "0", self.variable))
 
     def own(self, value: float) -> float | int | bool:
         """A number in SI as the FMU takes it. Raises Refused for one that its type does not hold."""
@@ -53,14 +67,14 @@ class Signal:
             return number
         rounded = round(number)
         if abs(number - rounded) > 1e-9 * max(1.0, abs(number)):  # what sums of decimals leave
-            raise Refused(f"the input {self.name} = {value:.9g} is no whole number", _takes(self.variable))
+            raise Refused(f"the input {self.name} = {value:.9g} is no whole number", takes(self.variable))
         if self.variable.kind == "Boolean":
             if rounded not in (0, 1):
-                raise Refused(f"the input {self.name} = {value:.9g} is neither 0 nor 1", _takes(self.variable))
+                raise Refused(f"the input {self.name} = {value:.9g} is neither 0 nor 1", takes(self.variable))
             return bool(rounded)
         low, high = RANGES.get(self.variable.kind, (-EXACT, EXACT))
         if not low <= rounded <= high:
-            raise Refused(f"the input {self.name} = {value:.9g} is out of range", _takes(self.variable))
+            raise Refused(f"the input {self.name} = {value:.9g} is out of range", takes(self.variable))
         return rounded
 
 
@@ -88,7 +102,12 @@ def _signals(
     fmu: Fmu, side: str, entries: Entries | None, causalities: tuple[str, ...], taken: dict[str, str],
     wrong: list[Wrong],
 ) -> Iterator[Signal]:  # fmt: skip
-    asked: Iterable[tuple[str, Any]] = entries if entries is not None else _all(fmu, causalities)
+    asked: Iterable[tuple[str, Any]] = entries or ()
+    if entries is None:
+        try:
+            asked = list(_all(fmu, causalities))
+        except Refused as error:
+            wrong.append((side, error.what, error.way_out))
     for name, said in asked:
         path = f"{side}.{name}" if entries is not None else side
         try:
@@ -104,9 +123,13 @@ def _signals(
 
 def _all(fmu: Fmu, causalities: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     for variable in fmu.of(*causalities):
-        name = re.sub(r"\W", "_", variable.name)
-        name = name if NAME.match(name) else f"_{name}"
-        yield (f"{name}_" if name in TAKEN or keyword.iskeyword(name) else name), variable.name
+        if variable.dimensions and math.prod(variable.shape) > MOST_ELEMENTS:
+            raise Refused(f"the array {shown(variable.name)} has {form(variable.shape)}",
+                          f"Name those that you need, such as {{NAME: {_example(variable)}}}.")  # fmt: skip
+        for one in elements(variable) if variable.dimensions else (variable,):
+            name = re.sub(r"\W", "_", one.name.removesuffix("]"))
+            name = name if NAME.match(name) else f"_{name}"
+            yield (f"{name}_" if name in TAKEN or keyword.iskeyword(name) else name), one.name
 
 
 def _asked(fmu: Fmu, side: str, name: str, said: Any) -> tuple[Variable, str]:
@@ -117,65 +140,58 @@ def _asked(fmu: Fmu, side: str, name: str, said: Any) -> tuple[Variable, str]:
     odd = set(given) - {"of", "unit"}
     if odd or not isinstance(given.get("of", name), str) or not isinstance(given.get("unit", ""), str):
         raise Refused(f"{shown(said)} names no variable", "Write the name of a variable, or {of: VARIABLE, unit: N}.")
-    variable = _known(fmu, given.get("of", name), side)
+    variable = known(fmu, given.get("of", name), side)
     if not variable.numeric:
-        what = variable.kind if variable.scalar else "an array"
-        raise Refused(f"{shown(variable.name)} is {what}, and a signal is one number", "Leave it out.")
+        raise Refused(f"{shown(variable.name)} is {what_it_is(variable)}", "Leave it out.")
+    if variable.dimensions:
+        raise Refused(f"{shown(variable.name)} is an array of {form(variable.shape)}, and a signal is one number",
+                      f"Name an element: {_example(variable)}.")  # fmt: skip
     return variable, given.get("unit", "")
 
 
-def _known(fmu: Fmu, name: str, side: str) -> Variable:
-    """A variable of the FMU that may stand there. Raises Refused."""
-    may = {"inputs": ("input",), "outputs": ("output", "local", "calculatedParameter", "parameter"),
-           "parameters": ("parameter", "structuralParameter", "input", "local", "output")}[side]  # fmt: skip
-    names = [one.name for one in fmu.variables.values() if one.causality == may[0]]
-    variable = fmu.variables.get(name)
+def _example(array: Variable) -> str:
+    """The last element, in quotes as YAML wants it."""
+    return f'"{array.name}[{",".join(map(str, array.shape))}]"'
+
+
+def known(fmu: Fmu, name: str, side: str) -> Variable:
+    """A variable of the FMU, or an element of one, that may stand there. Raises Refused."""
+    may = MAY_BE[side]
+    of_side = [one for one in fmu.variables.values() if one.causality == may[0] and (side != "inputs" or one.numeric)]
+    has = f"Its {side} are {names_of(iter(of_side))}." if of_side else f"It has no {side}."
+    variable = _found(fmu, name)
     if variable is None:
         near = did_you_mean(name, fmu.variables)
-        raise Refused(f"the FMU has no variable {shown(name)}", f"{near} {_has(side, names)}".strip())
+        raise Refused(f"the FMU has no variable {shown(name)}", f"{near} {has}".strip())
+    if side == "parameters" and variable.kind == "Clock":
+        return variable  # what may be set of it is the business of starts
     settable = side != "parameters" or variable.causality in may[:3] or variable.initial in ("exact", "approx")
     if variable.causality not in may or not settable or (variable.variability == "constant" and side == "parameters"):
-        raise Refused(f"{shown(name)} is {variable.causality} and cannot be one of its {side}", _has(side, names))
+        raise Refused(f"{shown(name)} is {variable.causality} and cannot be one of its {side}", has)
     return variable
 
 
-def _has(side: str, names: list[str]) -> str:
-    return f"Its {side} are {listing(names, 30)}." if names else f"It has no {side}."
+def _found(fmu: Fmu, name: str) -> Variable | None:
+    """The variable of this name, which may be `u[2]` of an array `u`. Raises Refused for an index that it has not."""
+    if name in fmu.variables or not (indexed := ELEMENT.match(name)):
+        return fmu.variables.get(name)
+    array = fmu.variables.get(indexed["array"])
+    if array is None:
+        return None
+    if not array.dimensions:
+        raise Refused(f"{shown(array.name)} is one number, and {shown(name)} would be an element of an array",
+                      f"Write {array.name}.")  # fmt: skip
+    return element(array, indexed["indices"].replace(" ", ""))
 
 
-def starts_of(fmu: Fmu, entries: Entries) -> tuple[tuple[tuple[str, Any], ...], list[Wrong]]:
-    """Variables that are set before a run begins, with values as the FMU takes them; and what is wrong with others."""
-    found, wrong = [], list[Wrong]()
-    for name, said in entries:
-        try:
-            variable = _known(fmu, name, "parameters")
-            found.append((name, _start(fmu, variable, said)))
-        except Refused as error:
-            wrong.append((f"parameters.{name}", error.what, error.way_out))
-    return tuple(found), wrong
+def started(signals: Signals, values: Mapping[tuple[int, int], float | bool]) -> Signals:
+    """Inputs that begin with values that the netlist sets, by reference and place in the array."""
 
+    def begun(one: Signal) -> Signal:
+        value = values.get((one.variable.reference, one.variable.place))
+        return one if value is None else replace(one, variable=replace(one.variable, start=repr(float(value))))
 
-def _start(fmu: Fmu, variable: Variable, said: Any) -> Any:
-    """A value that a netlist gives to a variable of the FMU. Raises Refused."""
-    if not variable.scalar or variable.kind in ("Binary", "Clock"):
-        raise Refused(f"{shown(variable.name)} is {variable.kind if variable.scalar else 'an array'}", "Leave it out.")
-    if variable.kind == "String":
-        if not isinstance(said, str):
-            raise Refused(f"{shown(said)} is no text, and {variable.name} is one", "Write it in quotes.")
-        return said
-    if isinstance(said, bool) or said in ("true", "false"):
-        if variable.kind != "Boolean":
-            raise Refused(f"{shown(said)} is no number", _takes(variable))
-        return said in (True, "true")
-    said = dict(variable.items).get(said, said) if isinstance(said, str) else said
-    scale = scale_of(fmu, variable)
-    try:
-        return Signal(variable.name, variable, scale).own(si(said, scale.unit))
-    except QuantityError as error:
-        words = f" Or one of {listing([word for word, _ in variable.items])}." if variable.items else ""
-        raise Refused(error.what, f"{error.allowed}{words}") from None
-    except Refused as error:
-        raise Refused(error.what.replace("the input ", ""), error.way_out) from None
+    return replace(signals, inputs=tuple(map(begun, signals.inputs)))
 
 
 def _number(text: str, variable: Variable) -> float:
@@ -188,10 +204,12 @@ def _number(text: str, variable: Variable) -> float:
         return float(dict(variable.items).get(text, 0))
 
 
-def _takes(variable: Variable) -> str:
+def takes(variable: Variable) -> str:
     """What a variable of the FMU takes."""
     if variable.kind == "Boolean":
         return f"{variable.name} is a Boolean of the FMU: 0 or 1."
+    if variable.kind == "Clock":
+        return f"{variable.name} is a clock of the FMU: it ticks when this whole number rises."
     if variable.kind in FLOATS:
         return f"{variable.name} is {variable.kind} in the FMU: a number{variable.unit and f' in {variable.unit}'}."
     low, high = RANGES.get(variable.kind, (None, None))

@@ -6,8 +6,9 @@ import re
 from dataclasses import dataclass
 
 from fairlead.errors import shown
-from fairlead.foreign.description import Fmu, Variable
+from fairlead.foreign.description import Fmu
 from fairlead.foreign.refusals import Refused
+from fairlead.foreign.variables import Variable
 from fairlead.quantities import KINDS, Dimension, QuantityError, Unit, fits, parse_unit, unit_text
 
 PLAIN = ("", "1", "-")
