@@ -37,7 +37,7 @@ from fairlead.engine import engine_of, engine_remarks, engine_settings, refused
 from fairlead.errors import Fault, ModelError, UsageError
 from fairlead.integrate import Outcome, integrate
 from fairlead.integrate.ida.solver import require_package
-from fairlead.integrate.problem import Status
+from fairlead.integrate.problem import Run, Status
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
@@ -99,7 +99,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         if outcome.status == Status.INTERRUPTED and interruption.ended_by is not None:
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
             outcome = dataclasses.replace(outcome, sentence=said)
-        summary = _summary(outcome, watch, compiled, time.perf_counter() - begun)
+        summary = _summary(outcome, watch, asked, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.longest_dwell
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
@@ -217,7 +217,7 @@ def _routes(flat: FlatModel) -> list[dict[str, Any]]:
     return route_records(flat)
 
 
-def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> dict[str, Any]:
+def _summary(outcome: Outcome, watch: Watch, asked: Run, compiled: float, wall: float) -> dict[str, Any]:
     counters = outcome.counters
     counts = {n: v for n, v in vars(counters).items() if isinstance(v, int)}
     said = outcome.sentence
@@ -228,7 +228,7 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
         "chattering": list(outcome.chattering),
         "wall_time": wall, "compile_time": compiled, "solve_time": outcome.loop_wall,
         "steps": counters.steps, "rejected": counters.rejected, "switches": counters.switches, "counters": counts,
-        "worst_creep": watch.creep.summary(), "energy": _energy(outcome, watch),
+        "worst_creep": watch.creep.summary(), "energy": _energy(outcome, watch, asked),
         "extremes": watch.extremes.plain([one.name for one in watch.recording.chosen]),
         "limits_broken": watch.limits.broken(),
         "limits": watch.limits.plain(), "lost": lost_in_impacts(watch.system, outcome.lost),
@@ -241,12 +241,14 @@ def _summary(outcome: Outcome, watch: Watch, compiled: float, wall: float) -> di
     }  # fmt: skip
 
 
-def _energy(outcome: Outcome, watch: Watch) -> dict[str, Any]:
+def _energy(outcome: Outcome, watch: Watch, asked: Run) -> dict[str, Any]:
     """The ledger, and the energy that the error weights of the run resolve."""
     summary = watch.ledger.summary()
     if "throughput" in summary:
         summary["resolved"] = resolved(outcome.problem)
-        summary["known_to"] = known_to(outcome.problem, watch.accuracy)
+        summary["known_to"] = known_to(
+            outcome.problem, watch.accuracy, outcome.counters.steps if asked.engine == "ida" else 0
+        )
     return judged(summary, watch.system.undeclared)
 
 

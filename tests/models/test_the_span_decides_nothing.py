@@ -120,3 +120,13 @@ def test_what_moves_to_and_fro_twice_a_second_is_not_said_to_chatter(load):
     result = load(STICKS).run(stop=1e7, max_events=60, check=False, out=None)
     assert result.run["switches"] >= 40
     assert not any("to and fro" in said for said in result.remarks)
+
+
+@pytest.mark.parametrize("engine", ["rodas", "ida"])
+@pytest.mark.parametrize("accuracy", [1e-4, 1e-8])
+def test_a_ball_that_bounces_ever_faster_until_it_lies_is_not_said_to_chatter(load, engine, accuracy):
+    """The bounces have an end: sqrt(2 h/g) (1 + e)/(1 - e) after the release, 0.61 s."""
+    result = load(BALL).run(engine=engine, accuracy=accuracy, stop=1.03, check=False, out=None)
+    assert result.at("ball.x", 1.0) == pytest.approx(0.0, abs=1e-9)
+    assert abs(result.at("ball.x", 0.59)) > 1e-6
+    assert not any("to and fro" in said for said in result.remarks)

@@ -88,7 +88,8 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         ),
         Status.SINGULAR: (
             f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or "
-            "damping, a contact that closes a loop of held contacts, a loop of signals whose gain is 1, or a relation "
+            "damping, a contact that closes a loop of held contacts, a gear all three shafts of which follow given "
+            "motions, a loop of signals whose gain is 1, or a relation "
             "of positions that nothing can keep here, as that of a crank in its dead centre under a given slider, "
             "leaves an unknown open; add a mass or damping there, or another gain. Equations of index 2 or 3, where a "
             "relation of speeds or positions alone is to determine a force, must be given as one of accelerations "

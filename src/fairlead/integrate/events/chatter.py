@@ -74,7 +74,7 @@ def watch_progress(problem, run, point, events):
             z = machine[fired[k]]
             if z >= 0:
                 block(problem, run, point, events, z)
-                chatters[z] += 1
+                chatters[z] += 0 if bounces(problem, z) else 1
 
 
 @compiled
@@ -85,13 +85,25 @@ def watch_chatter(m, z):
     if point.t > last[z]:
         streak[z] = streak[z] + 1 if point.t - last[z] < dwell_here(run, point) else 0
         last[z] = point.t
-        if streak[z] >= CHATTER_STREAK:
+        if streak[z] >= CHATTER_STREAK and not bounces(m.problem, z):
             indices(settling.at_chatters, settling.n_zones)[z] += 1
             if run.on_chatter == HOLD:
                 block(m.problem, run, point, m.events, z)
             elif run.on_chatter == STOP:
                 m.linear.factors.culprit = z
                 run.stop_asked = 1
+
+
+@compiled
+def bounces(problem, z):
+    """True if machine z gives back a share of an impact: it bounces ever faster until it lies, and that is right."""
+    if problem.rebounds == 0:
+        return False
+    holder, rebound = indices(problem.at_holder, problem.n), reals(problem.at_rebound, problem.n)
+    found = False
+    for k in range(problem.n):
+        found = found or (holder[k] == z and rebound[k] > 0.0)
+    return found
 
 
 @compiled
