@@ -16,6 +16,8 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 
 PROBE_TIME = 1e-6
 """Share of T (impulse_load.py) after which it is asked which stops come nearer: more than rounding of places."""
+TIME_ROUNDING = 1e-12
+"""Share of the time that is more than its rounding, which moves places that are given."""
 LEAST_APPROACH = 1e-8
 """Share of the largest change of speed at which stops that touch must approach to take part: less is rounding."""
 
@@ -66,7 +68,7 @@ def move_on(m):
     differential, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
     values, rows = reals(matrices.at_mass, matrices.n_mass), indices(matrices.at_mass_rows, matrices.n_mass)
     columns = indices(matrices.at_mass_columns, matrices.n_mass)
-    later, most = PROBE_TIME * m.events.settling.own_time, 0.0
+    later, most = max(PROBE_TIME * m.events.settling.own_time, TIME_ROUNDING * abs(point.t)), 0.0
     for k in range(n):
         moved[k] = loaded[k]
         most = max(most, abs(dv[k]))
