@@ -130,3 +130,38 @@ def test_a_shaft_between_two_claws_that_drift_apart_ends_the_run_by_name(scene, 
     assert result.t[-1] == pytest.approx(1.0, abs=0.02)
     assert "motions that are given move apart" in result.run["sentence"]
     assert any(name in result.run["sentence"] for name in ("d1.", "d2."))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("holds", ["backstop", "brake"])
+def test_a_carrier_that_a_second_drive_takes_over_frees_the_ring(simulate, engine, holds):
+    """12 rad/s at the sun, the ring held: the carrier turns at 3 until the ramp gets there; then ring = (4 c - 12)/3.
+
+    Load, carrier and ring: torque 5 c + 0.5 c' + (4/3) 0.1 (4/3) c', and (4/3) of what a brake of 20 N*m takes.
+    """
+    part = {
+        "backstop": "{type: OneWayClutch}",
+        "brake": "{type: Clutch, radius: 0.1 m, normal_force: 400 N, curve: 0.5}",
+    }[holds]
+    result = simulate(f"""
+        components:
+          first: {{type: SpeedSource, speed: 12 rad/s}}
+          second: {{type: SpeedSource, speed: {{ramp: {{to: 10 rad/s, over: 2 s}}}}}}
+          gear: {{type: Planetary, ratio: 3}}
+          ring: {{type: Inertia, moment: 0.1 kg*m^2, angle: 0, speed: 0}}
+          carrier: {{type: Inertia, moment: 0.5 kg*m^2, angle: 0, speed: 3 rad/s}}
+          house: {{type: Housing}}
+          load: {{type: ShaftLoad, linear: 5 N*m*s/rad}}
+          holds: {part}
+          takes: {{type: OneWayClutch}}
+        connections: [[first.shaft, gear.sun], [gear.ring, ring.shaft, holds.b], [house.shaft, holds.a],
+                      [second.shaft, takes.a], [gear.carrier, carrier.shaft, takes.b, load.shaft]]
+        run: {{stop: 2 s, engine: {engine}}}
+        record: {{signals: [carrier.speed, ring.speed, takes.torque]}}
+    """)
+    for t in (0.3, 0.602, 0.7, 1.0, 1.9):
+        speed = max(3.0, 5.0 * t)
+        assert result.at("carrier.speed", t) == pytest.approx(speed, rel=1e-4)
+        assert result.at("ring.speed", t) == pytest.approx((4.0 * speed - 12.0) / 3.0, abs=1e-3)
+    friction = 0.0 if holds == "backstop" else 4.0 / 3.0 * 20.0
+    assert result.at("takes.torque", 1.0) == pytest.approx(25.0 + 2.5 + (16.0 / 9.0) * 0.5 + friction, rel=1e-4)

@@ -6,17 +6,24 @@ until one of the others is caught. So of the patterns
 
     after a pass in which several changed     only one of them changed
     after a pass in which one changed         one that changed before goes back: the two exchange their places
+                                              another that holds lets go, of these the one nearest to its limit
 
 the first one that determines all unknowns is taken, and judged as any other. Only contacts change so. The second is the
 exchange of Lemke's method, whose pivot of one vanishes where that of two does not (Cottle, Pang, Stone, The Linear
-Complementarity Problem, 1992, section 4.4). Where there is none, the run ends and names what is open.
+Complementarity Problem, 1992, section 4.4); so is the third, for a row that holds more than there is to hold: a gear
+has its ring on a backstop, a given motion at its sun, and another catches up with its carrier. Where there is none, the
+run ends and names what is open.
 """
 
 from __future__ import annotations
 
 from fairlead.integrate.events.consistent import prepare_consistent
+from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.linear.systems import SINGULAR
-from fairlead.integrate.memory.foreign import compiled, indices, mass_at
+from fairlead.integrate.memory.foreign import compiled, indices, mass_at, reals, switch_at
+
+NOT_IN_FORCE = -1.0
+"""The value of a guard that the zone in force does not have."""
 
 
 @compiled
@@ -32,7 +39,9 @@ def change_to_near_pattern(m):
                 return False
     if changed == 0 or determines(m):
         return False
-    return change_one(m) if changed > 1 else exchange_one(m)
+    if changed > 1:
+        return change_one(m)
+    return exchange_one(m) or open_one(m)
 
 
 @compiled
@@ -89,3 +98,42 @@ def exchange_one(m):
                 return True
             zones[z] = left
     return False
+
+
+@compiled
+def open_one(m):
+    """Another that holds lets go, by the guard nearest to its limit of those that determine all; False without one."""
+    problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
+    nz, ng = problem.n_zones, guards.n_guards
+    zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
+    machine, may_let_go = indices(guards.at_guard_machine, ng), indices(problem.at_may_hold, ng)
+    g, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
+    evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g_probe)
+    opens, best, nearest = -1, 0, -1e308
+    for i in range(ng):
+        z = machine[i]
+        if z < 0 or may_let_go[i] == 0 or g[i] == NOT_IN_FORCE or g[i] / tolerance[i] <= nearest:
+            continue
+        if zones[z] != before[z]:
+            continue
+        left = zones[z]
+        follow(m, i)
+        if zones[z] != left and determines(m):
+            opens, best, nearest = z, zones[z], g[i] / tolerance[i]
+        zones[z] = left
+    if opens < 0:
+        return False
+    left = zones[opens]
+    zones[opens] = best
+    for k in range(nz):
+        before[k] = zones[k]
+    before[opens] = left
+    return determines(m)
+
+
+@compiled
+def follow(m, i):
+    """Follow guard i alone."""
+    guards = m.events.guards
+    indices(guards.at_fired, guards.n_guards)[0] = i
+    switch_at(m.problem.call_switch, (m.problem.context, m.point.t, m.point.at_y, guards.at_fired, 1))
