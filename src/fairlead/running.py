@@ -17,6 +17,7 @@ from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
+from fairlead.analysis.record.names import unknown_signals
 from fairlead.analysis.record.never_closed import NeverClosed
 from fairlead.analysis.record.no_rebound import remark as no_rebound
 from fairlead.analysis.record.pushes import pushes
@@ -41,6 +42,7 @@ from fairlead.integrate.problem import Run, Status
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
+from fairlead.patterns import picked
 from fairlead.processor import processor
 from fairlead.result import Result
 from fairlead.results import MemoryRun, RunDirectory, Signal, Sink
@@ -72,6 +74,9 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         raise UsageError(f"{fault.what} {fault.way_out}")
     patterns = _patterns(netlist)
     recording = system.recording(patterns)
+    names = {signal.name: None for signal in recording.chosen}
+    if not all(picked(names, text) for text in patterns) and (faults := unknown_signals(system.flat.assembly)):
+        raise ModelError(faults)
     limits = read_limits(without_gone(system.flat.assembly, netlist.limits), recording.recorded)
     creeping = [signal.name for signal in recording.recorded if signal.role == CREEP]
     compiled = time.perf_counter() - begun
@@ -144,7 +149,7 @@ def failed(problem: Any) -> bool:
 def failure_of(problem: Any, status: Status, t: float) -> str:
     """What the components say of the end of a run: a controller that failed, a table without a value there; or ""."""
     for controller in problem.controllers:
-        if isinstance(controller.failure, KeyboardInterrupt | SystemExit):
+        if isinstance(controller.failure, KeyboardInterrupt):
             raise controller.failure
         if controller.failure is not None:
             return str(controller.complaint)

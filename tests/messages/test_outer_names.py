@@ -112,3 +112,19 @@ def test_a_value_at_a_signal_is_told_by_load_as_by_check(given, told, tmp_path):
     assert fairlead.load(tmp_path / "puller.yaml", set={"start": "2 mm"}).netlist.name == "puller"
     with pytest.raises(ModelError, match=told):
         fairlead.load(tmp_path / "puller.yaml", set=given)
+
+
+def test_a_run_refuses_what_it_would_record_in_vain(scene):
+    """As `check` does: after a long run the signal would be missing."""
+    model = scene("""
+        components:
+          wall: {type: Ground}
+          spring: {type: Spring, stiffness: 100 N/m}
+          block: {type: Mass, mass: 1 kg, velocity: 1 m/s}
+        connections: [[wall.flange, spring.a], [spring.b, block.flange]]
+        run: {stop: 0.1 s}
+        record: {signals: [block.x, block.vv, "q*"]}
+    """)
+    with pytest.raises(ModelError, match=r"no signal has the name block\.vv\. Did you mean block\.v\?") as caught:
+        model.run(out=None)
+    assert "no signal has the name q*" in str(caught.value)

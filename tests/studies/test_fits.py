@@ -221,3 +221,25 @@ def test_a_driven_pendulum_is_fitted_by_statistics_where_it_is_chaotic(tmp_path,
     residuals = target.residuals({"torque": torque})
     # where it is periodic the course agrees; where it is not, each statistic within a few deviations of its own
     assert np.abs(residuals).max() < (1e-3 if by == "time" else 5)
+
+
+def test_a_constant_record_of_a_scene_that_moves_is_no_chaos(tmp_path) -> None:
+    """Its spread is zero; so what the residuals vary by counts."""
+    rows = "".join(f"{0.1 * k!r},0\n" for k in range(100))
+    (tmp_path / "x.csv").write_text(f"t [s],x [m]\n{rows}")
+    (tmp_path / "scene.yaml").write_text("""schema: 1
+name: swings
+components:
+  wall: {type: Ground}
+  spring: {type: Spring, stiffness: 100 N/m}
+  block: {type: Mass, mass: 1 kg, position: 0.1 m, velocity: 0}
+  pad: {type: Contact, normal_force: 2 N, curve: 0.3}
+connections: [[wall.flange, spring.a, pad.a], [spring.b, block.flange, pad.b]]
+run: {stop: 10 s}
+""")
+    (tmp_path / "fit.yaml").write_text(
+        "model: scene.yaml\nrecords:\n  one: {file: x.csv, time: t, signals: {block.x: x}}\nparameters:\n"
+        "  spring.stiffness: {start: 100 N/m, low: 50 N/m, high: 200 N/m}\n"
+    )
+    _, (target,), chaotic = prepared(read_fit(tmp_path / "fit.yaml"))
+    assert (chaotic, target.by) == ({"one": False}, "time")

@@ -90,6 +90,8 @@ def test_a_controller_that_reads_a_port_by_itself_sees_its_motion(simulate, libr
         (("len(self.history)}", "1 / (len(self.history) - 3)}"), r"t = 0\.1 s: control: ZeroDivisionError"),
         (('"count": len', '"cuont": len'), r"sample gives \['cuont', 'force'\], and the outputs are \['count'"),
         (("len(self.history)}", 'float("nan")}'), r"ValueError: sample gives count = nan"),
+        (("len(self.history)}", '"5 N"}'), r"sample gives count = '5 N', and a number is wanted \(.*classes0\.py:\d+"),
+        (("len(self.history)}", "exit(0)}"), r"t = 0 s: control: SystemExit: 0 \(.*classes0\.py:27"),
         (("-self.gain", "-self.gian"), r"AttributeError.*gian.*classes0\.py:27"),
     ],
 )  # fmt: skip

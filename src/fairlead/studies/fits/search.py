@@ -77,14 +77,18 @@ class Counted:
 
 
 def chaotic(records: list[Record], problem: Callable[[list[Target]], Problem]) -> dict[str, bool]:
-    """Whether a change of parameters that means nothing changes the course of each record."""
+    """Whether a change of parameters that means nothing changes the course of each record.
+
+    It is compared with how much the record varies; with how much the residuals do at the start, if it is constant.
+    """
     found = {}
     for record in records:
         one = problem([Target(record, TIME)])
         floor = noise_floor(one.residuals, one.start, one.bounds)
         spread = np.concatenate([np.full(v.size, np.std(v) / (record.measured.noise[name] or np.std(v) or 1.0))
                                  for name, v in record.measured.values.items()])  # fmt: skip
-        found[record.name] = bool(floor > CHAOS * float(np.sqrt((spread**2).mean())))
+        varies = float(np.sqrt((spread**2).mean())) or float(np.std(one.residuals(one.start)))
+        found[record.name] = bool(floor > CHAOS * varies)
     return found
 
 

@@ -177,11 +177,15 @@ class Asked:
 
     def figures(self, texts: Iterable[str], option: str) -> dict[str, str | Function]:
         """Figures of a command line, `NAME=FIGURE` or just FIGURE, by name."""
-        wanted = {}
+        wanted: dict[str, str | Function] = {}
+        written: dict[str, str] = {}
         for text in texts:
             named = re.fullmatch(r"\s*([^=()]+?)\s*=\s*(.+)", text)
             name, said = (named[1], named[2]) if named else (text.strip(), text)
-            wanted[name] = self.figure(Location(option), said, Path())
+            if name in written and written[name] != said:
+                what = f"{option} gives {shown(name)} twice: {shown(written[name])} and {shown(said)}"
+                self.faults.append(Fault(Location(option), what, "Give each figure a name of its own."))
+            wanted[name], written[name] = self.figure(Location(option), said, Path()), said
         return wanted
 
     def pairs(self, where: Location, given: Mapping[str, float]) -> dict[tuple[str, str], float]:

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
+from fairlead.brief import brief
 from fairlead.component.instantiate import Instance
 from fairlead.errors import FairleadError, RunWarning
 from fairlead.system.arrays.blocks import Block, Memory
@@ -51,8 +52,9 @@ class CalledController:
             return f"t = {self.failed_at:.6g} s: {self.instance.path}: {self.failure}"
         frames = traceback.extract_tb(self.failure.__traceback__)
         file = inspect.getsourcefile(self.instance.type)
-        own = [frame for frame in frames if frame.filename == file]
-        place = f" ({own[-1].filename}:{own[-1].lineno})" if own else ""
+        own = [(frame.filename, frame.lineno) for frame in frames if frame.filename == file]
+        where, line = own[-1] if own else _of_sample(self.instance)
+        place = f" ({where}:{line})" if where else ""
         what = f"{type(self.failure).__name__}: {self.failure}"
         return f"t = {self.failed_at:.6g} s: {self.instance.path}: {what}{place}"
 
@@ -100,7 +102,7 @@ class CalledController:
             said = {next(iter(self._held)): said} if len(self._held) == 1 else {}
         if set(said) != set(self._held):
             raise TypeError(f"sample gives {sorted(said)}, and the outputs are {sorted(self._held)}")
-        values = {name: float(value) for name, value in said.items()}
+        values = {name: _number(name, value) for name, value in said.items()}
         for name, value in values.items():
             if not math.isfinite(value):
                 raise ValueError(f"sample gives {name} = {value}")
@@ -130,6 +132,20 @@ def called_controllers(blocks: Sequence[Block], numbering: Numbering, memory: Me
             found.append(CalledController(blocks[b], int(i), numbering, memory))
             memory["sample_kernels"][k] = found[-1].address
     return found
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        nothing = "; it returns nothing" if value is None else ""
+        raise TypeError(f"sample gives {name} = {brief(value)}, and a number is wanted{nothing}") from None
+
+
+def _of_sample(instance: Instance) -> tuple[str | None, int]:
+    """File and line of the class's `sample`."""
+    method = instance.type.sample  # type: ignore[attr-defined]
+    return inspect.getsourcefile(method), method.__code__.co_firstlineno
 
 
 def _made(instance: Instance) -> Any:
