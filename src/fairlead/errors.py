@@ -186,8 +186,8 @@ def listing(names: Iterable[str], most: int = 12) -> str:
     return f"{shown_words} and {len(words) - most} more" if len(words) > most else shown_words
 
 
-def shown(value: object) -> str:
-    """A value from a user's file as it may stand in a message: one line, printable, short."""
+def shown(value: object, most: int = LONGEST_VALUE_SHOWN) -> str:
+    """A value from a user's file as it may stand in a message: one line, printable, of `most` characters."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if value is None:
@@ -199,8 +199,8 @@ def shown(value: object) -> str:
     if isinstance(value, int) and abs(value) >= 10**LONGEST_VALUE_SHOWN:
         return f"a whole number of more than {LONGEST_VALUE_SHOWN} digits"
     text = value if isinstance(value, str) else str(value)
-    if len(text) > LONGEST_VALUE_SHOWN:
-        return f"{_printable(text[: LONGEST_VALUE_SHOWN - 20])!r}... ({len(text)} characters)"
+    if len(text) > most:
+        return f"{_printable(text[: most - 20])!r}... ({len(text)} characters)"
     return _printable(text) if text.strip() else repr(text)
 
 

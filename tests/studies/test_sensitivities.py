@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.cli import app
-from fairlead.errors import FairleadError, ModelError
+from fairlead.errors import FairleadError, ModelError, UsageError
 from fairlead.fmu import export
 
 BELT = fairlead.load("belt", set={"run.accuracy": "1e-8", "run.stop": "4 s"})
@@ -176,3 +176,12 @@ def test_the_command_prints_a_table_a_record_and_csv(tmp_path) -> None:
 def test_the_name_of_a_model_is_no_model(ask) -> None:
     with pytest.raises(ModelError, match=r"model = belt is not a Model\n +Load it: fairlead\.load\('belt'\)\."):
         ask("belt")
+
+
+def test_a_list_of_parameters_may_give_sizes() -> None:
+    """As the message for a parameter of zero has it: NAME=SIZE, among others or alone."""
+    from fairlead.cli.sensitivity import _parameters
+
+    assert _parameters(["m, k", "zero=0.1 mm,n"]) == {"m": None, "k": None, "zero": "0.1 mm", "n": None}
+    with pytest.raises(UsageError, match="--to names m twice"):
+        _parameters(["m", "m=1 kg"])

@@ -2,7 +2,6 @@
 
 import json
 import pathlib
-import re
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -68,12 +67,11 @@ def _figures(texts: list[str]) -> "dict[str, str | Function] | None":
 def _parameters(texts: list[str]) -> dict[str, str | None] | None:
     """`["mu,speed", "offset=1 mm"]` as names with sizes. Raises UsageError for a name that comes twice."""
     found: dict[str, str | None] = {}
-    for text in texts:
-        named = re.fullmatch(r"\s*([^=,]+?)\s*=\s*(.+)", text)
-        for name in [named[1]] if named else [one.strip() for one in text.split(",") if one.strip()]:
-            if name in found:
-                raise UsageError(f"--to names {shown(name)} twice.")
-            found[name] = named[2] if named else None
+    for one in (one for text in texts for one in text.split(",") if one.strip()):
+        name, _, size = (part.strip() for part in one.partition("="))
+        if name in found:
+            raise UsageError(f"--to names {shown(name)} twice.")
+        found[name] = size or None
     return found or None
 
 

@@ -32,6 +32,7 @@ START_LIMIT = 120.0  # s, for Python to start and import FMPy on a busy machine
 HEARD = 30.0
 """s, for a process to end whose output has, and for what was printed to be read: long on busy machines only."""
 LAST_WORDS = 3  # lines of what the code printed that are told when it fails
+MOST_PRINTED = 400  # characters of them
 DOES = {"open": "its initialisation", "step": "doStep", "save": "getFMUState", "load": "setFMUState"}
 
 
@@ -113,7 +114,7 @@ class ForeignProcess:
         """The last that the code printed before it failed or ended."""
         self._heard.acquire(timeout=HEARD)
         words = " | ".join(line for line in self._words if line)
-        return f" It printed: {shown(words)}" if words else ""
+        return f" It printed: {shown(words, MOST_PRINTED)}" if words else ""
 
 
 def _answers(stream: IO[bytes], to: queue.SimpleQueue[bytes]) -> None:
