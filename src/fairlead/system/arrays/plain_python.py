@@ -12,9 +12,8 @@ from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from fairlead.brief import brief
 from fairlead.component.instantiate import Instance
-from fairlead.errors import FairleadError, RunWarning
+from fairlead.errors import FairleadError, RunWarning, shown
 from fairlead.system.arrays.blocks import Block, Memory
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -139,7 +138,7 @@ def _number(name: str, value: Any) -> float:
         return float(value)
     except (TypeError, ValueError):
         nothing = "; it returns nothing" if value is None else ""
-        raise TypeError(f"sample gives {name} = {brief(value)}, and a number is wanted{nothing}") from None
+        raise TypeError(f"sample gives {name} = {shown(repr(value))}, and a number is wanted{nothing}") from None
 
 
 def _of_sample(instance: Instance) -> tuple[str | None, int]:
