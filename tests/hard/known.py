@@ -23,6 +23,7 @@ ASIDE = "ida: a body that is put back to what moves as given is not in its histo
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
 QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
 PASSED = "stepping: a core is shown 3e-4 of its largest tension below zero in the row before it goes slack, at 1e-4"
+LATE = "ida: one of ten routes fails, and its 120 s run out while a smaller one is looked for; not traced yet"
 ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and this engine with hold"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
@@ -52,6 +53,7 @@ anew."""
 WORSE: tuple[tuple[str, str, str, str], ...] = (
     ("body that a shaking plate throws, 8 Hz", "ida", "none", ASIDE),
     ("core that goes slack", "stepping", "hold", PASSED),
+    ("random routes, 10", "ida", "*", LATE),
 )
 """Rows that docs/stability.md shows as coming through at its commit, and that fail; as in KNOWN, where they belong once
 it is made anew."""
