@@ -23,7 +23,7 @@ ASIDE = "ida: a body that is put back to what moves as given is not in its histo
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
 QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
 PASSED = "stepping: a core is shown 3e-4 of its largest tension below zero in the row before it goes slack, at 1e-4"
-LATE = "ida: one of ten routes fails, and its 120 s run out while a smaller one is looked for; not traced yet"
+LATE = "ida: the last of ten routes is not through when the 120 s of all are over; nothing it had shown is wrong"
 ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and this engine with hold"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
