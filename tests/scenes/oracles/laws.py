@@ -8,7 +8,7 @@
 written here once more, from docs/physics.md. It sees a wrong law, sign, coefficient or limit, friction that drives,
 contacts that hold more than they can, stops that pull. Friction is judged at the ends of steps: inside a step it is
 shown by the dense output, not by its curve. What a contact holds beyond its limit, or a stop pulls, counts by its
-impulse, since one that toggles is kept in its zone for a dwell of a millionth of the span.
+impulse, since one that toggles is kept in its zone for a dwell, at most a millionth of the span.
 
 It cannot see whether the motion follows from the forces (momentum.py), nor judge treatments of sticking that bend or
 creep, nor lines on routes.

@@ -25,6 +25,8 @@ STILL = 0.1
 AGAIN = 4.0
 """Dwells after one within which the next is twice as long: what bounces ever faster and has no zone to rest in falls
 through then, and is named, where it would bounce again and again after ever so short a fall."""
+MOST_HELD = 100.0
+"""Dwells that one may so become: nothing moves by more than ten error weights then, however long the run would last."""
 NO_WAY = 1e-3
 """Of STILL: switches nearer to each other than nothing moves by this share of it do not advance."""
 RESOLVED = 1e-14
@@ -108,12 +110,12 @@ def bounces(problem, z):
 
 @compiled
 def block(problem, run, point, events, z):
-    """Hold machine z in its zone for one dwell; twice as long as before where that was just over, up to `run.dwell`."""
+    """Hold machine z in its zone for one dwell; where one was just over twice as long as before, up to MOST_HELD."""
     until = reals(events.guards.at_blocked_until, problem.n_zones)
     held = reals(events.settling.at_held_for, problem.n_zones)
     dwell = dwell_here(run, point)
     if point.t - until[z] <= AGAIN * held[z]:
-        dwell = min(max(dwell, 2.0 * held[z]), run.dwell)
+        dwell = min(max(dwell, 2.0 * held[z]), MOST_HELD * dwell, run.dwell)
     held[z] = max(dwell, RESOLVED * abs(point.t))
     until[z] = point.t + held[z]
     run.t_release = min(run.t_release, until[z])

@@ -61,5 +61,9 @@ def moves_apart(m):
 def judge_given(m, h):
     """Let the slip of such rows at the end of the trial step count as its error."""
     if m.problem.rigid_circles == 1 and m.run.adaptive == 1:
+        worst = m.point.worst
         slip = slip_of_given(m.problem, m.point, m.linear.matrices, m.point.t + h, m.point.at_y_end)
-        m.run.error = max(m.run.error, slip / MOST_APART)
+        if slip / MOST_APART > m.run.error:
+            m.run.error = slip / MOST_APART
+        else:
+            m.point.worst = worst

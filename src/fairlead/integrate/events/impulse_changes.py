@@ -3,9 +3,10 @@
 The integral z of what follows from a force, z' = f(force, speeds), takes in the impulse, as an impulse is the integral
 of its force:
 
-    change of z = (df/dforce) (1 + e) P        at the force P / SHORT and at the speeds halfway through their change
+    change of z = (df/dforce) (1 + e) P        at the force of P (impulse_load.py), at the speeds halfway through
 
-Halfway, because the integral of a power is then the work: a speed changes evenly with the impulse.
+Halfway through their change, because the integral of a power is then the work: a speed changes evenly with the
+impulse.
 """
 
 from __future__ import annotations
