@@ -11,6 +11,8 @@ class DcDrive(Component):
     in range              L di/dt = u - R i - K w,  u the command
     upper, lower          the same with u = +-most_voltage
     forward, backward     the current is kept at +-most_current by less voltage than asked for
+    overrun_forward,      the shaft drives the current beyond +-most_current, though all the voltage there is,
+    overrun_backward      -+most_voltage, is against it
     """
 
     shaft = Rotational("the shaft")
@@ -24,20 +26,23 @@ class DcDrive(Component):
     current, voltage = Output("A", "Current."), Output("V", "Voltage at the motor.")
     torque = Output("N*m", "Torque on the shaft.")
     zones = Zones(
-        "in_range", "upper", "lower", "forward", "backward",
-        forward=["upper", "forward"], backward=["lower", "backward"],
+        "in_range", "upper", "lower", "forward", "backward", "overrun_forward", "overrun_backward",
+        forward=["upper", "forward", "overrun_forward"], backward=["lower", "backward", "overrun_backward"],
     )  # fmt: skip
-    saturates_in = ("upper", "lower", "forward", "backward")
+    saturates_in = ("upper", "lower", "forward", "backward", "overrun_forward", "overrun_backward")
 
-    @zone("in_range", "upper", "lower", "forward", "backward")
+    @zone("in_range", "upper", "lower", "forward", "backward", "overrun_forward", "overrun_backward")
     def driving(p, shaft, command, flowing, zone):
         """The voltage of the zone at the winding."""
         needed = p.resistance * flowing + p.constant * shaft.speed
         if zone in ("forward", "backward"):
-            most = p.most_current if zone == "forward" else -p.most_current
-            voltage = needed + p.resistance / BRISK * (most - flowing)
+            voltage = limiting(p, shaft, flowing, p.most_current if zone == "forward" else -p.most_current)
+        elif zone in ("upper", "overrun_backward"):
+            voltage = p.most_voltage
+        elif zone in ("lower", "overrun_forward"):
+            voltage = -p.most_voltage
         else:
-            voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, command)
+            voltage = command
         torque = p.constant * flowing
         return Law(shaft=-torque, flowing=(voltage - needed) / p.inductance, current=flowing, voltage=voltage,
                    torque=torque, stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
@@ -61,6 +66,16 @@ class DcDrive(Component):
         further = direction * drive(p, shaft, direction * p.most_current, direction * p.most_voltage)
         return -further, (direction * command - p.most_voltage) / p.resistance
 
+    @guard("forward", to="overrun_forward", unit="V", mirrored="overruns_backward")
+    def overruns(p, shaft, flowing, direction):
+        """The limiter asks for more voltage against the current than there is."""
+        return -p.most_voltage - direction * limiting(p, shaft, flowing, direction * p.most_current)
+
+    @guard("overrun_forward", to="forward", unit="V", mirrored="overrun_ends_backward")
+    def overrun_ends(p, shaft, flowing, direction):
+        """It asks for no more than there is."""
+        return p.most_voltage + direction * limiting(p, shaft, flowing, direction * p.most_current)
+
     @guard("in_range", "lower", to="upper", unit="V", mirrored="saturates_backward")
     def saturates(p, command, direction):
         """More is asked for than there is."""
@@ -74,6 +89,11 @@ class DcDrive(Component):
     def fastest(p):
         """All the voltage of the supply, without current and without speed, or the current it is limited to."""
         return p.most_voltage / p.constant, p.constant * min(p.most_current, p.most_voltage / p.resistance)
+
+
+def limiting(p, shaft, flowing, current):
+    """Voltage by which the limiter keeps a current [V]."""
+    return p.resistance * flowing + p.constant * shaft.speed + p.resistance / BRISK * (current - flowing)
 
 
 def drive(p, shaft, current, voltage):
