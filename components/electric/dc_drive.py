@@ -6,13 +6,17 @@ BRISK = 0.01  # the limiter holds the current with this share of the electrical 
 
 
 class DcDrive(Component):
-    """An amplifier gives the voltage asked for, up to its limit, and less if the current would exceed its own limit.
+    """An amplifier gives the voltage asked for, or what keeps the current below its limit, and no more than it has:
 
-    in range              L di/dt = u - R i - K w,  u the command
-    upper, lower          the same with u = +-most_voltage
-    forward, backward     the current is kept at +-most_current by less voltage than asked for
-    overrun_forward,      the shaft drives the current beyond +-most_current, though all the voltage there is,
-    overrun_backward      -+most_voltage, is against it
+        L di/dt = u - R i - K w
+        u = clip(clip(command, u-, u+), -most_voltage, most_voltage),  u+- = R i + K w + (R/0.01) (+-most_current - i)
+
+    u+ and u- are what a limiter asks for that keeps the current at its limits within a hundredth of L/R. A load that
+    overruns the motor may still drive the current beyond them: all the voltage there is is then against it.
+
+    in_range              u = command
+    forward, backward     u = u+, u-
+    upper, lower          u = +-most_voltage
     """
 
     shaft = Rotational("the shaft")
@@ -26,65 +30,58 @@ class DcDrive(Component):
     current, voltage = Output("A", "Current."), Output("V", "Voltage at the motor.")
     torque = Output("N*m", "Torque on the shaft.")
     zones = Zones(
-        "in_range", "upper", "lower", "forward", "backward", "overrun_forward", "overrun_backward",
-        forward=["upper", "forward", "overrun_forward"], backward=["lower", "backward", "overrun_backward"],
+        "in_range", "upper", "lower", "forward", "backward",
+        forward=["upper", "forward"], backward=["lower", "backward"],
     )  # fmt: skip
-    saturates_in = ("upper", "lower", "forward", "backward", "overrun_forward", "overrun_backward")
+    saturates_in = ("upper", "lower", "forward", "backward")
 
-    @zone("in_range", "upper", "lower", "forward", "backward", "overrun_forward", "overrun_backward")
+    @zone("in_range", "upper", "lower", "forward", "backward")
     def driving(p, shaft, command, flowing, zone):
         """The voltage of the zone at the winding."""
-        needed = p.resistance * flowing + p.constant * shaft.speed
         if zone in ("forward", "backward"):
             voltage = limiting(p, shaft, flowing, p.most_current if zone == "forward" else -p.most_current)
-        elif zone in ("upper", "overrun_backward"):
-            voltage = p.most_voltage
-        elif zone in ("lower", "overrun_forward"):
-            voltage = -p.most_voltage
         else:
-            voltage = command
+            voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, command)
         torque = p.constant * flowing
-        return Law(shaft=-torque, flowing=(voltage - needed) / p.inductance, current=flowing, voltage=voltage,
-                   torque=torque, stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
-                   supplied=voltage * flowing)  # fmt: skip
+        return Law(shaft=-torque, flowing=(voltage - p.resistance * flowing - p.constant * shaft.speed) / p.inductance,
+                   current=flowing, voltage=voltage, torque=torque, stored=p.inductance * flowing**2 / 2,
+                   dissipated=p.resistance * flowing**2, supplied=voltage * flowing)  # fmt: skip
 
-    @guard("in_range", "upper", to="forward", unit="A", mirrored="current_falls")
-    def current_rises(p, shaft, command, flowing, zone, direction):
-        """The current reaches its limit, and the voltage would drive it on."""
-        voltage = command if zone == "in_range" else direction * p.most_voltage
-        return direction * flowing - p.most_current, direction * drive(p, shaft, flowing, voltage)
+    @guard("in_range", to="forward", unit="V", mirrored="current_falls")
+    def current_rises(p, shaft, command, flowing, direction):
+        """The limiter asks for less than the command."""
+        return direction * (command - limiting(p, shaft, flowing, direction * p.most_current))
 
-    @guard("forward", to="in_range", unit="A", mirrored="backward_ends")
+    @guard("forward", to="in_range", unit="V", mirrored="backward_ends")
     def forward_ends(p, shaft, command, flowing, direction):
-        """The voltage asked for would lower the current."""
-        further = direction * drive(p, shaft, direction * p.most_current, command)
-        return -further, (p.most_voltage - direction * command) / p.resistance
+        """It asks for more than the command."""
+        return direction * (limiting(p, shaft, flowing, direction * p.most_current) - command)
 
-    @guard("forward", to="upper", unit="A", mirrored="voltage_runs_out_backward")
-    def voltage_runs_out(p, shaft, command, flowing, direction):
-        """So would all the voltage there is."""
-        further = direction * drive(p, shaft, direction * p.most_current, direction * p.most_voltage)
-        return -further, (direction * command - p.most_voltage) / p.resistance
+    @guard("upper", to="forward", unit="V", mirrored="current_falls_from_lower")
+    def current_rises_from_upper(p, shaft, flowing, direction):
+        """It asks for less than all there is."""
+        return p.most_voltage - direction * limiting(p, shaft, flowing, direction * p.most_current)
 
-    @guard("forward", to="overrun_forward", unit="V", mirrored="overruns_backward")
+    @guard("forward", to="upper", unit="V", mirrored="backward_ends_at_lower")
+    def forward_ends_at_upper(p, shaft, flowing, direction):
+        """It asks for more than there is."""
+        return direction * limiting(p, shaft, flowing, direction * p.most_current) - p.most_voltage
+
+    @guard("forward", to="lower", unit="V", mirrored="overruns_backward")
     def overruns(p, shaft, flowing, direction):
-        """The limiter asks for more voltage against the current than there is."""
+        """It asks for more against the current than there is: the load overruns the motor."""
         return -p.most_voltage - direction * limiting(p, shaft, flowing, direction * p.most_current)
 
-    @guard("overrun_forward", to="forward", unit="V", mirrored="overrun_ends_backward")
-    def overrun_ends(p, shaft, flowing, direction):
-        """It asks for no more than there is."""
-        return p.most_voltage + direction * limiting(p, shaft, flowing, direction * p.most_current)
-
-    @guard("in_range", "lower", to="upper", unit="V", mirrored="saturates_backward")
+    @guard("in_range", to="upper", unit="V", mirrored="saturates_backward")
     def saturates(p, command, direction):
-        """More is asked for than there is."""
+        """The command asks for more than there is."""
         return direction * command - p.most_voltage
 
     @guard("upper", to="in_range", unit="V", mirrored="comes_back_backward")
-    def comes_back(p, command, direction):
-        """Less is asked for than there is."""
-        return p.most_voltage - direction * command
+    def comes_back(p, shaft, command, flowing, direction):
+        """Neither the command nor the limiter of the other direction asks for all there is."""
+        against = direction * limiting(p, shaft, flowing, -direction * p.most_current)
+        return p.most_voltage - direction * command, p.most_voltage - against
 
     def fastest(p):
         """All the voltage of the supply, without current and without speed, or the current it is limited to."""
@@ -94,8 +91,3 @@ class DcDrive(Component):
 def limiting(p, shaft, flowing, current):
     """Voltage by which the limiter keeps a current [V]."""
     return p.resistance * flowing + p.constant * shaft.speed + p.resistance / BRISK * (current - flowing)
-
-
-def drive(p, shaft, current, voltage):
-    """How much further a voltage would drive a current [A]: the final one less this."""
-    return (voltage - p.constant * shaft.speed) / p.resistance - current
