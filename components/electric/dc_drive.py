@@ -6,7 +6,7 @@ BRISK = 0.01  # the limiter holds the current with this share of the electrical 
 
 
 class DcDrive(Component):
-    """An amplifier gives the voltage asked for, or what keeps the current below its limit, and no more than it has:
+    """An amplifier gives the voltage asked for, or what keeps the current below its limit, and no more than it has.
 
         L di/dt = u - R i - K w
         u = clip(clip(command, u-, u+), -most_voltage, most_voltage),  u+- = R i + K w + (R/0.01) (+-most_current - i)
