@@ -15,8 +15,8 @@ from generate.text import flowing
 TAKEN = {"single_bend": "page_light.png", "guidance_route": "page_dark.png"}
 """Models with a picture of their page in docs/figures, which a browser takes."""
 DEAR = frozenset({
-    "guidance_route_electric", "guidance_route_ideal", "guidance_route_sized", "long_deployment", "long_route", "plant",
-    "electronics",
+    "guidance_route_electric", "guidance_route_ideal", "guidance_route_sized", "long_deployment",
+    "long_deployment_sized", "long_route", "long_route_sized", "plant", "electronics",
 })  # fmt: skip
 """Models that show their wiring only: their runs take too long for a build, or say nothing without their other half."""
 FOLDERS = {"machines": "Whole machines", "hard": "Hard cases, each with a closed form",
