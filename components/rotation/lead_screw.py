@@ -115,8 +115,8 @@ class LeadScrew(Screw):
     Source: square and angular threads, e.g. Shigley's Mechanical Engineering Design, power screws.
 
     Limits: there is no play (put a Backlash on the shaft) and no give. The collar that takes the thrust is a Bearing
-    of its own. A screw that locks itself may jam while a load is let down: no motion of rigid parts exists then, and a
-    run ends with zones that did not settle. This happens if the mass m' at the nut is above
+    of its own. A screw that locks itself may jam while a load is let down: unless the shaft pushes, no motion of rigid
+    parts exists then, and a run ends. This happens if the mass m' at the nut is above
 
         J/r^2 (1 + m tan s)/(tan s (m - tan s))        J: moment of inertia of the shaft
 

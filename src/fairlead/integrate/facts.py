@@ -74,6 +74,13 @@ class Facts(Protocol):
         """
 
     @property
+    def pressing(self) -> Integers:
+        """[k, 2]: rows that hold for ever whose force other laws read through signals, as the friction of a screw does.
+
+        With each the sign, 1 or -1, of the force by which a rigid part answers a push that nothing else answers.
+        """
+
+    @property
     def rebound(self) -> Floats:
         """[n]: the coefficient of restitution with which a row takes impulses, 0 for none (rebound.py)."""
 
@@ -231,6 +238,11 @@ class Plain:
     def takes_impulse(self) -> Integers:
         """No row does."""
         return np.zeros(len(self.initial), dtype=np.int64)
+
+    @property
+    def pressing(self) -> Integers:
+        """No force is read."""
+        return np.zeros((0, 2), dtype=np.int64)
 
     @property
     def rebound(self) -> Floats:

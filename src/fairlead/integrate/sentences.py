@@ -59,6 +59,17 @@ LATER = (
 """What to do where no consistent values are found: at the start, and at a switch."""
 
 
+def jam(problem: Problem) -> str:
+    """What else may be the cause where friction reads the force of a rigid part (events/right_root.py)."""
+    names = ", ".join(problem.unknown_names[row] for row in problem.pressing[:MOST_NAMED, 0].tolist())
+    if not names:
+        return ""
+    return (
+        f" What locks itself by friction that follows its own force ({names}) may jam there, as a screw does that lets "
+        "down a load with much inertia: no motion of rigid parts exists then. Put a spring between it and the load."
+    )
+
+
 def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culprits: tuple[str, ...]) -> str:
     """One paragraph about the end of the run."""
     t, names = float(memory.number["t"]), ", ".join(culprits)
@@ -80,11 +91,12 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.NOT_SETTLED: (
             f"{when}: zones did not settle in {int(memory.number['passes'])} passes; still switching: "
             f"{cycling}. Two laws contradict each other there; add a mass, damping or hysteresis "
-            "between them."
+            f"between them.{jam(problem)}"
         ),
         Status.INCONSISTENT: (
             f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. "
             + (AT_START if t <= run.start else LATER)
+            + jam(problem)
         ),
         Status.SINGULAR: (
             f"{when}: the equations do not determine {names or 'all unknowns'}. A node without mass or "

@@ -19,12 +19,12 @@ from __future__ import annotations
 from fairlead.integrate.codes import SETTLING_FOR_IT
 from fairlead.integrate.events.balance import MOST_JUMPS, jump_to_balance
 from fairlead.integrate.events.chatter import watch_chatter, watch_progress
-from fairlead.integrate.events.consistent import make_consistent
 from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
+from fairlead.integrate.events.right_root import find_consistent
 from fairlead.integrate.events.violators import fire_violators, look_ahead, looked_ahead
 from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
@@ -62,7 +62,7 @@ def settle(m, iterations):
         if status == DONE and guards.n_fired > 0:
             continue
         if status == DONE:
-            status = make_consistent(m, iterations)
+            status = find_consistent(m, iterations)
         status = settle_nearby(m, status)
         if status == RELEASED:
             continue

@@ -25,6 +25,8 @@ PROBLEM = Struct(
         "n_met_guards",
         # what sines are taken of that no error of a step knows
         "n_swings",
+        # rows whose force other laws read
+        "n_pressing",
         # whether friction of a contact falls as it lets go
         "falling", "linear", "n_quadratures", "samples",
         # address of what the callbacks read of means of given motions, 0 where none is given
@@ -47,6 +49,8 @@ PROBLEM = Struct(
         # nodes without inertia: their positions and speeds
         "balanced_position": "n_balanced", "balanced_speed": "n_balanced",
         "met_guard": "n_met_guards",
+        # rows whose force other laws read, and the sign with which that answers a push
+        "pressing_row": "n_pressing", "pressing_sign": "n_pressing",
         # entries of M in columns of speeds without inertia
         "light": "n_light",
         # the speed of an acceleration that is an unknown; of others they themselves

@@ -13,6 +13,7 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Floats, Tables
 from fairlead.system.arrays.outputs import signals, stored
+from fairlead.system.arrays.read_forces import pressing
 from fairlead.system.arrays.shares import rows, shares
 from fairlead.system.arrays.switching import (
     asked_of_blows,
@@ -97,6 +98,7 @@ def build(
         guard_inertia=memory["guard_inertia"],
         holder=holders(blocks, numbering.n),
         takes_impulse=takes_impulse(blocks, numbering.n),
+        pressing=pressing(blocks, numbering),
         met_guard=met(blocks),
         limit_guard=limits(blocks),
         blow_guard=asked_of_blows(blocks),

@@ -78,6 +78,7 @@ class System:
     guard_inertia: Floats  # at the start
     holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
     takes_impulse: Integers  # per row: 0 it never holds, 1 it takes no impulse but rounding, 2 it takes any
+    pressing: Integers  # [k, 2]: rows whose force other laws read, with the sign of its answer to a push
     met_guard: Integers  # guards of places at which a stop is met
     limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
     blow_guard: Integers  # per guard: 1 if an impulse asks it with the speeds before

@@ -43,7 +43,7 @@ def start_speeds(system: System, initially: Collection[int]) -> tuple[Floats, li
     if not (system.takes_impulse >= RIGID).any():
         return system.initial, []
     here, y = system.instance(), system.initial.copy()
-    rows, missing = _rows(here) | _moving_rows(here, y), _missing(system, initially)
+    rows, missing = _light_rows(here, y) | _rows(here) | _moving_rows(here, y), _missing(system, initially)
     left = dict.fromkeys(rows)
     while left:
         free = {k: [j for j in rows[k] if missing[j]] for k in left}
@@ -69,6 +69,20 @@ def _rows(here: Instance) -> dict[int, dict[int, float]]:
         if here.takes_impulse[k] == RIGID and value != 0.0:
             rows.setdefault(k, {})[j] = value
     return rows
+
+
+def _light_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
+    """The same of rows that give a node without inertia its speed, which M does not have: slip is linear."""
+    columns, speeds = np.repeat(np.arange(here.n), np.diff(here.pattern.starts)), set(here.numbering.rate.values())
+    read: dict[int, list[int]] = {}
+    for k, j in zip(here.pattern.rows.tolist(), columns.tolist(), strict=True):
+        if here.takes_impulse[k] == RIGID and j in speeds:
+            read.setdefault(k, []).append(j)
+    light = {k: of for k, of in read.items() if not all(here.differential[of])}
+    slip, steps = _slip(here, y), np.eye(here.n)
+    moved = {j: _slip(here, y + steps[j]) - slip for j in dict.fromkeys(j for of in light.values() for j in of)}
+    rows = {k: {j: float(moved[j][k]) for j in of if moved[j][k] != 0.0} for k, of in light.items()}
+    return {k: row for k, row in rows.items() if row}
 
 
 def _moving_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:

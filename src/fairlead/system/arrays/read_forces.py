@@ -1,0 +1,60 @@
+"""Forces of rigid parts that other laws read, as the friction of a screw reads what presses its flanks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fairlead.kernels.structure import Structure
+from fairlead.system.arrays.blocks import Block, Integers
+from fairlead.system.numbering.unknowns import Numbering
+
+
+def pressing(blocks: Sequence[Block], numbering: Numbering) -> Integers:
+    """[k, 2]: rows that hold for ever whose force a law reads through signals, and the sign of its answer to a push.
+
+    A body p takes in  sense c_p force  of a row that keeps  sum c_p v_p  at zero. So what pushes that sum up by itself
+    is answered by a force of the sign of -sense.
+    """
+    read = _read_by_laws(blocks, numbering)
+    found: list[tuple[int, int]] = []
+    for block in blocks:
+        s = block.kernel.structure
+        for unknown in filter(lambda one, s=s: _holds_for_ever(s, one), s.rigid):
+            at, row = s.inputs.index(f"own:{unknown}"), s.targets.index(f"own:{unknown}")
+            sign = -int(np.sign(s.senses[unknown]))
+            for inputs, rows in zip(block.in_index.tolist(), block.flow_index.tolist(), strict=True):
+                if inputs[at] in read:
+                    found.append((rows[row], sign))
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
+
+
+def _holds_for_ever(s: Structure, unknown: str) -> bool:
+    """Whether a row holds in all zones, keeps speeds together, and is read."""
+    known = unknown in s.senses and unknown not in s.positions and f"own:{unknown}" in s.inputs
+    return known and set(s.holds[unknown]) == set(s.zones)
+
+
+def _read_by_laws(blocks: Sequence[Block], numbering: Numbering) -> set[int]:
+    """Places in z of signals that flows depend on, and of what those signals are made of."""
+    n, dump = numbering.n, numbering.dump
+    read = {
+        inputs[i]
+        for block in blocks
+        for inputs in block.in_index.tolist()
+        for _, i in block.kernel.structure.d_flows
+        if n <= inputs[i] < dump
+    }
+    made = [
+        (outputs[o], inputs[i])
+        for block in blocks
+        for inputs, outputs in zip(block.in_index.tolist(), block.sig_index.tolist(), strict=True)
+        for o, i in block.kernel.structure.d_signals
+        if outputs[o] != dump
+    ]
+    before = -1
+    while len(read) > before:
+        before = len(read)
+        read |= {source for result, source in made if result in read}
+    return read

@@ -1,0 +1,169 @@
+"""Gears and screws that lock themselves: where their equations have two answers, the one that a stiff part has.
+
+Closed forms: J w' = torque - what the load and its inertia take, in the direction in which the driving side pushes.
+"""
+
+from __future__ import annotations
+
+from math import cos, pi
+
+import pytest
+
+ENGINES = ("rodas", "stepping", "ida")
+
+GEAR = """
+    components:
+      {m}: {{type: TorqueSource, torque: {torque} N*m}}
+      {j}: {{type: Inertia, moment: {inertia} kg*m^2, speed: {speed} rad/s}}
+      {g}: {{type: LossyGear, ratio: {ratio!r}, efficiency: 0.45{more}}}
+      {d}: {{type: Inertia, moment: {moved} kg*m^2}}
+      {l}: {{type: TorqueSource, torque: {load} N*m}}
+    connections: [[{m}.shaft, {j}.shaft, {g}.a], [{g}.b, {d}.shaft, {l}.shaft]]
+    run: {{stop: {stop} s, accuracy: 1e-6}}
+"""
+NAMES = {"m": "m", "j": "j", "g": "g", "d": "d", "l": "l"}
+"""Above J/(ratio^2 (1/0.45 - 2)) = 40.5 kg m^2 the load of a gear with ratio 1/30 is heavy."""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(
+    ("torque", "load", "inertia", "moved", "ratio", "speed"),
+    [
+        (2.0, -10.0, 0.01, 100.0, 1 / 30, 100.0),  # lifts
+        (2.0, -10.0, 0.01, 30.0, 1 / 30, 100.0),  # the load is light: one answer
+        (2.0, 10.0, 0.01, 100.0, 1 / 30, 0.0),  # lets down, and must push the inertia of the load
+        (2.0, 10.0, 0.01, 1e5, 1 / 30, 3.0),
+        (40.0, -1.5, 0.01, 0.4, 3.0, 5.0),
+        (40.0, 0.5, 0.01, 0.4, 3.0, 0.0),
+        (40.0, 1.5, 0.01, 0.4, -3.0, 0.0),
+        (2e6, -1e7, 1e4, 1e8, 1 / 30, 100.0),
+        (2e-6, -1e-5, 1e-8, 1e-4, 1 / 30, 100.0),
+    ],
+)
+def test_a_gear_that_locks_itself_moves_as_its_driving_side_says(
+    simulate, engine, torque, load, inertia, moved, ratio, speed
+):
+    given = {"torque": torque, "load": load, "inertia": inertia, "moved": moved, "ratio": ratio, "speed": speed}
+    more = f", round_off: {1e-5 * abs(torque)} N*m"
+    result = simulate(GEAR.format(**given, **NAMES, more=more, stop=0.05), **{"run.engine": engine})
+    right = speed + 0.05 * (torque + ratio * load / 0.45) / (inertia + ratio**2 * moved / 0.45)
+    assert result["j.speed"][-1] == pytest.approx(right, rel=1e-3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_backward_it_moves_as_forward(simulate, engine):
+    ends = []
+    for way in (1, -1):
+        given = {"torque": 2.0 * way, "load": -10.0 * way, "inertia": 0.01, "moved": 100.0, "ratio": 1 / 30}
+        given["speed"] = 100.0 * way
+        result = simulate(GEAR.format(**given, **NAMES, more="", stop=0.2), **{"run.engine": engine})
+        ends.append(way * result["j.speed"][-1])
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9)
+    assert ends[0] == pytest.approx(100 + 0.2 * (2 - 10 / 30 / 0.45) / (0.01 + 100 / 900 / 0.45), rel=1e-4)
+
+
+def test_names_and_their_order_do_not_matter(simulate):
+    given = {"torque": 2.0, "load": -10.0, "inertia": 0.01, "moved": 100.0, "ratio": 1 / 30, "speed": 100.0}
+    given |= {"more": "", "stop": 0.2}
+    ends = []
+    for names in (NAMES, {"m": "z", "j": "y", "g": "a", "d": "x", "l": "b"}):
+        ends.append(simulate(GEAR.format(**given, **names))[f"{names['j']}.speed"][-1])
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9)
+
+
+SCREW = """
+    components:
+      m: {{type: TorqueSource, torque: {torque} N*m}}
+      j: {{type: Inertia, moment: 1e-5 kg*m^2, speed: {speed} rad/s}}
+      g: {{type: LeadScrew, radius: 10 mm, lead: 5 mm, curve: 0.12, half_angle: 15 deg}}
+      d: {{type: Mass, mass: {mass} kg}}
+      l: {{type: ForceSource, force: -200 N}}
+    connections: [[m.shaft, j.shaft, g.screw], [g.nut, d.flange, l.flange]]
+    run: {{stop: 10 ms, accuracy: 1e-6}}
+"""
+
+
+def taken(radius, lead, mu):
+    """Torque of a screw per axial force that it overcomes."""
+    tangent = lead / (2 * pi * radius)
+    return radius * (tangent + mu) / (1 - mu * tangent)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("torque", "mass", "speed"), [(1.0, 20, 100), (1.0, 60, 100), (1.0, 600, 100), (-1.0, 60, 0)])
+def test_a_screw_lifts_a_heavy_load_and_pushes_it_down(simulate, engine, torque, mass, speed):
+    result = simulate(SCREW.format(torque=torque, mass=mass, speed=speed), **{"run.engine": engine})
+    per_force, lead = taken(0.01, 0.005, 0.12 / cos(pi / 12)), 0.005 / (2 * pi)
+    pushed = (torque - 200 * per_force) / (1e-5 + mass * lead * per_force)  # also down, where both torques are negative
+    assert result["j.speed"][-1] == pytest.approx(speed + 0.01 * pushed, rel=1e-3)
+
+
+WORM = """
+    components:
+      m: {{type: TorqueSource, torque: 5 N*m}}
+      j: {{type: Inertia, moment: 1e-3 kg*m^2, speed: 100 rad/s}}
+      g: {{type: Worm, radius: 20 mm, lead: 12 mm, wheel_radius: 100 mm, curve: 0.14}}
+      d: {{type: Inertia, moment: {moved} kg*m^2}}
+      l: {{type: TorqueSource, torque: -50 N*m}}
+    connections: [[m.shaft, j.shaft, g.worm], [g.wheel, d.shaft, l.shaft]]
+    run: {{stop: 0.1 s, accuracy: 1e-6}}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("moved", [0.1, 10, 1000])
+def test_a_worm_lifts_a_heavy_load(simulate, engine, moved):
+    result = simulate(WORM.format(moved=moved), **{"run.engine": engine})
+    per_force, lead = taken(0.02, 0.012, 0.14), 0.012 / (2 * pi)
+    lifted = (5 - 500 * per_force) / (1e-3 + moved / 0.1**2 * lead * per_force)
+    assert result["j.speed"][-1] == pytest.approx(100 + 0.1 * lifted, rel=1e-3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_where_no_rigid_motion_exists_the_run_ends_and_says_that_it_may_jam(scene, tmp_path, engine):
+    given = {"torque": 0.01, "load": 10.0, "inertia": 0.01, "moved": 100.0, "ratio": 1 / 30, "speed": 5.0}
+    model = scene(GEAR.format(**given, **NAMES, more="", stop=0.2), **{"run.engine": engine})
+    result = model.run(out=None, check=False)
+    assert result.status == "failed"
+    assert "may jam there" in result.run["sentence"]
+    assert "g.teeth.carried" in result.run["sentence"]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_rigid_gear_is_the_limit_of_one_with_a_stiff_spring(simulate, engine):
+    given = {"torque": 2.0, "load": -10.0, "inertia": 0.01, "moved": 100.0, "ratio": 1 / 30, "speed": 100.0}
+    text = GEAR.format(**given, **NAMES, more="", stop=0.2)
+    rigid = simulate(text, **{"run.engine": engine})["j.speed"][-1]
+    spring = "      k: {type: TorsionSpring, stiffness: 1e7 N*m/rad, damping: 1e4 N*m*s/rad}\n    connections:"
+    sprung = text.replace("    connections:", spring)
+    sprung = sprung.replace("[g.b, d.shaft, l.shaft]", "[g.b, k.a], [k.b, d.shaft, l.shaft]")
+    sprung = sprung.replace("moment: 100.0 kg*m^2", "moment: 100.0 kg*m^2, speed: 3.3333333333333335 rad/s")
+    assert rigid == pytest.approx(simulate(sprung)["j.speed"][-1], rel=1e-6)
+
+
+STARTED = """
+    components:
+      m: {{type: TorqueSource, torque: 2 N*m}}
+      j: {{type: Inertia, moment: 0.01 kg*m^2, speed: {speed} rad/s}}
+      {gear}
+      k: {{type: TorsionSpring, stiffness: 1e7 N*m/rad, damping: {damping} N*m*s/rad}}
+      d: {{type: Inertia, moment: 100 kg*m^2, speed: {behind!r} rad/s}}
+    connections: [[m.shaft, j.shaft, g.a], [g.b, k.a], [k.b, d.shaft]]
+    run: {{stop: 1 us, accuracy: 1e-6}}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("damping", [1e2, 1e4])
+@pytest.mark.parametrize("speed", [100.0, -7.0])
+@pytest.mark.parametrize(
+    "gear", ["g: {type: LossyGear, ratio: 0.1, efficiency: 0.45}", "g: {type: LossyGear, ratio: 0.1, efficiency: 0.9}"]
+)
+def test_a_shaft_without_inertia_between_a_gear_and_a_damper_starts_as_fast_as_the_gear(
+    simulate, engine, damping, speed, gear
+):
+    """It had no speed of its own, so the damper pulled with all of the motor's, and teeth rubbed by that force."""
+    text = STARTED.format(speed=speed, behind=speed / 10, damping=damping, gear=gear)
+    result = simulate(text, **{"run.engine": engine})
+    assert result["j.speed"] == pytest.approx(speed, rel=1e-4)
+    assert result["d.speed"] == pytest.approx(speed / 10, rel=1e-4)
