@@ -281,7 +281,17 @@ class Model:
         asked.refuse()
         chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters, "Model.start")
         model = self._beginning_with(chosen)
+        model._refuse_names_that_nothing_has()
         return Stepping(self.netlist, chosen, model.system, inputs, tunable=Tunable.of(model, tunable))
+
+    def _refuse_names_that_nothing_has(self) -> None:
+        """Raise ModelError for mistakes in blocks that a stepped run does not need: `check` refuses them."""
+        from fairlead.analysis.record.names import unknown_signals
+        from fairlead.outer import interface_faults
+
+        faults = unknown_signals(self.assembly) + interface_faults(self.netlist, self.assembly.entries, self.system)
+        if faults:
+            raise ModelError(_in_order(faults))
 
     def _beginning_with(self, settings: RunSettings) -> Model:
         """The model for a run that starts when these settings say: another one if a motion begins there."""

@@ -42,6 +42,7 @@ from fairlead.integrate.problem import Run, Status
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
+from fairlead.outer import interface_faults
 from fairlead.patterns import picked
 from fairlead.processor import processor
 from fairlead.result import Result
@@ -66,7 +67,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     looked for, and on a grid nothing between its rows; without `told` there are no remarks: both cost as much as the
     loop of a small model.
     """
-    if faults := unreasonable(netlist, settings, system.flat):
+    faults = unreasonable(netlist, settings, system.flat)
+    if faults := faults + interface_faults(netlist, system.flat.assembly.entries, system):
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()
