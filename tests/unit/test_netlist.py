@@ -183,3 +183,15 @@ def test_the_json_schema_of_a_netlist_accepts_the_scene_and_refuses_an_unknown_k
     jsonschema.validate(scene, schema)
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate({**scene, "frictoin": {}}, schema)
+
+
+@pytest.mark.parametrize("name", ["run", "record", "friction", "effects", "initial", "nominal", "limits", "parameters"])
+def test_a_component_called_like_a_block_of_settings_is_refused(tmp_path, name):
+    file = tmp_path / "scene.yaml"
+    file.write_text(f"schema: 1\ncomponents:\n  {name}: {{type: Ground}}\nrun: {{stop: 1 s}}\n")
+    with pytest.raises(ModelError) as caught:
+        load(file)
+    (fault,) = caught.value.faults
+    assert (fault.where.line, fault.where.column) == (3, 3)
+    assert fault.what == f"{name} is no name for a component: --set {name}.NAME means the block {name}"
+    assert f"such as {name}_1" in fault.way_out
