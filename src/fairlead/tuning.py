@@ -47,6 +47,10 @@ class Model(Protocol):
         """Compiled."""
 
     @property
+    def overrides(self) -> Mapping[str, str]:
+        """Values that were given from outside."""
+
+    @property
     def rebuilt(self) -> str:
         """Why it shares no structure with the one it was made from."""
 
