@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fairlead.analysis.record.below_weight import BelowWeight
 from fairlead.analysis.record.counts import unreasonable
 from fairlead.analysis.record.creep import WorstCreep
-from fairlead.analysis.record.energy import Ledger, judged, known_to, resolved
+from fairlead.analysis.record.energy import Ledger, judged, known_to, own_classes, resolved
 from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
@@ -256,7 +256,7 @@ def _energy(outcome: Outcome, watch: Watch, asked: Run) -> dict[str, Any]:
         summary["known_to"] = known_to(
             outcome.problem, watch.accuracy, outcome.counters.steps if asked.engine == "ida" else 0
         )
-    return judged(summary, watch.system.undeclared)
+    return judged(summary, watch.system.undeclared, own_classes(watch.system))
 
 
 def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:
