@@ -208,3 +208,10 @@ def test_the_start_of_an_input_is_no_parameter_beside_it(tmp_path):
     text = text.replace("run:", "  - [cmd.signal, push.force]\nrun:") + "interface: {inputs: {pull: cmd.value}}\n"
     with pytest.raises(ModelError, match=r"cmd\.start is what the input pull is until it is set"):
         load(tmp_path, text).start(tunable=["cmd.start"])
+
+
+def test_parameters_of_a_device_on_a_route_go_by_its_name():
+    """As `--set` and the signals call it."""
+    run = fairlead.load("single_bend").start(tunable=["route.stations.bend.radius"])
+    (variable,) = [one for one in run.variables if one.causality == "parameter"]
+    assert (variable.start, variable.unit) == (1.0, "m")

@@ -10,7 +10,7 @@ import contextlib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from fairlead.component.given import Block, Parameter, Waveform
+from fairlead.component.given import Block, Parameter, Stations, Waveform
 from fairlead.component.tables import TableError
 from fairlead.component.values import Group, Values, Wave
 from fairlead.component.waveforms import numbers_in
@@ -71,6 +71,9 @@ def _of_one(name: str, declared: Any, value: Any) -> Iterator[tuple[str, tuple[f
         for inner, content in vars(value).items():
             found = _of_one(inner, declared.parameters.get(inner), content)
             yield from ((f"{name}.{more}", one) for more, one in found)
+    elif isinstance(declared, Stations):
+        for called, station in zip(Stations.names(value), value, strict=True):
+            yield from ((f"{name}.{called}.{inner}", one) for inner, one in _of_values(station))
     elif isinstance(declared, Parameter) and isinstance(value, int | float) and not isinstance(value, bool):
         yield name, (float(value), declared.unit)
     elif isinstance(declared, Waveform) and isinstance(value, Wave) and _is_steady(value):
