@@ -35,7 +35,7 @@ from fairlead.integrate.run import check
 from fairlead.integrate.sentences import culprits_of, sentence_of
 from fairlead.integrate.underway import Underway
 from fairlead.outer import Read, find_inputs, find_outputs, set_already
-from fairlead.quantities import QuantityError, si
+from fairlead.quantities import QuantityError, computable, si
 from fairlead.renamed import now_called
 from fairlead.running import failed, failure_of, not_allowed, open_at
 from fairlead.saved_state import Elsewhere, Maker, Standing, State, brought_back, fitting
@@ -134,7 +134,7 @@ class Stepping:
             known += f" Tunable are {listing(self.tunable)}." if self.tunable else f" {of_start}"
             raise UsageError(f"set: there is no input {shown(str(name))}. {near} {known}".replace("  ", " "))
         try:
-            number = si(value, self._inputs[name].seen.unit)
+            number = computable(value, self._inputs[name].seen.unit)
         except QuantityError as error:
             raise UsageError(f"set: {name} = {error.what}. {error.allowed}") from None
         if not math.isfinite(number):
