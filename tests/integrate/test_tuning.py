@@ -215,3 +215,26 @@ def test_parameters_of_a_device_on_a_route_go_by_its_name():
     run = fairlead.load("single_bend").start(tunable=["route.stations.bend.radius"])
     (variable,) = [one for one in run.variables if one.causality == "parameter"]
     assert (variable.start, variable.unit) == (1.0, "m")
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [
+        (-1, "set: block.mass = -1 is out of range."),
+        ("3 N", "set: block.mass = 3 N is a force, not a mass."),
+        (None, "set: block.mass = None is neither a text nor a number"),
+        (float("nan"), "set: block.mass = nan is not a number"),
+        ([1], "set: block.mass = [1] is neither a text nor a number"),
+    ],
+)
+def test_a_value_that_does_not_fit_is_told_as_of_the_call_that_gave_it(tmp_path, value, says):
+    run = load(tmp_path, PUSHED).start(tunable=["block.mass"])
+    with pytest.raises(ModelError) as caught:
+        run.set("block.mass", value)
+    assert str(caught.value).startswith(says)
+
+
+def test_a_value_by_its_outer_name_is_told_with_both(tmp_path):
+    run = load(tmp_path, PUSHED + "interface: {tunable: {load: block.mass}}\n").start()
+    with pytest.raises(ModelError, match=r"set: load: block\.mass = -1 is out of range"):
+        run.set("load", -1)
