@@ -75,12 +75,16 @@ class Maker:
 
     def standing(self, way: Way, take: OnBlock) -> Standing:
         """A run with the values of a way, at its start."""
-        assert self.tunable is not None, "a run without a model is not pickled"
-        model = self.tunable.model.with_values(way.values) if way.values else self.tunable.model
-        own = opened(model.system, list(self.inputs.values()))
+        tunable = self.valued(way.values)
+        own = opened(tunable.model.system, list(self.inputs.values()))
         begin = dataclasses.replace(own, initial=way.initial)
         going = Underway(begin, dataclasses.replace(self.asked, start=way.start, stop=way.stop), take)
-        return Standing(going, self.tunable._replace(model=model), own)
+        return Standing(going, tunable, own)
+
+    def valued(self, values: Mapping[str, str]) -> Tunable:
+        """The model with values that were set since the run was made."""
+        assert self.tunable is not None, "a run without a model is not pickled"
+        return self.tunable._replace(model=self.tunable.model.with_values(values)) if values else self.tunable
 
     def changed(self, tunable: Tunable) -> dict[str, str]:
         """Values of parameters that were set since the run was made, as texts."""
@@ -143,6 +147,8 @@ class Elsewhere(NamedTuple):
     now: Way
     next: dict[str, str]
     """Values that were set last, which hold from the next `advance` on."""
+    goes_over: bool
+    """Whether they are others than those of `now`, and not only written otherwise."""
 
     def __repr__(self) -> str:
         return f"<State of {shown(self.name)} at t = {self.t:.9g} s, from another process>"
@@ -160,7 +166,9 @@ def brought_back(state: Elsewhere, maker: Maker, take: OnBlock) -> State:
     now = maker.standing(state.now, take)
     if state.plan != _plan(now.going):
         _refuse("this machine works its equations out in another order", "Run the model again to that time.")
-    following = now if state.next == state.now.values else maker.standing(state.now._replace(values=state.next), take)
+    following = now._replace(tunable=maker.valued(state.next))
+    if state.goes_over:
+        following = maker.standing(state.now._replace(values=state.next), take)
     scope = ScopeState(state.arena, _read(state.knows, now.going), None, state.own, None)
     return State(state.t, Saved(scope, state.status, state.replanned_at), maker, following, now)
 
@@ -195,7 +203,7 @@ def _elsewhere(state: State) -> Elsewhere:
     return Elsewhere(
         state.t, _name(maker), _fairlead(), maker.settings(), maker.digest(), _plan(now.going), scope.whole, scope.own,
         state.saved.status, state.saved.replanned_at, tuple(_written(scope.remembered, now.going)), way,
-        maker.changed(state.next.tunable),
+        maker.changed(state.next.tunable), state.next.own is not now.own,
     )  # fmt: skip
 
 

@@ -92,6 +92,22 @@ def test_a_pickled_state_goes_on_in_another_process_bit_for_bit(tmp_path, engine
     assert done.stdout.splitlines() == here
 
 
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+def test_a_value_that_was_set_and_is_no_other_leaves_no_trace_in_a_pickled_state(tmp_path, engine):
+    """A run begins anew where a value changes, with small steps; one that is the same is no event."""
+    run = fairlead.load(write(tmp_path, PUSHED)).start(tunable=["mu"], engine=engine)
+    run.set("pull", 9)
+    run.advance(0.2)
+    run.set("mu", 0.5)
+    run.advance(0.31)
+    again = fairlead.load(tmp_path / "pushed.yaml").start(tunable=["mu"], engine=engine)
+    again.restore(pickle.loads(pickle.dumps(run.save())))
+    for one in (run, again):
+        one.advance(0.7)
+    assert again.standing()[1].tolist() == run.standing()[1].tolist()
+    assert again._memory.number["steps"] == run._memory.number["steps"]
+
+
 def test_what_a_controller_in_python_knows_goes_along(tmp_path):
     library = write(tmp_path, COUNTS.format(attribute="more", value="[1]"), "counts.py")
     text = CONTROLLED.replace("connections:", "connections:\n  - [one.signal, counts.seen]", 1)
