@@ -212,9 +212,11 @@ def test_the_start_of_an_input_is_no_parameter_beside_it(tmp_path):
 
 def test_parameters_of_a_device_on_a_route_go_by_its_name():
     """As `--set` and the signals call it."""
-    run = fairlead.load("single_bend").start(tunable=["route.stations.bend.radius"])
-    (variable,) = [one for one in run.variables if one.causality == "parameter"]
-    assert (variable.start, variable.unit) == (1.0, "m")
+    run = fairlead.load("single_bend").start(tunable=["route.stations.bend.radius", "route.stations.bend.friction"])
+    told = {one.name: (one.start, one.unit) for one in run.variables if one.causality == "parameter"}
+    assert told == {"route.stations.bend.radius": (1.0, "m"), "route.stations.bend.friction": (0.35, "1")}
+    run.set("route.stations.bend.friction", 0.5)
+    assert run.advance(0.01) == 0.01
 
 
 @pytest.mark.parametrize(
