@@ -129,12 +129,22 @@ class Way(NamedTuple):
 
 
 class Elsewhere(NamedTuple):
-    """A state that was pickled: plain numbers, and what they fit. `Stepping.restore` takes it."""
+    """A state that was pickled, of which every fairlead can tell whose it is. `Stepping.restore` takes it."""
 
     t: float
     name: str
     fairlead: tuple[str, str]
     """Version, and a digest of its code."""
+    kept: bytes
+    """`Kept`, which only the same fairlead can read."""
+
+    def __repr__(self) -> str:
+        return f"<State of {shown(self.name)} at t = {self.t:.9g} s, from another process>"
+
+
+class Kept(NamedTuple):
+    """The memory of a run as plain numbers, and what it fits."""
+
     settings: dict[str, str]
     model: str
     plan: str
@@ -150,27 +160,25 @@ class Elsewhere(NamedTuple):
     goes_over: bool
     """Whether they are others than those of `now`, and not only written otherwise."""
 
-    def __repr__(self) -> str:
-        return f"<State of {shown(self.name)} at t = {self.t:.9g} s, from another process>"
-
 
 def brought_back(state: Elsewhere, maker: Maker, take: OnBlock) -> State:
     """The state as one of this process. Raises UsageError, with what does not fit."""
     if state.fairlead != _fairlead():
         version = f"fairlead {state.fairlead[0]}" if state.fairlead[0] != _fairlead()[0] else "other code of fairlead"
         _refuse(f"it was saved by {version}, in which a run has another memory", "Run the model again to that time.")
-    if maker.tunable is None or state.model != maker.digest():
+    kept: Kept = pickle.loads(state.kept)  # who unpickled the state has trusted it
+    if maker.tunable is None or kept.model != maker.digest():
         advice = "Load the netlist, values and libraries that it was saved with."
         _refuse(f"it is of another model than this run, or of other values ({shown(state.name)})", advice)
-    _alike(state.settings, maker.settings())
-    now = maker.standing(state.now, take)
-    if state.plan != _plan(now.going):
+    _alike(kept.settings, maker.settings())
+    now = maker.standing(kept.now, take)
+    if kept.plan != _plan(now.going):
         _refuse("this machine works its equations out in another order", "Run the model again to that time.")
-    following = now._replace(tunable=maker.valued(state.next))
-    if state.goes_over:
-        following = maker.standing(state.now._replace(values=state.next), take)
-    scope = ScopeState(state.arena, _read(state.knows, now.going), None, state.own, None)
-    return State(state.t, Saved(scope, state.status, state.replanned_at), maker, following, now)
+    following = now._replace(tunable=maker.valued(kept.next))
+    if kept.goes_over:
+        following = maker.standing(kept.now._replace(values=kept.next), take)
+    scope = ScopeState(kept.arena, _read(kept.knows, now.going), None, kept.own, None)
+    return State(state.t, Saved(scope, kept.status, kept.replanned_at), maker, following, now)
 
 
 def fitting(state: State, maker: Maker) -> None:
@@ -200,11 +208,12 @@ def _elsewhere(state: State) -> Elsewhere:
     run = now.going.run
     initial = now.going.problem.initial.copy()
     way = Way(maker.changed(now.tunable), initial, run.start, run.stop)
-    return Elsewhere(
-        state.t, _name(maker), _fairlead(), maker.settings(), maker.digest(), _plan(now.going), scope.whole, scope.own,
-        state.saved.status, state.saved.replanned_at, tuple(_written(scope.remembered, now.going)), way,
-        maker.changed(state.next.tunable), state.next.own is not now.own,
+    kept = Kept(
+        maker.settings(), maker.digest(), _plan(now.going), scope.whole, scope.own, state.saved.status,
+        state.saved.replanned_at, tuple(_written(scope.remembered, now.going)), way, maker.changed(state.next.tunable),
+        state.next.own is not now.own,
     )  # fmt: skip
+    return Elsewhere(state.t, _name(maker), _fairlead(), pickle.dumps(kept))
 
 
 def _written(remembered: Sequence[Any], going: Underway) -> Iterator[bytes]:
@@ -221,7 +230,7 @@ def _written(remembered: Sequence[Any], going: Underway) -> Iterator[bytes]:
 def _read(knows: Sequence[bytes], going: Underway) -> list[Any]:
     found = []
     for controller, text in zip(going.scope.whole_problem.controllers, knows, strict=True):  # type: ignore[attr-defined]
-        attributes, failure, at = pickle.loads(text)  # who unpickled the state has trusted it
+        attributes, failure, at = pickle.loads(text)
         of = None
         if attributes is not None:
             kind = controller.instance.type
