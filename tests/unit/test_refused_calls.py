@@ -146,6 +146,8 @@ def test_a_value_that_no_model_has_makes_a_refused_row(cases, values, says):
         (lambda m: m.run(start=5, stop=1), "run.stop = 1 s is not after start = 5 s Give a stop above the start"),
         (lambda m: m.start(stopp=3), "Model.start: run has no key stopp Did you mean stop?"),
         (lambda m: fairlead.run("belt", stopp=3), "run: run has no key stopp"),
+        (lambda m: fairlead.run(3, out=None), "run: path = 3 is not a path"),
+        (lambda m: fairlead.run("belt", {"block.mass": None}, out=None), "run: set[block.mass] = None is neither"),
         (lambda m: m.start(inputs=[3]), "Model.start: inputs = 3 is not a name"),
         (lambda m: m.start(tunable=[None]), "Model.start: tunable = None is not a name"),
         (lambda m: fairlead.load("belt", sets={}), "load: there is no argument sets. Did you mean set?"),

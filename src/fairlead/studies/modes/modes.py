@@ -37,8 +37,9 @@ def modes(
 ) -> Modes:  # fmt: skip
     """Linearise a model and tell its modes: frequency, damping, and which component takes part.
 
-    `at` is the instant, a time or a text with its unit, to which the model is run; None: its settled start. `zones`
-    freezes parts in zones by name or pattern, `{"pad": "held", "c*": "sliding"}`; others stay in those they are in.
+    `at` is the instant, a time or a text with its unit, to which the model is run, at most `run.stop`; None: its
+    settled start. `zones` freezes parts in zones by name or pattern, `{"pad": "held", "c*": "sliding"}`; others stay
+    in those they are in.
     `acting` (a part, a port or a free signal input) and `out` (a signal) ask for the response between both, over
     `frequencies` [Hz]. `change` asks for all patterns in which up to so many contacts change between holding and
     sliding.
