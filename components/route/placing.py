@@ -11,6 +11,8 @@ from typing import Any
 
 from fairlead.components.route.window import Window
 
+from fairlead.component import Stations
+
 TOUCHES = 1e-6  # m; ends that are this close are one place
 MOST_TURNS = 6  # of a line round one device; a capstan has three or four
 
@@ -40,25 +42,12 @@ def place(stations: Iterable[Any]) -> list[Placed]:
     """Positions of all devices in the order of the list; one without `start` begins where the last ended."""
     placed: list[Placed] = []
     at = 0.0
-    for number, (name, station) in enumerate(zip(names(stations := list(stations)), stations, strict=True)):
+    for number, (name, station) in enumerate(zip(Stations.names(stations := list(stations)), stations, strict=True)):
         start = at if station.start is None else station.start
         begin, end = station.span(start)
         placed.append(Placed(name, number, station, begin, end))
         at = end if math.isfinite(end) else start
     return placed
-
-
-def names(stations: Iterable[Any]) -> list[str]:
-    """Given names, else the type in small letters, with a number when there are several: bend_1, bend_2."""
-    stations = list(stations)
-    words = [station.name or station.type.word.lower() for station in stations]
-    many = {word for word, count in Counter(words).items() if count > 1}
-    seen: Counter[str] = Counter()
-    made = []
-    for station, word in zip(stations, words, strict=True):
-        seen[word] += 1
-        made.append(f"{word}_{seen[word]}" if word in many and station.name is None else word)
-    return made
 
 
 def misplaced(stations: Iterable[Any]) -> Iterator[tuple[str, str, str]]:

@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import inspect
 import math
@@ -42,6 +43,26 @@ def keywords_told(call: Callable[P, T]) -> Callable[P, T]:
         return call(*arguments, **given)
 
     return told
+
+
+@contextlib.contextmanager
+def told_of(call: str, inner: str, names: Mapping[str, str] | None = None) -> Iterator[None]:
+    """Mistakes that the call `inner` tells are told as of `call`, the one that the user made.
+
+    `names` are those of values there, by the name that `inner` has for them.
+    """
+    try:
+        yield
+    except ModelError as error:
+        raise ModelError(_as_of(fault, call, inner, names or {}) for fault in error.faults) from None
+
+
+def _as_of(fault: Fault, call: str, inner: str, names: Mapping[str, str]) -> Fault:
+    what = fault.what
+    for inside, name in names.items():
+        what = what.replace(f"values[{inside}]", inside)
+        what = what if name == inside else f"{name}: {what}"
+    return Fault(Location(call) if fault.where == Location(inner) else fault.where, what, fault.way_out)
 
 
 class Arguments:

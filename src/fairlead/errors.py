@@ -74,6 +74,10 @@ class UsageError(FairleadError):
     exit_code = 2
 
 
+class NoCopyError(UsageError, TypeError):
+    """What cannot be pickled or copied; of Python's own kind as well, so that whoever sends objects about knows it."""
+
+
 class RunError(FairleadError):
     """A run that failed or was cut short: `result` is the `Result` of what was computed until then.
 

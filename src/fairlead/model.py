@@ -22,7 +22,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
-from fairlead.arguments import Arguments
+from fairlead.arguments import Arguments, told_of
 from fairlead.brief import in_a_line
 from fairlead.errors import (
     Fault,
@@ -281,7 +281,17 @@ class Model:
         asked.refuse()
         chosen = with_keywords(self.netlist.run, settings, self.netlist.parameters, "Model.start")
         model = self._beginning_with(chosen)
+        model._refuse_names_that_nothing_has()
         return Stepping(self.netlist, chosen, model.system, inputs, tunable=Tunable.of(model, tunable))
+
+    def _refuse_names_that_nothing_has(self) -> None:
+        """Raise ModelError for mistakes in blocks that a stepped run does not need: `check` refuses them."""
+        from fairlead.analysis.record.names import unknown_signals
+        from fairlead.outer import interface_faults
+
+        faults = unknown_signals(self.assembly) + interface_faults(self.netlist, self.assembly.entries, self.system)
+        if faults:
+            raise ModelError(_in_order(faults))
 
     def _beginning_with(self, settings: RunSettings) -> Model:
         """The model for a run that starts when these settings say: another one if a motion begins there."""
@@ -303,7 +313,8 @@ class Model:
         asked.values_by_name("values", more)
         asked.nothing_twice("values", values if isinstance(values, Mapping) else (), more)
         asked.refuse()
-        return _told_by("Model.with_values", self._renewed, {**(values or {}), **more}, self)
+        with told_of("Model.with_values", GIVEN.file):
+            return self._renewed({**(values or {}), **more}, self)
 
     def beside(self, values: Mapping[str, float | str], near: Model | None = None) -> Model:
         """This model with other values, on what `near` has compiled; with None nothing is compiled.
@@ -313,7 +324,8 @@ class Model:
         asked = Arguments("Model.beside")
         asked.values_by_name("values", values, none=False)
         asked.refuse()
-        return _told_by("Model.beside", self._renewed, values, near)
+        with told_of("Model.beside", GIVEN.file):
+            return self._renewed(values, near)
 
     def _renewed(self, values: Mapping[str, float | str], near: Model | None) -> Model:
         """`beside`, with arguments that are sound."""
@@ -366,17 +378,6 @@ def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Itera
         given = [f"It was given as {name} = {text}." for name, text in overrides.items()
                  if f"= {text} " in f"{fault.what} " and name not in f"{fault.where} {fault.what}"]  # fmt: skip
         yield replace(fault, way_out="\n".join([fault.way_out, *given])) if given else fault
-
-
-def _told_by(
-    called: str, renewed: Callable[..., Model], values: Mapping[str, float | str], near: Model | None
-) -> Model:
-    """The model with other values; what is wrong with them is told as of the call, which has no argument `set`."""
-    try:
-        return renewed(values, near)
-    except ModelError as error:
-        place = Location(called)
-        raise ModelError([replace(one, where=place) if one.where == GIVEN else one for one in error.faults]) from None
 
 
 def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:

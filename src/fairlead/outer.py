@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.component.numbers import numbers, numbers_in_time
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
-from fairlead.netlist.interface import Outer, OuterInput
+from fairlead.netlist.interface import Interface, Outer, OuterInput
 from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, fits, parse_unit, si
 from fairlead.renamed import now_called
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from fairlead.netlist.netlist import Netlist
     from fairlead.system.arrays.recording import OutputSignal
     from fairlead.system.compiled.system import System
+
+
+NO_INTERFACE = Interface()
 
 
 class Variable(NamedTuple):
@@ -69,6 +72,8 @@ class Found(NamedTuple):
 
 def interface_faults(netlist: Netlist, entries: Mapping[str, Values], system: System) -> list[Fault]:
     """Mistakes in the `interface` block: inputs that cannot be set, outputs that nothing gives, units, numbers."""
+    if netlist.interface == NO_INTERFACE:
+        return []
     faults = find_inputs(netlist, system, ())[1] + find_outputs(netlist, system.signals)[2]
     return faults + find_tunable(netlist, entries, ())[1] + _twice(netlist)
 

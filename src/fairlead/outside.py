@@ -17,7 +17,7 @@ import dataclasses
 import math
 import time
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from fairlead.analysis.record.suggestion import suggest
 from fairlead.analysis.record.unsettled import with_way_out
 from fairlead.arguments import Arguments, keywords_told
 from fairlead.engine import engine_settings, refused
-from fairlead.errors import ModelError, SteppingError, UsageError, did_you_mean, listing, shown
+from fairlead.errors import ModelError, NoCopyError, SteppingError, UsageError, did_you_mean, listing, shown
 from fairlead.integrate.codes import TRY
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory.arena import Memory
@@ -33,11 +33,12 @@ from fairlead.integrate.prepare import NEVER_LOOK
 from fairlead.integrate.problem import Block, Status
 from fairlead.integrate.run import check
 from fairlead.integrate.sentences import culprits_of, sentence_of
-from fairlead.integrate.underway import Saved, Underway
+from fairlead.integrate.underway import Underway
 from fairlead.outer import Read, find_inputs, find_outputs, set_already
-from fairlead.quantities import QuantityError, si
+from fairlead.quantities import QuantityError, computable, si
 from fairlead.renamed import now_called
 from fairlead.running import failed, failure_of, not_allowed, open_at
+from fairlead.saved_state import Elsewhere, Maker, Standing, State, brought_back, fitting
 from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
@@ -62,23 +63,6 @@ class Change(NamedTuple):
     before: str
     after: str
     guard: str
-
-
-class Standing(NamedTuple):
-    """With which values of tunable parameters a run goes on: in the System with its inputs open."""
-
-    going: Underway
-    tunable: Tunable | None
-    own: System
-
-
-class State(NamedTuple):
-    """Where a run was, for `Stepping.restore`."""
-
-    saved: Saved
-    of: System
-    next: Standing
-    now: Standing
 
 
 class Stepping:
@@ -116,6 +100,7 @@ class Stepping:
         own = opened(system, [one.free for one in self._inputs.values()])
         check(own, asked)
         self._span = asked.stop - asked.start
+        self._maker = Maker(system, asked, {name: one.free for name, one in self._inputs.items()}, tunable)
         self._now = self._next = Standing(Underway(own, asked, self._take), tunable, own)
         self._told(self._memory)
         self._values: np.ndarray | None = None
@@ -149,7 +134,7 @@ class Stepping:
             known += f" Tunable are {listing(self.tunable)}." if self.tunable else f" {of_start}"
             raise UsageError(f"set: there is no input {shown(str(name))}. {near} {known}".replace("  ", " "))
         try:
-            number = si(value, self._inputs[name].seen.unit)
+            number = computable(value, self._inputs[name].seen.unit)
         except QuantityError as error:
             raise UsageError(f"set: {name} = {error.what}. {error.allowed}") from None
         if not math.isfinite(number):
@@ -238,13 +223,20 @@ class Stepping:
     def save(self) -> State:
         """Where the run is, with what was set."""
         self._begin()
-        return State(self._going.save(), self._of, self._next._replace(going=self._going), self._now)
+        following = self._next._replace(going=self._going)
+        return State(self.t, self._going.save(), self._maker, following, self._now)
 
-    def restore(self, state: State) -> None:
-        """Go to where this run was, or another one of the same model. Raises UsageError for one of another model."""
-        if not isinstance(state, State) or state.of is not self._of:
-            what = "this state" if isinstance(state, State) else f"a {type(state).__name__}"
+    def restore(self, state: State | Elsewhere) -> None:
+        """Go to where this run was, or another one of the same model with the same settings.
+
+        A state that was pickled is taken too, where it was saved by the same fairlead. Raises UsageError for others.
+        """
+        if isinstance(state, Elsewhere):
+            state = brought_back(state, self._maker, self._take)
+        elif not isinstance(state, State):
+            what = f"a {type(state).__name__}"
             raise UsageError(f"restore: {what} is not of a run of this model. Take what `save` of such a run gave.")
+        fitting(state, self._maker)
         self._begun, self._values, self.changes = True, None, []
         self._advanced = True
         if state.now.own is not self._now.own:  # with other values of parameters
@@ -328,6 +320,11 @@ class Stepping:
 
     def _take(self, block: Block) -> None:
         self.changes += [Change(*named_change(self._of, row)) for row in block.events]
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        """A run is not copied: its memory is used by compiled code. Raises NoCopyError."""
+        way_out = "Keep where it is: state = run.save(). A state pickles, and restore(state) of another run takes it."
+        raise NoCopyError(f"A run that is stepped cannot be copied or pickled.\n    {way_out}")
 
     def __repr__(self) -> str:
         return f"<Stepping at t = {self.t:.9g} s: inputs {listing(self._inputs) or 'none'}>"

@@ -88,6 +88,11 @@ GRAMMAR = "Units are joined by * and / as in N*s/m or m/s^2."
 SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "·": "*"})
 
 
+MOST = 1e150
+"""What is larger in SI cannot be computed with, nor can sizes that are smaller than one over it: squares and products
+of two, as energies and stiffness over mass, go beyond the range of a double."""
+
+
 class QuantityError(FairleadError, ValueError):
     """A text or number that is not the quantity wanted.
 
@@ -141,15 +146,34 @@ def si(value: object, unit: str) -> float:
     return _finite(number * (given.factor if given else 1.0), unit, value)
 
 
-def written(value: object, unit: str) -> float:
-    """What a netlist gives for a quantity, in SI. Raises QuantityError as `si` does, and for a bare number in quotes.
+def written(value: object, unit: str, *, size: bool = False) -> float:
+    """What a netlist gives for a quantity, or a `size` above zero. Raises QuantityError as `computable` does.
 
-    In quotes it is a text; who wants a number writes no quotes, and who wants it in some unit writes that.
+    A bare number in quotes is refused too: it is a text. Who wants a number writes no quotes, and who wants it in some
+    unit writes that.
     """
     if isinstance(value, str) and NUMBER.fullmatch(value.strip()):
         own = "" if unit == "1" else f", or give its unit too: {value.strip()} {unit}"
         raise QuantityError(f"'{shown(value)}' is a text, for it is in quotes", f"Leave out the quotes{own}.")
-    return si(value, unit)
+    return computable_size(value, unit) if size else computable(value, unit)
+
+
+def computable(value: object, unit: str) -> float:
+    """What enters equations, in SI. Raises QuantityError as `si` does, and where its square overflows."""
+    number = si(value, unit)
+    if abs(number) > MOST:
+        what = f"{shown(value)} is too large to compute with: its square is more than a number can hold (1.8e308)"
+        raise QuantityError(what, f"Is the exponent meant? At most {MOST:g} in SI; leave out what has no limit.")
+    return number
+
+
+def computable_size(value: object, unit: str) -> float:
+    """A size above zero, which equations divide by. Raises QuantityError too where its square underflows."""
+    number = computable(value, unit)
+    if 0 < number < 1 / MOST:
+        what = f"{shown(value)} is too small to compute with: its square is less than a number can hold (5e-324)"
+        raise QuantityError(what, f"Is the exponent meant? At least {1 / MOST:g} in SI.")
+    return number
 
 
 def whole(value: object) -> object:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fairlead.analysis.record.below_weight import BelowWeight
 from fairlead.analysis.record.counts import unreasonable
 from fairlead.analysis.record.creep import WorstCreep
-from fairlead.analysis.record.energy import Ledger, judged, known_to, resolved
+from fairlead.analysis.record.energy import Ledger, judged, known_to, own_classes, resolved
 from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
@@ -42,6 +42,7 @@ from fairlead.integrate.problem import Run, Status
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
+from fairlead.outer import interface_faults
 from fairlead.patterns import picked
 from fairlead.processor import processor
 from fairlead.result import Result
@@ -66,7 +67,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     looked for, and on a grid nothing between its rows; without `told` there are no remarks: both cost as much as the
     loop of a small model.
     """
-    if faults := unreasonable(netlist, settings, system.flat):
+    faults = unreasonable(netlist, settings, system.flat)
+    if faults := faults + interface_faults(netlist, system.flat.assembly.entries, system):
         raise ModelError(faults)
     if settings.engine == "ida":
         require_package()
@@ -254,7 +256,7 @@ def _energy(outcome: Outcome, watch: Watch, asked: Run) -> dict[str, Any]:
         summary["known_to"] = known_to(
             outcome.problem, watch.accuracy, outcome.counters.steps if asked.engine == "ida" else 0
         )
-    return judged(summary, watch.system.undeclared)
+    return judged(summary, watch.system.undeclared, own_classes(watch.system))
 
 
 def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:

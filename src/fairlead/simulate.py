@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Unpack
 
-from fairlead.arguments import Arguments, keywords_told
+from fairlead.arguments import Arguments, keywords_told, told_of
 from fairlead.errors import ModelError, UsageError
 from fairlead.model import Model, Place, Progress, as_text
 
@@ -69,7 +69,8 @@ def run(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = No
     """
     if isinstance(path, Model):
         raise UsageError("run: path is a Model already. Write model.run(...).")
-    model = load(path, set, libraries, allow_fmu)
+    with told_of("run", "load"):
+        model = load(path, set, libraries, allow_fmu)
     return model._run(out, force, progress, profile, check, settings, "run")
 
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
+from fairlead.arguments import told_of
 from fairlead.component.keys import PARAMETER, key
 from fairlead.component.numbers import numbers
 from fairlead.errors import Fault, ModelError, UsageError, did_you_mean, listing, shown
@@ -45,6 +46,10 @@ class Model(Protocol):
     @property
     def system(self) -> System:
         """Compiled."""
+
+    @property
+    def overrides(self) -> Mapping[str, str]:
+        """Values that were given from outside."""
 
     @property
     def rebuilt(self) -> str:
@@ -90,7 +95,8 @@ class Tunable(NamedTuple):
     def with_value(self, name: str, value: float | str, *, begun: bool) -> Tunable:
         """The same with another value. Raises ModelError for one that does not fit, UsageError as `refuse`."""
         inside = self.inside[name]
-        changed = self.model.with_values({inside: value})
+        with told_of("set", "Model.with_values", {inside: name}):
+            changed = self.model.with_values({inside: value})
         refuse(inside, self.model, changed, begun=begun)
         return self._replace(model=changed)
 

@@ -115,6 +115,8 @@ static int tick(Rich *m, int one) {
 /* Discrete states; true where they need another update. */
 static bool update(Rich *m) {
     m->updates++;
+    if (is(m, "crash") && m->t > 0.15) { volatile int *nowhere = 0; *nowhere = 1; }
+    if (is(m, "hang") && m->t > 0.15) for (;;) pause();
     if (m->active[R]) m->sum += m->sampled;
     memset(m->active, 0, sizeof m->active);
     if (is(m, "unsettled")) return true;

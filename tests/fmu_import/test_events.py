@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from fairlead.errors import RunError
+from fairlead.foreign import underway
 from tests.fmu_import.build import EVENT_MODE, EVENTS
 from tests.fmu_import.test_fmu import fall
 
@@ -138,6 +139,34 @@ def test_what_goes_wrong_with_events_is_told(make, load, kind, more, told):
             components: {{fmu: {{type: Fmu, file: rich_{kind}3.fmu, period: 0.1 s}}}}
             run: {{stop: 1.2 s}}
         """).run(out=None)
+
+
+@pytest.mark.parametrize(
+    ("kind", "told"),
+    [
+        ("crash", r"the process of rich_crash3\.fmu ended by SIGSEGV in updateDiscreteStates\."),
+        ("hang", r"rich_hang3\.fmu did not come back from updateDiscreteStates within 2 s"),
+    ],
+)
+def test_a_call_of_event_mode_that_ends_the_process_is_named(make, load, kind, told):
+    """An input that changes brings it into event mode at each point; from the second on it fails there."""
+    make(kind, rich=True, variables=CLAIMS)
+    text = FREE % (f"rich_{kind}3.fmu", "0.1 s", "", "1 s")
+    with pytest.raises(RunError, match=told):
+        load(text.replace("period:", "time_limit: 2 s, period:")).run(out=None)
+
+
+@pytest.mark.parametrize(
+    ("call", "does"),
+    [("fmi3EnterInitializationMode", "enterInitializationMode"), ("fmi3GetFloat64", "getFloat64"),
+     ("fmi2DoStep", "doStep"), ("", "")],
+)  # fmt: skip
+def test_a_call_is_known_by_its_name_while_it_is_under_way(tmp_path, call, does):
+    underway.make(tmp_path / "memory")
+    told = underway.Underway(str(tmp_path / "memory"))
+    with told.call(call):
+        assert underway.read(tmp_path / "memory") == does
+    assert underway.read(tmp_path / "memory") == ""
 
 
 def test_variables_that_are_binary_or_text_are_left_alone_until_a_signal_wants_them(make, load):

@@ -208,3 +208,35 @@ def test_the_start_of_an_input_is_no_parameter_beside_it(tmp_path):
     text = text.replace("run:", "  - [cmd.signal, push.force]\nrun:") + "interface: {inputs: {pull: cmd.value}}\n"
     with pytest.raises(ModelError, match=r"cmd\.start is what the input pull is until it is set"):
         load(tmp_path, text).start(tunable=["cmd.start"])
+
+
+def test_parameters_of_a_device_on_a_route_go_by_its_name():
+    """As `--set` and the signals call it."""
+    run = fairlead.load("single_bend").start(tunable=["route.stations.bend.radius", "route.stations.bend.friction"])
+    told = {one.name: (one.start, one.unit) for one in run.variables if one.causality == "parameter"}
+    assert told == {"route.stations.bend.radius": (1.0, "m"), "route.stations.bend.friction": (0.35, "1")}
+    run.set("route.stations.bend.friction", 0.5)
+    assert run.advance(0.01) == 0.01
+
+
+@pytest.mark.parametrize(
+    ("value", "says"),
+    [
+        (-1, "set: block.mass = -1 is out of range."),
+        ("3 N", "set: block.mass = 3 N is a force, not a mass."),
+        (None, "set: block.mass = None is neither a text nor a number"),
+        (float("nan"), "set: block.mass = nan is not a number"),
+        ([1], "set: block.mass = [1] is neither a text nor a number"),
+    ],
+)
+def test_a_value_that_does_not_fit_is_told_as_of_the_call_that_gave_it(tmp_path, value, says):
+    run = load(tmp_path, PUSHED).start(tunable=["block.mass"])
+    with pytest.raises(ModelError) as caught:
+        run.set("block.mass", value)
+    assert str(caught.value).startswith(says)
+
+
+def test_a_value_by_its_outer_name_is_told_with_both(tmp_path):
+    run = load(tmp_path, PUSHED + "interface: {tunable: {load: block.mass}}\n").start()
+    with pytest.raises(ModelError, match=r"set: load: block\.mass = -1 is out of range"):
+        run.set("load", -1)

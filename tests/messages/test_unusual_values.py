@@ -2,6 +2,8 @@
 
 import pytest
 
+from fairlead.errors import ModelError, UsageError
+
 DRILL = """
 parameters: {{mu: {mu}}}
 components:
@@ -64,6 +66,59 @@ def test_a_period_longer_than_the_run_is_remarked(scene):
     """
     said = [str(fault) for fault in scene(text).check()]
     assert any("control.period = 10 s is longer than the run of 2 s" in one for one in said)
+
+
+SLIDER = """
+components:
+  wall: {{type: Ground}}
+  spring: {{type: Spring, stiffness: {k}}}
+  block: {{type: Mass, mass: {m}, position: {x}}}
+  push: {{type: ForceSource, force: {f}}}
+connections: [[wall.flange, spring.a], [spring.b, block.flange, push.flange]]
+{more}
+run: {{stop: 1 s}}
+"""
+SOUND = {"k": "100 N/m", "m": "1 kg", "x": "0 m", "f": "1 N", "more": ""}
+
+
+@pytest.mark.parametrize(
+    ("changed", "place", "says"),
+    [
+        ({"k": "1e308 N/m"}, ":6:37:", "spring.stiffness = 1e308 N/m is too large to compute with"),
+        ({"k": "1e200"}, ":6:37:", "spring.stiffness = 1e+200 is too large to compute with"),
+        ({"k": "1e149 kN/mm"}, ":6:37:", "spring.stiffness = 1e149 kN/mm is too large"),
+        ({"k": "1e-200 N/m"}, ":6:37:", "spring.stiffness = 1e-200 N/m is too small to compute with"),
+        ({"m": "1e308 kg"}, ":7:29:", "block.mass = 1e308 kg is too large"),
+        ({"m": "1e-308 kg"}, ":7:29:", "block.mass = 1e-308 kg is too small"),
+        ({"x": "-1e200 m"}, ":7:45:", "block.position = -1e200 m is too large"),
+        ({"f": "1e308 N"}, ":8:36:", "push.force = 1e308 N is too large"),
+        ({"f": "{ramp: {to: 1e308 N, over: 1 s}}"}, ":8:48:", "1e308 N is too large"),
+        ({"more": "initial: {block.v: 1e308 m/s}"}, ":10:20:", "initial.block.v = 1e308 m/s is too large"),
+        ({"more": "nominal: {block.v: 1e-308 m/s}"}, ":10:20:", "nominal.block.v = 1e-308 m/s is too small"),
+        ({"more": "nominal: {block.v: 1e308 m/s}"}, ":10:20:", "nominal.block.v = 1e308 m/s is too large"),
+    ],
+)
+def test_what_overflows_is_refused_with_its_place_and_not_by_equations(scene, changed, place, says):
+    with pytest.raises(ModelError) as caught:
+        scene(SLIDER.format(**{**SOUND, **changed})).run(out=None)
+    (fault,) = caught.value.faults
+    assert says in fault.what
+    assert place in f"{fault.where}:"
+    assert "Is the exponent meant?" in fault.way_out
+
+
+def test_an_input_of_a_stepped_run_is_refused_likewise(scene):
+    text = SLIDER.format(**SOUND).replace("ForceSource, force: 1 N}", "ForceActuator}\n  given: {type: SignalInput}")
+    text = text.replace("connections: [", "connections: [[given.signal, push.force], ")
+    run = scene(text).start(inputs=["given.value"])
+    with pytest.raises(UsageError, match=r"set: given\.value = 1e\+200 is too large to compute with"):
+        run.set("given.value", 1e200)
+
+
+@pytest.mark.parametrize(("k", "range_"), [("1e50 N/m", "up to 1e+30 N/m"), ("1e-50 N/m", "1e-30 to 1e+30 N/m")])
+def test_a_quantity_of_any_unit_may_be_far_outside(scene, k, range_):
+    said = [str(one) for one in scene(SLIDER.format(**{**SOUND, "k": k})).check()]
+    assert any(f"spring.stiffness = {k} is far outside of what it usually is, {range_}" in one for one in said)
 
 
 @pytest.mark.slow

@@ -295,3 +295,14 @@ connections:
     told = str(found)
     assert "1 for a contact that holds, which stays where it took hold." in told
     assert "1 for what moves freely, stays put, or creeps too slowly to tell: " in told
+
+
+@pytest.mark.parametrize(("at", "says"), [
+    ("50 s", r'50 s is beyond the end of the run, run.stop = 40 s.\n    Give an earlier .* run.stop = "50 s"'),
+    (-1, "-1 s is before the start of the run at 0 s"),
+])  # fmt: skip
+def test_an_instant_that_the_run_does_not_reach_is_refused(at, says) -> None:
+    model = fairlead.load("belt")
+    with pytest.raises(ModelError, match=says):
+        fairlead.modes(model, at=at)
+    assert fairlead.modes(model.with_values({"run.stop": 1}), at=1).t == 1.0

@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 import fairlead
 from fairlead.cli import app
+from fairlead.component.numbers import numbers
 from fairlead.errors import FairleadError, ModelError, UsageError
 from fairlead.fmu import export
 
@@ -185,3 +186,14 @@ def test_a_list_of_parameters_may_give_sizes() -> None:
     assert _parameters(["m, k", "zero=0.1 mm,n"]) == {"m": None, "k": None, "zero": "0.1 mm", "n": None}
     with pytest.raises(UsageError, match="--to names m twice"):
         _parameters(["m", "m=1 kg"])
+
+
+@pytest.mark.parametrize("name", ["single_bend", "belt", "winch_drive"])
+def test_every_number_that_is_offered_is_set_by_its_name(name):
+    """That of a part written as a bare number is the part: `route.stations.bend.friction`, with nothing inside it."""
+    model = fairlead.load(name)
+    offered = numbers(model.netlist, model.assembly.entries)
+    for one, (value, _) in offered.items():
+        changed = model.beside({one: 0.99 * value}, None)
+        assert numbers(changed.netlist, changed.assembly.entries)[one][0] == pytest.approx(0.99 * value), one
+    assert name != "single_bend" or offered["route.stations.bend.friction"] == (0.35, "1")

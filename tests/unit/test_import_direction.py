@@ -46,8 +46,9 @@ ALLOWED = {
     "report": {"arguments", "errors", "quantities", "patterns", "results", "analysis", "flatten"},
 }
 # May import all that lies before:
-LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "tuning", "outer", "renewal", "model",
-        "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__", "models"}  # fmt: skip
+LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "saved_state", "tuning", "outer",
+        "renewal", "model", "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__",
+        "models"}  # fmt: skip
 
 
 def source_files() -> dict[str, pathlib.Path]:

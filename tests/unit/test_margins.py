@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import fairlead
 from fairlead.analysis.margins.margins import margins
 from fairlead.cli import app
 from fairlead.results import Result, RunDirectory, Signal
@@ -77,6 +78,27 @@ def test_the_whole_line_has_its_worst_with_time_and_place(tmp_path):
     worst = found.whole.hose
     assert (worst.value, worst.t, worst.signal, worst.place) == (-25, 2.0, "line.hose[2]", 3.5)
     assert found.whole.core.value == 90
+
+
+def test_a_line_of_one_layer_has_every_row_once(tmp_path, monkeypatch):
+    """Its lowest tension is that of its hose, with which it may ruck: the margin stands there."""
+    monkeypatch.setitem(ROUTE, "layers", ["hose"])
+    path = written(tmp_path, leave_out=("line.core",))
+    rows = fairlead.Result.open(path).margins().rows
+    told = [(station, value, unit, *rest) for _, station, _, value, unit, _, *rest in rows]
+    assert len(set(told)) == len(told)
+    margin = {(station, quantity): bears for _, station, quantity, _, _, bears, *_ in rows}
+    assert margin["line", "lowest"] == pytest.approx(50 / 25)
+    assert ("line", "hose") not in margin
+    printed = CliRunner().invoke(app, ["margins", str(path)]).stdout
+    assert any("lowest" in line and " 2 " in line and "line.hose[2]" in line for line in printed.splitlines())
+
+
+def test_a_line_of_two_layers_has_the_margin_with_its_hose(tmp_path):
+    rows = fairlead.Result.open(written(tmp_path)).margins().rows
+    margin = {quantity: bears for _, station, quantity, _, _, bears, *_ in rows if station == "line"}
+    assert margin["hose"] == pytest.approx(50 / 25)
+    assert margin["lowest"] is None
 
 
 def test_a_node_scuffs_while_it_is_in_the_device(tmp_path):

@@ -183,3 +183,33 @@ def test_the_json_schema_of_a_netlist_accepts_the_scene_and_refuses_an_unknown_k
     jsonschema.validate(scene, schema)
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate({**scene, "frictoin": {}}, schema)
+
+
+@pytest.mark.parametrize("name", ["run", "record", "friction", "effects", "initial", "nominal", "limits", "parameters"])
+def test_a_component_called_like_a_block_of_settings_is_refused(tmp_path, name):
+    file = tmp_path / "scene.yaml"
+    file.write_text(f"schema: 1\ncomponents:\n  {name}: {{type: Ground}}\nrun: {{stop: 1 s}}\n")
+    with pytest.raises(ModelError) as caught:
+        load(file)
+    (fault,) = caught.value.faults
+    assert (fault.where.line, fault.where.column) == (3, 3)
+    assert fault.what == f"{name} is no name for a component: --set {name}.NAME means the block {name}"
+    assert f"such as {name}_1" in fault.way_out
+
+
+def test_a_device_without_a_name_is_set_by_that_of_its_type():
+    """As its signals are called: `bend`, and where there are several `bend_1`, `bend_2`."""
+    stations = load("single_bend", {"route.stations.bend.friction": "0.5"}).components["route"].parameters["stations"]
+    assert stations.plain()[0]["friction"] == 0.5
+    for name in ("bnd", "bend_1", "1"):
+        with pytest.raises(ModelError, match=r"there is no item .*(?s:.*)Items go by number, 0 to 0, or by name: bend"):
+            load("single_bend", {f"route.stations.{name}.friction": "0.5"})
+
+
+def test_several_devices_of_a_type_are_numbered_as_their_signals_are(tmp_path):
+    file = tmp_path / "scene.yaml"
+    more = '\n      - {type: Bend}\n      - {type: Bend}\n      - {type: Pulley}'
+    file.write_text(SCENE.replace('friction: "{mu}"}', 'friction: "{mu}"}' + more))
+    set_ = {"route.stations.bend_2.angle": "1", "route.stations.bend_3.angle": "2", "route.stations.pulley.angle": "3"}
+    stations = load(file, set_).components["route"].parameters["stations"].plain()
+    assert [one.get("angle") for one in stations] == ["90 deg", 1, 2, 3]

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import fairlead
 from fairlead.cli import app
 from fairlead.component.parameters import make
 from fairlead.component.registry import known_types
-from fairlead.errors import UsageError
+from fairlead.errors import ModelError, UsageError
 from fairlead.report.printed import WHATS, printed
 from fairlead.report.printed.along import profile
 from fairlead.report.printed.ledger import ledger
@@ -156,3 +157,48 @@ def test_few_rows_of_a_zone_chart_have_their_names_and_of_many_each_kind_has_its
     places = sorted(labels)
     assert len(places) <= MOST_LABELS
     assert min(after - before for before, after in pairwise(places)) >= 4
+
+
+@pytest.mark.parametrize("what", ["friction", "work-precision"])
+def test_what_is_drawn_of_a_model_says_so_of_a_folder_and_names_its_netlist(tmp_path: Path, what: str) -> None:
+    RunDirectory.create(tmp_path / "run", [Signal("x", "m")], {"name": "belt", "netlist": "mine/belt.yaml"}).finish(
+        "finished", {}
+    )
+    answer = CliRunner().invoke(app, ["plot", str(tmp_path / "run"), what], terminal_width=500)
+    assert answer.exit_code == 2
+    said = " ".join(answer.output.replace("│", " ").split())
+    assert f"{what} is drawn of a model, not of a run" in said
+    assert f"fairlead plot mine/belt.yaml {what}" in said
+
+
+@pytest.mark.parametrize("more", [["--at", "1 s"], ["--signals", "block.x"]])
+def test_friction_of_a_model_refuses_what_it_would_not_look_at(more: list[str]) -> None:
+    answer = CliRunner().invoke(app, ["plot", "belt", "friction", *more], terminal_width=500)
+    assert answer.exit_code == 2
+    assert "takes neither signals nor --at" in " ".join(answer.output.replace("│", " ").split())
+
+
+@pytest.mark.parametrize(
+    ("what", "times", "told"),
+    [("map", [1.0], "a map is of the whole run"), ("ledger", [0.0, 1.0], "a ledger is of the whole run"),
+     ("signals", [1.0], "two times limit what is drawn"), ("zones", [0.0, 1.0, 2.0], "two times limit what is drawn")],
+)  # fmt: skip
+def test_times_that_a_figure_does_not_take_are_refused(result: Result, tmp_path: Path, what, times, told) -> None:
+    with pytest.raises(UsageError, match=rf"{what}: {len(times)} times were given\.\n.*{told}"):
+        printed(result, what, tmp_path / "x.png", times=times)
+
+
+def test_a_folder_of_results_is_told_where_a_netlist_is_wanted_and_a_netlist_where_a_folder_is(
+    result: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(ModelError, match=r"(?s)a folder, not a netlist.*holds the results of a run: give the netlist"):
+        fairlead.load(tmp_path / "run")
+    monkeypatch.chdir(tmp_path)
+    Path("mine.yaml").write_text("schema: 1")
+    with pytest.raises(UsageError, match="It is a netlist: run it first"):
+        Result.open("mine.yaml")
+    Path("results").mkdir()
+    (tmp_path / "run").rename("results/line")
+    for name in ("line", "line.yaml"):
+        with pytest.raises(UsageError, match=r"Did you mean results.line\?"):
+            Result.open(name)

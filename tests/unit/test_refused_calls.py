@@ -146,6 +146,8 @@ def test_a_value_that_no_model_has_makes_a_refused_row(cases, values, says):
         (lambda m: m.run(start=5, stop=1), "run.stop = 1 s is not after start = 5 s Give a stop above the start"),
         (lambda m: m.start(stopp=3), "Model.start: run has no key stopp Did you mean stop?"),
         (lambda m: fairlead.run("belt", stopp=3), "run: run has no key stopp"),
+        (lambda m: fairlead.run(3, out=None), "run: path = 3 is not a path"),
+        (lambda m: fairlead.run("belt", {"block.mass": None}, out=None), "run: set[block.mass] = None is neither"),
         (lambda m: m.start(inputs=[3]), "Model.start: inputs = 3 is not a name"),
         (lambda m: m.start(tunable=[None]), "Model.start: tunable = None is not a name"),
         (lambda m: fairlead.load("belt", sets={}), "load: there is no argument sets. Did you mean set?"),
@@ -186,6 +188,15 @@ def test_what_is_no_name_of_signals_is_told_with_how_to_write_it(result, call):
         (lambda r: r.plot("block.x", between=(5, 6)), "between = (5, 6) has nothing to show The run was recorded"),
         (lambda r: r.at("block.x", None), "t = nothing is no time: give a number of seconds"),
         (lambda r: r.at("block.x", "0.5 kg"), "t = 0.5 kg is no time: 0.5 kg is a mass, not a time."),
+        (lambda r: r.at("block.x", True), "t = true is no time: give a number of seconds"),
+        (lambda r: r.at("block.x", np.True_), "t = True is no time: give a number of seconds"),
+        (lambda r: r.at("block.x", [0.5, True]), "t = a list of 2 is no time: give a number of seconds"),
+        (lambda r: r.at("block.x", np.array([True])), "is no time: give a number of seconds, or an array of them"),
+        (lambda r: r.at("block.x", np.timedelta64(500, "ms")), "is no time: give a number of seconds"),
+        (lambda r: r.at("block.x", 1j), "is no time: give a number of seconds"),
+        (lambda r: r.at("block.x", ["0.5 s", "1 kg"]), "t = 1 kg is no time: 1 kg is a mass, not a time."),
+        (lambda r: r.events[True], "True is no number; rows are 0 to"),
+        (lambda r: r.energy[True], "True is no number; rows are 0 to"),
         (lambda r: r.events[1000], "1000: rows are 0 to"),
         (lambda r: r.events["zone"], "zone: the columns are t, component, zone_from"),
         (lambda r: r.energy["stord"], "stord: the columns are entry, energy. Did you mean stored?"),
@@ -222,6 +233,12 @@ def test_zone_changes_give_columns_by_name_as_tables_do(result):
 
 def test_a_time_with_its_unit_is_taken(result):
     assert result.at("block.x", "500 ms") == result.at("block.x", 0.5)
+    assert result.at("block.x", ["500 ms", "0.5 s"]).tolist() == result.at("block.x", [0.5, 0.5]).tolist()
+    assert result.at("block.x", 1) == result.at("block.x", np.int32(1)) == result.at("block.x", np.float32(1))
+
+
+def test_a_case_whose_value_does_not_fit_is_told_as_of_its_call(cases):
+    assert told(lambda: cases.result({"block.mass": True})).startswith("Cases.result: block.mass = true is not a mass")
 
 
 @pytest.mark.parametrize(

@@ -193,8 +193,8 @@ def test_a_drum_with_layers_tells_its_torque_at_the_layer_the_line_leaves(scene)
 def test_between_two_drives_the_tension_is_told_to_be_open(scene):
     belts = "{type: Deployer, start: 6 m, length: 2 m, friction: 0.5, clamp: 500 N/m}"
     text = scene_of("{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}", belts, rope="")
-    text = text.replace("  load:", "  run: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
-    text = text.replace("connections:\n", "connections:\n  - [run.flange, route.deployer.belt]\n")
+    text = text.replace("  load:", "  belt: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
+    text = text.replace("connections:\n", "connections:\n  - [belt.flange, route.deployer.belt]\n")
     (state,) = one(scene(text)).moving
     assert "two drives hold the line, at its inboard end and at deployer" in state.remarks[0]
     assert passage(state, "bend").inboard == pytest.approx(100)
@@ -207,8 +207,8 @@ def test_a_tensioner_between_two_drives_sets_the_tension_there(scene):
     loop = "{type: Tensioner, start: 8 m, force: 300 N}"
     belts = "{type: Deployer, start: 10 m, length: 2 m, friction: 0.5, clamp: 500 N/m}"
     text = scene_of(bend, loop, belts, rope="")
-    text = text.replace("  load:", "  run: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
-    text = text.replace("connections:\n", "connections:\n  - [run.flange, route.deployer.belt]\n")
+    text = text.replace("  load:", "  belt: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
+    text = text.replace("connections:\n", "connections:\n  - [belt.flange, route.deployer.belt]\n")
     (state,) = one(scene(text)).moving
     assert state.remarks == ()
     assert passage(state, "bend").outboard == pytest.approx(150)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.arguments import Arguments, keywords_told
+from fairlead.arguments import Arguments, keywords_told, told_of
 from fairlead.cases.figures import Figure, Function, default_figures, read_figures
 from fairlead.cases.identity import key_of, scene_digest
 from fairlead.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Take = Callable[["Result"], None]
-PLACE, BESIDE = Location("values"), Location("Model.beside")
-"""What is wrong with values of a case is told as of these, by whatever call they came."""
+PLACE = Location("values")
+"""What is wrong with values of a case is told as of this, by whatever call they came."""
 EXAMPLE = '{"peak": "peak(block.x)"}'
 MOST_STRUCTURES = 4
 """Compiled structures that are kept; a sweep over words has a few, and one over sizes comes back to none."""
@@ -114,7 +114,11 @@ class Cases:
 
     def result(self, values: Mapping[str, Value], out: object = None) -> Result:
         """The case of `values` with all that the netlist records, in memory or in folder `out`. Raises ModelError."""
-        return self.model.with_values(values).run(out=out, force=True, check=False)  # type: ignore[arg-type]
+        _refuse_no_map("Cases.result", values)
+        with told_of("Cases.result", "Model.with_values"):
+            model = self.model.with_values(values)
+        with told_of("Cases.result", "Model.run"):
+            return model.run(out=out, force=True, check=False)  # type: ignore[arg-type]
 
     def curves(self, values: Mapping[str, Value], signals: Sequence[str], times: Floats) -> tuple[Row, Floats]:
         """The row of the case of `values`, and `signals` at `times` [s], shape (signals, times); NaN where it has none.
@@ -166,11 +170,8 @@ class Cases:
         return model
 
     def _beside(self, values: Mapping[str, Value], near: Model | None = None) -> Model:
-        try:
+        with told_of(PLACE.file, "Model.beside"):
             return self.model.beside(values, near)
-        except ModelError as error:
-            told = [replace(one, where=PLACE) if one.where == BESIDE else one for one in error.faults]
-            raise ModelError(told) from None
 
     def _result(self, model: Model, also: tuple[str, ...] = ()) -> Result:
         record = RecordSettings.model_construct(signals=list(also), every=None, plots=[]) if also else None

@@ -96,12 +96,12 @@ def _by_station(line: "LineMargins") -> Any:
 
 
 def _worst(line: "LineMargins") -> Any:
-    margins = {"hose": line.ruck_margin(line.whole), "side_wall": line.side_wall_margin(line.whole)}
+    margins = {line.of_hose: line.ruck_margin(line.whole), "side_wall": line.side_wall_margin(line.whole)}
     table = plain_table("over the run", "", "margin", "at s", "where", "station")
     table.columns[4].justify = table.columns[5].justify = "left"
     for key, name in NAMES.items():
         one: Worst | None = getattr(line.whole, key)
-        if one is None or (key == "hose" and line.whole.core is None):
+        if one is None or (key == "hose" and line.of_hose != "hose"):
             continue
         place = "" if one.place is None else f", {one.place:.4g} m"
         value = _length(one) if UNITS.get(key) == "m" else f"{one.value:.4g}"

@@ -76,6 +76,7 @@ def plot(
     elif not source or what is None:
         raise typer.BadParameter("plot wants a run or a model, and what to draw (or --paper).")
     elif what in (What.FRICTION, What.WORK_PRECISION):
+        _refuse_what_it_ignores(source, what, signals, at)
         written = [_of_model(source, what, settings, libraries, out)]
     else:
         from fairlead.quantities import si
@@ -87,6 +88,28 @@ def plot(
     if not quiet:
         for file in written:
             echo(f"wrote {file}")
+
+
+def _refuse_what_it_ignores(source: str, what: What, signals: list[str], at: list[str] | None) -> None:
+    """Raise BadParameter for a folder of a run, and for signals and times, of what is drawn of a model."""
+    if pathlib.Path(source).is_dir():
+        raise typer.BadParameter(
+            f"{what.value} is drawn of a model, not of a run; {source} is a folder. Give the netlist, "
+            f"as in: fairlead plot {_netlist_of(source) or 'NETLIST'} {what.value}"
+        )
+    if signals or at:
+        raise typer.BadParameter(f"{what.value} is drawn of a model and takes neither signals nor --at.")
+
+
+def _netlist_of(folder: str) -> str:
+    """The netlist that the run in a folder was made of; "" where that cannot be told."""
+    from fairlead.errors import FairleadError
+    from fairlead.results.run_file import load
+
+    try:
+        return str(load(pathlib.Path(folder)).get("netlist") or "")
+    except FairleadError:
+        return ""
 
 
 def _asked(words: list[str]) -> tuple[What | None, list[str]]:

@@ -10,9 +10,11 @@ Two marks tell the framework what a parameter is for, whatever it is called:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
+
+from fairlead.netlist.item_names import item_names
 
 REQUIRED: Any = object()
 
@@ -171,3 +173,8 @@ class Stations:
 
     family: type
     doc: str = ""
+
+    @staticmethod
+    def names(stations: Iterable[Any]) -> list[str]:
+        """Given names, else the type in small letters, with a number when there are several: bend_1, bend_2."""
+        return [str(name) for name in item_names((one.name, one.type.word) for one in stations)]

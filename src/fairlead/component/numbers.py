@@ -10,11 +10,11 @@ import contextlib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from fairlead.component.given import Block, Parameter, Waveform
+from fairlead.component.given import Block, Parameter, Stations, Waveform
 from fairlead.component.tables import TableError
 from fairlead.component.values import Group, Values, Wave
 from fairlead.component.waveforms import numbers_in
-from fairlead.netlist.netlist import Netlist
+from fairlead.netlist.netlist import Netlist, Value
 from fairlead.quantities import QuantityError, parse_unit, split, unit_text
 
 
@@ -22,7 +22,8 @@ def numbers(netlist: Netlist, entries: Mapping[str, Values]) -> dict[str, tuple[
     """Value [SI] and unit of every parameter that is a number; `entries` are the components by name."""
     found = numbers_of_scene(netlist)
     for name, values in entries.items():
-        found |= {f"{name}.{inner}": one for inner, one in _of_values(values)}
+        written = netlist.components[name].parameters if name in netlist.components else {}
+        found |= {f"{name}.{inner}": one for inner, one in _of_values(values, written)}
     return found
 
 
@@ -58,19 +59,29 @@ def _of_scene(netlist: Netlist) -> Iterator[tuple[str, tuple[float, str]]]:
         yield name, (number * (one.factor if one else 1.0), unit_text(one.dimension) if one else "")
 
 
-def _of_values(values: Values) -> Iterator[tuple[str, tuple[float, str]]]:
+def _of_values(values: Values, written: Mapping[str, Value]) -> Iterator[tuple[str, tuple[float, str]]]:
+    """Those of a component, or of a part of one, that is `written` so in the netlist."""
     declared = values.type.declaration.parameters
     for name, value in values.given.items():
-        yield from _of_one(name, declared.get(name), value)
+        yield from _of_one(name, declared.get(name), value, written.get(name))
 
 
-def _of_one(name: str, declared: Any, value: Any) -> Iterator[tuple[str, tuple[float, str]]]:
-    if isinstance(value, Values):
-        yield from ((f"{name}.{inner}", one) for inner, one in _of_values(value))
+def _of_one(name: str, declared: Any, value: Any, node: Value | None) -> Iterator[tuple[str, tuple[float, str]]]:
+    inside = node.entries if node is not None else {}
+    if isinstance(value, Values) and node is not None and not isinstance(node.content, dict):
+        short = getattr(value.type, "bare", None)  # a number that stands for the part, which no path leads into
+        of = value.type.declaration.parameters.get(short[1]) if short else None
+        yield from _of_one(name, of, value.given.get(short[1]), None) if isinstance(of, Parameter) and short else ()
+    elif isinstance(value, Values):
+        yield from ((f"{name}.{inner}", one) for inner, one in _of_values(value, inside))
     elif isinstance(value, Group) and isinstance(declared, Block):
         for inner, content in vars(value).items():
-            found = _of_one(inner, declared.parameters.get(inner), content)
+            found = _of_one(inner, declared.parameters.get(inner), content, inside.get(inner))
             yield from ((f"{name}.{more}", one) for more, one in found)
+    elif isinstance(declared, Stations):
+        nodes = node.content if node is not None and isinstance(node.content, list) else []
+        for called, station, each in zip(Stations.names(value), value, nodes, strict=False):
+            yield from ((f"{name}.{called}.{inner}", one) for inner, one in _of_values(station, each.entries))
     elif isinstance(declared, Parameter) and isinstance(value, int | float) and not isinstance(value, bool):
         yield name, (float(value), declared.unit)
     elif isinstance(declared, Waveform) and isinstance(value, Wave) and _is_steady(value):

@@ -184,7 +184,8 @@ def _field(declared: Any, only: Collection[str] | None = None) -> tuple[Any, Any
         bounds: dict[str, Any] = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
         limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
         schema = {"type": ["number", "string"], **_schema_bounds(declared)}
-        kind = Annotated[float, BeforeValidator(lambda v, u=declared.unit: written(v, u)), limits, _Schema(schema)]
+        read = functools.partial(written, unit=declared.unit, size=declared.above == 0)
+        kind = Annotated[float, BeforeValidator(read), limits, _Schema(schema)]
     elif isinstance(declared, Effect):
         kind = Annotated[Literal["on", "off"], BeforeValidator(switch)]
     elif isinstance(declared, Choice):

@@ -18,6 +18,7 @@ from fmpy.fmi3 import FMU3Slave
 
 from fairlead.foreign.events import Agenda, Events, Told
 from fairlead.foreign.groups import Calls, Named, grouped
+from fairlead.foreign.underway import Underway
 
 FLOATS = ("Real", "Float64", "Float32")
 DISCARD, REACHED, TERMINATED = 2, 2, 3  # fmi2Status and fmi2StatusKind, FMI 2.0.4, sections 2.1.3 and 4.2.3
@@ -38,11 +39,31 @@ class Where:
     agenda: Agenda = field(default_factory=Agenda)
 
 
+class ToldCalls:
+    """An FMU of FMPy whose calls are told; FMPy knows the version by the name of the class."""
+
+    underway: Underway | None = None
+
+    def _call(self, name: str, *given: Any) -> Any:
+        if self.underway is None:
+            return super()._call(name, *given)  # type: ignore[misc]
+        with self.underway.call(name):
+            return super()._call(name, *given)  # type: ignore[misc]
+
+
+class FMU2Told(ToldCalls, FMU2Slave):
+    """Of version 2."""
+
+
+class FMU3Told(ToldCalls, FMU3Slave):
+    """Of version 3."""
+
+
 class Instance:
     """An FMU of version 2 or 3 that is loaded; begins with the first step."""
 
-    def __init__(self, asked: dict[str, Any]) -> None:
-        """Unpack, load and instantiate it, and set what is to be set before the start."""
+    def __init__(self, asked: dict[str, Any], underway: Underway | None = None) -> None:
+        """Unpack, load and instantiate it, and set what is to be set before the start; `underway` is told each call."""
         with zipfile.ZipFile(asked["file"]) as archive:
             archive.extractall(asked["folder"])  # it takes .. and leading slashes out of names
         self.version, self.splits = asked["version"], bool(asked["splits"])
@@ -52,7 +73,8 @@ class Instance:
         self.states: dict[int, Any] = {}
         self.number = 0
         self.past = bool(asked["keeps_state"])  # it may be set back to a time before
-        self.fmu: Any = (FMU2Slave if self.version == 2 else FMU3Slave)(**given)
+        self.fmu: Any = (FMU2Told if self.version == 2 else FMU3Told)(**given)
+        self.fmu.underway = underway
         with_events = {"eventModeUsed": bool(asked["events"]), "earlyReturnAllowed": self.splits}
         self.fmu.instantiate(**(with_events if self.version == 3 else {}))
         self.calls = Calls(self.fmu, self.version)

@@ -14,6 +14,7 @@ import collections
 import contextlib
 import json
 import os
+import pathlib
 import queue
 import shutil
 import signal
@@ -26,6 +27,7 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from fairlead.errors import shown
+from fairlead.foreign import underway
 from fairlead.foreign.refusals import FAILED, ForeignError
 
 START_LIMIT = 120.0  # s, for Python to start and import FMPy on a busy machine
@@ -34,6 +36,7 @@ HEARD = 30.0
 LAST_WORDS = 3  # lines of what the code printed that are told when it fails
 MOST_PRINTED = 400  # characters of them
 DOES = {"open": "its initialisation", "step": "doStep", "save": "getFMUState", "load": "setFMUState"}
+"""Where it is while none of its calls is under way, by the question."""
 
 
 class ForeignProcess:
@@ -45,7 +48,9 @@ class ForeignProcess:
         self.occupant: Callable[[], Any] = lambda: None
         """Whose state is in the process, of those that share it; None when nobody knows him any more."""
         self.folder = tempfile.mkdtemp(prefix="fairlead_fmu_")
-        command = [sys.executable, "-P", "-m", "fairlead.foreign.worker"]
+        self._underway = pathlib.Path(f"{self.folder}.call")
+        underway.make(self._underway)
+        command = [sys.executable, "-P", "-m", "fairlead.foreign.worker", str(self._underway)]
         pipe = subprocess.PIPE
         self._process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, start_new_session=True)
         assert self._process.stdout is not None
@@ -87,6 +92,7 @@ class ForeignProcess:
         try:
             line = self._answers.get(timeout=limit)
         except queue.Empty:
+            doing = underway.read(self._underway) or doing
             self.close()
             what = f"{self.of} did not come back from {doing} within {limit:g} s, so its process was ended"
             raise ForeignError(f"{what}. Give it a longer time_limit, or mend the FMU.{self._said()}") from None
@@ -103,6 +109,7 @@ class ForeignProcess:
             code = self._process.wait(HEARD)
         except subprocess.TimeoutExpired:
             code = 0
+        doing = underway.read(self._underway) or doing
         self.close()
         with contextlib.suppress(ValueError):
             ended = f"by {signal.Signals(-code).name}" if code < 0 else f"with exit code {code}"
@@ -149,3 +156,5 @@ def _close(process: subprocess.Popen[bytes], folder: str, listening: list[thread
             with contextlib.suppress(OSError):
                 stream.close()
     shutil.rmtree(folder, ignore_errors=True)
+    with contextlib.suppress(OSError):
+        pathlib.Path(f"{folder}.call").unlink()

@@ -10,6 +10,7 @@
     intervals         [reference, seconds] of clocks, as the netlist gives them
     watched           [reference, clocks at whose ticks alone it is asked] of output clocks
 
+Calls under way are written to the memory that the command names (underway.py).
 What the code prints goes to standard error, and a mark behind it when a question ends in an error. The process ends as
 soon as its standard input does, even inside the FMU.
 """
@@ -26,14 +27,15 @@ from typing import Any
 from fairlead.foreign.events import Told
 from fairlead.foreign.instance import Instance
 from fairlead.foreign.refusals import FAILED
+from fairlead.foreign.underway import Underway
 
 
-def answer(question: dict[str, Any], instances: list[Instance]) -> dict[str, Any]:
+def answer(question: dict[str, Any], instances: list[Instance], underway: Underway) -> dict[str, Any]:
     """What is asked, done; what goes wrong in it is told."""
     try:
         match question["do"]:
             case "open":
-                instances.append(Instance(question))
+                instances.append(Instance(question, underway))
                 return {}
             case "step":
                 return instances[0].step(question["to"], question["inputs"])
@@ -60,14 +62,14 @@ def main() -> None:
     os.dup2(2, 1)  # what foreign code prints is no answer
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=read, args=(lines,), daemon=True).start()
-    instances: list[Instance] = []
+    instances, underway = list[Instance](), Underway(sys.argv[1])
     said: dict[str, Any] = {}
     while True:
         if "error" in said:
             os.write(2, FAILED)
         out.write(json.dumps(said).encode() + b"\n")
         out.flush()
-        said = answer(json.loads(lines.get()), instances)
+        said = answer(json.loads(lines.get()), instances, underway)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ class Underway:
 
     def __init__(self, problem: Problem, run: Run, take: OnBlock) -> None:
         """Begin; nothing is evaluated yet."""
-        self.run, self.take, self._problem = run, take, problem
+        self.run, self.take, self.problem = run, take, problem
         self.scope = Scope(problem, run, TABLEAUS[run.method])
         self.engine = engine_of(run)
         make = self.engine.loop
@@ -94,7 +94,7 @@ class Underway:
 
     def beside(self, take: OnBlock) -> Underway:
         """Another run of the same problem with the same settings, at its start."""
-        return Underway(self._problem, self.run, take)
+        return Underway(self.problem, self.run, take)
 
     def flush(self) -> None:
         """Hand over what the buffers hold and empty them: they are no part of what is saved."""

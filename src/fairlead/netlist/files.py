@@ -30,9 +30,10 @@ def find(path: str | os.PathLike[str]) -> Path:
     if (name := asked.removesuffix(".yaml")) in bundled:
         return _unless_ambiguous(bundled[name], Path(f"{name}.yaml"), where)
     if _is(asked, Path.is_dir):
-        raise ModelError(
-            [Fault(where, "this is a folder, not a netlist", _neighbours(Path(asked), "netlist"))]
-        )
+        way_out = _neighbours(Path(asked), "netlist")
+        if _is(f"{asked}/run.json", Path.is_file):
+            way_out = "It holds the results of a run: give the netlist that was run."
+        raise ModelError([Fault(where, "this is a folder, not a netlist", way_out)])
     if _is(asked, Path.exists):
         raise ModelError([Fault(where, "this is not a regular file")])
     near = did_you_mean(Path(asked).stem, bundled)

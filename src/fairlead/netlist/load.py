@@ -15,7 +15,7 @@ from fairlead.netlist.includes import Sources, gather
 from fairlead.netlist.interface import Interface
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Entry, Netlist, Value
-from fairlead.netlist.overrides import override
+from fairlead.netlist.overrides import BLOCKS, override
 from fairlead.netlist.schema import Document, Part
 from fairlead.netlist.settings import RecordSettings, RunSettings
 from fairlead.netlist.substitution import fill_tree
@@ -65,7 +65,7 @@ def worked_out(sources: Sources, overrides: Mapping[str, str]) -> tuple[Netlist 
     document, wrong = validate(Document, tree)
     for part in sources.parts:
         wrong += validate(Part, part)[1]
-    wrong += _loose_ends(tree)
+    wrong += _named_like_blocks(tree) + _loose_ends(tree)
     faults += in_braces(without_echoes(wrong, faults), _block(tree, "parameters"))
     netlist = _netlist(sources.top, tree, document, sources.digest(overrides))
     kept = replace(netlist, texts=dict(sources.texts), given=dict(overrides))
@@ -116,6 +116,15 @@ def _connections(tree: Value) -> list[tuple[tuple[EndPoint, ...], Value]]:
         points = [EndPoint(end.content, end.where) for end in ends if isinstance(end.content, str)]
         found.append((tuple(point for point in points if point.port and _owner(point) in known), item))
     return found
+
+
+def _named_like_blocks(tree: Value) -> list[Fault]:
+    """Components that are called like a block which `--set` reaches: `run.stop` would mean both."""
+    return [
+        Fault(component.named_at, f"{name} is no name for a component: --set {name}.NAME means the block {name}",
+              f"Give it another name, such as {name}_1, here and in the connections.")
+        for name, component in _block(tree, "components").items() if name in (*BLOCKS, "parameters")
+    ]  # fmt: skip
 
 
 def _loose_ends(tree: Value) -> list[Fault]:

@@ -2,7 +2,7 @@
 
 A name without a dot is a scene parameter. In a dotted path the first word is a component, or else a block of
 the netlist (`run`, `record`, `friction`, `effects`, `initial`, `nominal`, `limits`); further words lead into maps, and
-into lists by number or by the `name` of an item.
+into lists by number or by the name of an item (item_names.py).
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.netlist.files import UNPRINTABLE
+from fairlead.netlist.item_names import item_names
 from fairlead.netlist.limits import DEEPEST
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.settings import RecordSettings, RunSettings
@@ -111,15 +111,20 @@ def _placed(value: Value, path: list[str], new: Value, name: str) -> Value | Fau
 
 
 def _no_item(items: list[Value], word: str, name: str) -> Fault:
-    names = [str(one) for one in _names(items) if one]
+    names = [one for one in _names(items) if one]
     known = f"Items go by number, 0 to {len(items) - 1}" + (f", or by name: {listing(names)}" if names else "")
     what = f"{shown(name)}: there is no item {shown(word)} in {shown(items)}"
     return Fault(PLACE, what, f"{did_you_mean(word, names)} {known if items else 'It has no items'}.".strip())
 
 
-def _names(items: list[Value]) -> list[Any]:
-    """What the items of a list are called; None for one without a name."""
-    return [item.entries["name"].content if "name" in item.entries else None for item in items]
+def _names(items: list[Value]) -> list[str | None]:
+    """What the items of a list are called; None for one without a name and a type."""
+    return item_names((_text(item, "name"), _text(item, "type")) for item in items)
+
+
+def _text(item: Value, key: str) -> str | None:
+    content = item.entries[key].content if key in item.entries else None
+    return content if isinstance(content, str) else None
 
 
 def _index(items: list[Value], word: str) -> int | None:

@@ -12,6 +12,8 @@ from fairlead.arguments import Arguments
 from fairlead.errors import UsageError, shown
 from fairlead.quantities import QuantityError, si
 
+NUMBERS = "iuf"
+"""Kinds of arrays of real numbers: no True and False, no texts, and no times of a calendar in units of their own."""
 SEVERAL = '"block.x", "block.*" or ["block.x", "pad.slip"]'
 
 
@@ -39,18 +41,25 @@ def not_names(names: object) -> str:
 
 
 def times_of(t: Any) -> NDArray[np.float64]:
-    """Times [s]: a number, a text with its unit, or an array of numbers. Raises UsageError."""
+    """Times [s]: a number, a text with its unit, or several of either. Raises UsageError."""
     if isinstance(t, str):
         try:
             return np.asarray(si(t, "s"))
         except QuantityError as error:
             raise UsageError(f"t = {shown(t)} is no time: {error.what}.\n    {error.allowed}") from None
+    if isinstance(t, list | tuple) and any(isinstance(one, str) for one in t):
+        return np.array([times_of(one) for one in t])
     try:
-        if (given := np.asarray(t)).dtype != object:  # None would become nan
+        if (given := np.asarray(t)).dtype.kind in NUMBERS and not _has_bools(t):  # None would become nan
             return given.astype("f8")
     except (TypeError, ValueError):
         pass
     raise UsageError(f"t = {shown(t)} is no time: give a number of seconds, or an array of them.")
+
+
+def _has_bools(t: Any) -> bool:
+    """Whether there is True or False among numbers in a list, of which numpy makes 1 and 0."""
+    return isinstance(t, bool | np.bool_) or (isinstance(t, list | tuple) and any(map(_has_bools, t)))
 
 
 def instead_of(name: object) -> str:

@@ -25,6 +25,8 @@ class Events(list[Event]):
     def __getitem__(self, which: str, /) -> list[Any]: ...
 
     def __getitem__(self, which: Any, /) -> Any:
+        if isinstance(which, bool):
+            return self.table()[which]
         try:
             return super().__getitem__(which)
         except (TypeError, IndexError):

@@ -59,13 +59,23 @@ def as_read(record: Mapping[str, Any]) -> dict[str, Any]:
     return plain
 
 
+def _instead_of(directory: Path) -> str:
+    """What to give instead of what is no folder of a run."""
+    usual = Path("results") / directory.name.removesuffix(".yaml")
+    if (usual / RUN_FILE).is_file():
+        return f"Did you mean {usual}?"
+    run = " It is a netlist: run it first." if directory.suffix in (".yaml", ".yml") and directory.is_file() else ""
+    return f"{GIVE}{run}"
+
+
 def load(directory: Path) -> dict[str, Any]:
     """Return run.json as a dict. Raises UsageError when there is none, DamagedResultsError when it cannot be read."""
     file = directory / RUN_FILE
     try:
         size = file.stat().st_size
     except OSError:
-        raise UsageError(f"{directory} holds no run of fairlead: there is no {RUN_FILE} in it.\n    {GIVE}") from None
+        told = f"{directory} holds no run of fairlead: there is no {RUN_FILE} in it."
+        raise UsageError(f"{told}\n    {_instead_of(directory)}") from None
     if size > MOST_BYTES:
         raise DamagedResultsError(file, f"the file has {size} bytes, more than any run leaves ({MOST_BYTES}).")
     with reading(file):

@@ -112,6 +112,8 @@ class Table:
 
 def row_of(which: int, rows: Sequence[Any], called: str = "rows") -> int:
     """The number of a row, also counted from the end; `called` is what rows are. Raises NoRowError."""
+    if isinstance(which, bool):
+        raise NoRowError(f"{which} is no number; {f'{called} are 0 to {len(rows) - 1}' if rows else 'there are none'}")
     if isinstance(which, int) and not -len(rows) <= which < len(rows):
         raise NoRowError(f"{which}: {f'{called} are 0 to {len(rows) - 1}' if rows else f'there are no {called}'}")
     return which

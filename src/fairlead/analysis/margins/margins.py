@@ -61,6 +61,11 @@ class LineMargins:
     side_wall: float | None
     missing: tuple[str, ...] = field(default=())
 
+    @property
+    def of_hose(self) -> str:
+        """The quantity that the margin to rucking belongs to: of a single layer, hose and line are one."""
+        return "lowest" if self.whole.core is None else "hose"
+
     def ruck_margin(self, one: StationMargins) -> float | None:
         """Compression that it bears over that which it had; infinite when it had none."""
         if self.ruck_force is None or one.hose is None:

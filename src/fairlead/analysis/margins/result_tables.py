@@ -48,9 +48,9 @@ def _no_line(result: Result, picked: object, names: list[str]) -> str:
 
 def _row(line: LineMargins, station: StationMargins, quantity: str) -> tuple[Any, ...] | None:
     worst: Worst | None = getattr(station, quantity)
-    if worst is None:
+    if worst is None or (quantity == "hose" and line.of_hose != "hose"):  # which is told already
         return None
-    margin = {"hose": line.ruck_margin, "side_wall": line.side_wall_margin}.get(quantity)
+    margin = {line.of_hose: line.ruck_margin, "side_wall": line.side_wall_margin}.get(quantity)
     bears = margin(station) if margin is not None else None
     place = (worst.t, worst.signal, worst.place)
     return (line.line, station.name, quantity, worst.value, QUANTITIES[quantity], bears, *place)

@@ -26,7 +26,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.system.compiled.system import Instance
+from fairlead.component.replies import is_bundled
+from fairlead.system.compiled.system import Instance, System
 
 MOST_NAMED = 3
 LEFT_BY_IDA = 0.01
@@ -101,9 +102,41 @@ def open_by(energy: Mapping[str, Any] | None) -> float | None:
     return None if closure is None or energy is None else 0.0 if closure <= explained(energy) else float(closure)
 
 
-def judged(summary: dict[str, float | None], undeclared: list[str]) -> dict[str, Any]:
-    """The summary; without a closure, and with their names, where components declare no energy of what they do."""
-    return {**summary, "closure": None, "undeclared": undeclared} if undeclared else dict(summary)
+def judged(summary: dict[str, float | None], undeclared: list[str], own: list[str]) -> dict[str, Any]:
+    """The summary; without a closure, and with their names, where components declare no energy of what they do.
+
+    `own` are classes that are none of fairlead's library, which are named beside it.
+    """
+    beside = {"own_classes": own} if own else {}
+    return {**summary, **beside, "closure": None, "undeclared": undeclared} if undeclared else {**summary, **beside}
+
+
+def own_classes(system: System) -> list[str]:
+    """Names of classes in the model that are none of fairlead's library, parts of other components among them."""
+    found: dict[str, None] = {}
+    variants = [block.kernel.variant for block in system.blocks]
+    while variants:
+        variant = variants.pop()
+        variants += [part for _, part in variant.parts]
+        if not is_bundled(variant.type):
+            found[variant.type.__name__] = None
+    return sorted(found)
+
+
+def suspects(energy: Mapping[str, Any] | None) -> str:
+    """Which classes to check where the ledger does not close, and how; nothing where all are of the library."""
+    names = (energy or {}).get("own_classes") or []
+    if not names:
+        return ""
+    does = "does" if len(names) == 1 else "do"
+    return (
+        f"{_few(names)} {does} not come with fairlead: check whether the class keeps the contract "
+        f"(from fairlead.testing import contract; contract({names[0]}); docs/components.md)."
+    )
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
 
 
 def unjudged(energy: Mapping[str, Any] | None) -> str:
@@ -111,8 +144,8 @@ def unjudged(energy: Mapping[str, Any] | None) -> str:
     names = (energy or {}).get("undeclared") or []
     if not names:
         return ""
-    few = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
     return (
-        f"{few}: the class declares no energy of the forces it gives, so whether the energy adds up is not judged. "
-        "Let its law say what becomes of it: Law(..., stored=... J) or Law(..., dissipated=... W, supplied=... W)."
+        f"{_few(names)}: the class declares no energy of the forces it gives, so whether the energy adds up is not "
+        "judged. Let its law say what becomes of it: "
+        "Law(..., stored=... J) or Law(..., dissipated=... W, supplied=... W)."
     )

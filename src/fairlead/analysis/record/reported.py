@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
 from fairlead.analysis.record.chattering import remark as of_chatter
-from fairlead.analysis.record.energy import open_by, unjudged
+from fairlead.analysis.record.energy import open_by, suspects, unjudged
 from fairlead.analysis.record.pushes import remark as of_pushes
 from fairlead.analysis.record.strains import remark as of_strains
 
@@ -37,7 +37,9 @@ def told(run: Mapping[str, Any]) -> Iterator[Told]:
     closure = open_by(run.get("energy"))
     if run["status"] == "finished" and closure is not None and not closure <= OPEN:
         missing = f"the energy ledger does not close, {closure:.2g} of what passed is missing: do not trust this run."
-        yield Told("warning", f"{missing} Ask for a finer accuracy, or look for a number far from all others.")
+        first = suspects(run.get("energy"))
+        advice = f"{'Then ask' if first else 'Ask'} for a finer accuracy, or look for a number far from all others."
+        yield Told("warning", f"{missing} {first} {advice}".replace("  ", " "))
     if silent := unjudged(run.get("energy")):
         yield Told("note", silent)
     if strained := of_strains(run.get("strains")):

@@ -26,6 +26,8 @@ BY_UNIT = {
     "A": 1e6,
 }  # fmt: skip
 """The most that quantities of a unit ever are in machines that move [SI]."""
+FAR = 1e30
+"""The most that any quantity is, of a unit that is not in the list, and one over the least that a size is [SI]."""
 STRETCHED = 0.3
 """Strain of a line at the start from which on its stiffness or its tension is hardly meant; ropes break before."""
 
@@ -81,11 +83,12 @@ def _part(where: str, value: Values, node: Value, netlist: Netlist) -> Iterator[
 def _number(where: str, declared: Parameter, value: Any, node: Value) -> Iterator[Fault]:
     if not isinstance(value, float | int) or isinstance(value, bool):
         return
-    least, most = declared.usual or (0.0, BY_UNIT.get(declared.unit, np.inf))
+    tiny = 1 / FAR if declared.above == 0 else 0.0
+    least, most = declared.usual or (tiny, BY_UNIT.get(declared.unit, FAR))
     if value == 0 or least <= abs(value) <= most:
         return
     unit = "" if declared.unit == "1" else f" {declared.unit}"
-    range_ = f"{least:g} to {most:g}{unit}" if declared.usual else f"up to {most:g}{unit}"
+    range_ = f"{least:g} to {most:g}{unit}" if declared.usual or abs(value) < least else f"up to {most:g}{unit}"
     what = f"{where} = {shown(node.plain())}{_from(node)} is far outside of what it usually is, {range_}."
     yield Fault(node.where, what, _meant(float(value), most, declared.unit))
 

@@ -12,7 +12,7 @@ from typing import Any
 from fairlead.analysis.margins.ruck_words import moment
 from fairlead.analysis.margins.settled import SMALL
 from fairlead.analysis.margins.settled import sentence as of_drift
-from fairlead.analysis.record.energy import open_by
+from fairlead.analysis.record.energy import open_by, suspects
 from fairlead.analysis.treatments.friction_record import sentence as of_friction
 from fairlead.report.page.sentence import Sentence, number
 
@@ -92,7 +92,8 @@ def _energy(run: dict[str, Any]) -> Iterator[Sentence]:
     closes = left_open <= CLOSED
     said = f"The ledger {'closes' if closes else 'does not close'}: {number(closure)} of what passed is missing"
     within = ", no more than the error weights of so little motion explain" if closes and closure > CLOSED else ""
-    yield Sentence("Energy", "good" if closes else "bad", f"{said}{within}.", brief="energy")
+    own = "" if closes else f" {suspects(run.get('energy'))}".rstrip()
+    yield Sentence("Energy", "good" if closes else "bad", f"{said}{within}.{own}", brief="energy")
 
 
 def _creep(run: dict[str, Any]) -> Iterator[Sentence]:

@@ -45,12 +45,19 @@ WHATS: dict[str, Drawing] = {
 """What can be drawn of a run: the function takes the result, signals or parts by pattern, and times [s]."""
 
 
+TIMES = {"signals": 2, "zones": 2, "map": 0, "ledger": 0}
+"""How many times a figure takes, if any are given; a profile tells its own."""
+
+
 def printed(result: Result, what: str, file: Path, names: Sequence[str] = (), times: Sequence[float] = ()) -> Path:
     """Draw one of `WHATS` of a run and write it. Raises UsageError for what the run has not, and for other formats."""
     import matplotlib
 
     if file.suffix.lower() not in FORMATS:
         raise UsageError(f"{shown(str(file))} is no figure that can be drawn.\n    Formats are {listing(FORMATS)}.")
+    if times and what in TIMES and len(times) != TIMES[what]:
+        wanted = "two times limit what is drawn: from and to" if TIMES[what] else f"a {what} is of the whole run"
+        raise UsageError(f"{what}: {len(times)} times were given.\n    Leave them out, for {wanted}.")
     with matplotlib.rc_context({**STYLE, "backend": "agg"}):
         return save(WHATS[what](result, names, times), file)
 

@@ -37,8 +37,9 @@ def modes(
 ) -> Modes:  # fmt: skip
     """Linearise a model and tell its modes: frequency, damping, and which component takes part.
 
-    `at` is the instant, a time or a text with its unit, to which the model is run; None: its settled start. `zones`
-    freezes parts in zones by name or pattern, `{"pad": "held", "c*": "sliding"}`; others stay in those they are in.
+    `at` is the instant, a time or a text with its unit, to which the model is run, at most `run.stop`; None: its
+    settled start. `zones` freezes parts in zones by name or pattern, `{"pad": "held", "c*": "sliding"}`; others stay
+    in those they are in.
     `acting` (a part, a port or a free signal input) and `out` (a signal) ask for the response between both, over
     `frequencies` [Hz]. `change` asks for all patterns in which up to so many contacts change between holding and
     sliding.
@@ -58,13 +59,13 @@ def modes(
     if frequencies is not None and not (acting or out):
         asked.alone("frequencies", frequencies, 'A response needs acting="block" and out="block.x" as well.')
     asked.refuse()
+    if faults := _outside(model, time):
+        raise ModelError(faults)
     run = model.start()
     if time is not None and time > run.t:
         run.advance(time)
     t, y, instance = run.standing()
     known, faults = Known(instance, t, y), [*_missing(acting, out)]
-    if time is not None and time < t:
-        faults.append(Fault(Location("at"), f"{time:g} s is before the start of the run at {t:g} s"))
     frozen = known.asked(zones or {}, faults)
     point = Point(instance, t, y, frozen, instance.absolute)
     row = seen(point, out, faults) if out else None
@@ -81,6 +82,17 @@ def modes(
         model.netlist.name, t, several, known.in_words(frozen), tuple(found), zeros.count, made.held, answer,
         tuple(ranked(known, frozen, change)) if change else (), (SAMPLED,) if instance.samples else (), made, zeros,
     )  # fmt: skip
+
+
+def _outside(model: Model, time: float | None) -> list[Fault]:
+    """An instant that the run of the netlist does not reach."""
+    start, stop = model.netlist.run.start, model.netlist.run.stop
+    if time is None or start <= time <= stop:
+        return []
+    if time < start:
+        return [Fault(Location("at"), f"{time:g} s is before the start of the run at {start:g} s")]
+    way_out = f'Give an earlier instant, or let the run go on to it: run.stop = "{time:g} s".'
+    return [Fault(Location("at"), f"{time:g} s is beyond the end of the run, run.stop = {stop:g} s.", way_out)]
 
 
 def _missing(acting: str, out: str) -> list[Fault]:

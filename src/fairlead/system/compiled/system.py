@@ -10,12 +10,13 @@ import functools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, Protocol
+from typing import Any, NoReturn, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.distinct import distinct
+from fairlead.errors import NoCopyError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.kernels.break_away import least_left
@@ -304,6 +305,10 @@ class System:
             made.zones[table.machine] = table.polynomial.piece_at(start)
         made.memory["sample_start"][0] = start
         return made
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        """Code and addresses are of this process. Raises NoCopyError."""
+        raise NoCopyError("a System holds compiled code and cannot be copied or pickled. Pickle its Model instead.")
 
     def __str__(self) -> str:
         unknowns = self.numbering.unknowns

@@ -16,7 +16,7 @@ from fairlead.errors import Fault, shown
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.patterns import picked
-from fairlead.quantities import QuantityError, si
+from fairlead.quantities import QuantityError, computable
 from fairlead.system.numbering.named_unknowns import named_unknowns, no_such
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -37,7 +37,7 @@ def starts(flat: FlatModel, numbering: Numbering) -> tuple[NDArray[np.float64], 
             faults.append(no_such(flat, names, "initial", pattern, value.named_at))
             continue
         try:
-            numbers = {name: si(value.plain(), names[name].unit) for name in chosen}
+            numbers = {name: computable(value.plain(), names[name].unit) for name in chosen}
         except QuantityError as error:
             faults.append(Fault(value.where, f"initial.{pattern} = {error.what}.", error.allowed))
             continue

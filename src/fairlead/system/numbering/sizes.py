@@ -22,7 +22,7 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value
 from fairlead.patterns import picked
-from fairlead.quantities import QuantityError, si
+from fairlead.quantities import QuantityError, computable_size
 from fairlead.system.numbering.named_unknowns import Named, named_unknowns, no_such
 from fairlead.system.numbering.unknowns import Numbering, Unknown
 
@@ -129,7 +129,7 @@ def _read(pattern: str, value: Value, chosen: dict[str, Named]) -> tuple[dict[in
     sizes: dict[int, float] = {}
     for at in chosen.values():
         try:
-            size = si(value.plain(), at.unit)
+            size = computable_size(value.plain(), at.unit)
         except QuantityError as error:
             return {}, Fault(value.where, f"nominal.{pattern} = {error.what}.", error.allowed)
         if not size > 0:
