@@ -26,6 +26,9 @@ MARGIN = 0.1
 """Steps are searched of which a row comes as near to the largest value so far, in the range of the signal so far."""
 AGREE = 0.25
 """Share of the largest second difference by which three may differ that are of one smooth curve."""
+ON_CURVE = 0.5
+"""Share of the largest second difference that a fourth may have on a curve: of a sine it is 0.15 for a quarter of its
+period in a step, 0.6 for half of one."""
 Floats = NDArray[np.float64]
 Taken = Callable[[Integers, Integers], Floats]
 
@@ -169,7 +172,25 @@ def peak_of_neighbours(rows: Rows, taken: Taken, row: Integers) -> tuple[Integer
 
 
 def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:
-    """Of curves through evenly spaced values [k, n]: the highest value of each, and after which share of the way."""
+    """Of curves through evenly spaced values [k, n]: the highest value of each, and after which share of the way.
+
+    The highest of the values themselves where no curve goes through them: one through both ends of a jump overshoots.
+    """
+    value, share = _top_of_curves(v)
+    jumps, best = _jumps(v), v.argmax(axis=1)
+    return np.where(jumps, v.max(axis=1), value), np.where(jumps, best / (v.shape[1] - 1), share)
+
+
+def _jumps(v: Floats) -> NDArray[np.bool_]:
+    """Where a fourth difference of five values is not small beside their second ones, as it is on a curve."""
+    if v.shape[1] < 5:
+        return np.zeros(len(v), dtype=bool)
+    second = v[:, 2:] - 2.0 * v[:, 1:-1] + v[:, :-2]
+    fourth = second[:, 2:] - 2.0 * second[:, 1:-1] + second[:, :-2]
+    return np.asarray(np.abs(fourth).max(axis=1) > ON_CURVE * np.abs(second).max(axis=1))
+
+
+def _top_of_curves(v: Floats) -> tuple[Floats, Floats]:
     at_points, powers = _evenly_spaced(v.shape[1])
     above = v - v[:, :1]  # its first value: what is constant stays what it is
     found = above @ at_points

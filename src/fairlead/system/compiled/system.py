@@ -37,6 +37,8 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 EVERYTHING = ("*",)
+FOR_EVER = 1e200  # s; the first and the last piece of what is given have no end
+LOOKED_AT = 400.0
 
 
 class Asked(Protocol):
@@ -239,13 +241,28 @@ class System:
 
     @property
     def longest_step(self) -> float:
-        """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it."""
-        fastest = 0.0
+        """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it.
+
+        Where all motion is given, no error tells how long a step may be for curved laws to be seen to change: as a test
+        bench takes a curve of friction, LOOKED_AT times a period, and in the longest piece of what is given.
+        """
+        fastest, parts, pieces = 0.0, 8.0, math.inf
         for block in self.blocks:
             for amplitude, omega in block.kernel.structure.sines:
                 swings = block.parameters[:, amplitude] != 0
                 fastest = max(fastest, np.abs(block.parameters[swings, omega]).max(initial=0.0))
-        return math.pi / (4 * fastest) if fastest else math.inf
+        if self._all_given and not self.linear:
+            lengths = [table.polynomial.rows[:, 1] - table.polynomial.rows[:, 0] for table in self.timed_tables]
+            longest = max((float(one[one < FOR_EVER].max(initial=0.0)) for one in lengths), default=0.0)
+            parts, pieces = LOOKED_AT, longest / LOOKED_AT or math.inf
+        return min(2 * math.pi / (parts * fastest) if fastest else math.inf, pieces)
+
+    @functools.cached_property
+    def _all_given(self) -> bool:
+        """True if no unknown answers to another: there are integrals of what is given, and what follows at once."""
+        answers = np.zeros(self.n, dtype=bool)
+        answers[self.pattern.rows] = True
+        return not (answers & self.differential & ~self.quadrature).any()
 
     @property
     def ledger(self) -> tuple[int, int]:
