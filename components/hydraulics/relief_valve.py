@@ -1,14 +1,15 @@
 """A pressure relief valve."""
 
-from fairlead.component import Component, Hydraulic, Law, Output, Parameter, State, Zones, guard, sqrt, zone
+from fairlead.component import Component, Hydraulic, Law, Output, Parameter, State, Zones, derived, guard, sqrt, zone
 
-CRITICAL = 1e5  # Pa; drop below which the open valve passes less than in proportion
+CRITICAL, SHARE = 1e5, 0.05  # Pa, and of the setting; drop below which the open valve passes less than in proportion
 
 
 class ReliefValve(Component):
     """Opens above a pressure difference:  Q = slope * lift,  lag d(lift)/dt = max(0, p_a - p_b - setting) - lift.
 
-    At a steady flow the pressure is  setting + Q/slope. It never drives a flow: Q goes to zero with p_a - p_b.
+    At a steady flow the pressure is  setting + Q/slope, or up to 0.13 % of Q/slope more. It never drives a flow: Q goes
+    to zero with p_a - p_b, below a twentieth of the setting (below 1 bar if that is less).
     """
 
     a = Hydraulic("the line it protects")
@@ -21,12 +22,17 @@ class ReliefValve(Component):
     lift = Output("Pa", "Pressure above the setting that the poppet has followed.")
     zones = Zones("closed", "open")
 
+    @derived
+    def critical(p):
+        """Drop below which less flows than in proportion to the lift."""
+        return min(CRITICAL, SHARE * p.setting)
+
     @zone("closed", "open")
     def poppet(p, a, b, raised, zone):
         """The poppet follows the pressure above the setting."""
         drop = a.pressure - b.pressure
         wanted = drop - p.setting if zone == "open" else 0
-        flow = p.slope * raised * drop / sqrt(drop**2 + CRITICAL**2)
+        flow = p.slope * raised * drop / sqrt(drop**2 + p.critical**2)
         return Law(a=flow, b=-flow, raised=(wanted - raised) / p.lag, flow=flow, lift=raised, dissipated=flow * drop)
 
     @guard("closed", to="open", unit="Pa")

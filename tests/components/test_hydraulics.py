@@ -586,3 +586,22 @@ def test_oil_without_inertia_is_the_limit_of_light_oil(scene, simulate):
     light = {"line.fluid.density": "1e-3 kg/m^3", "line.fluid.viscosity": f"{40e-6 * 870 / 1e-3} m^2/s"}
     np.testing.assert_allclose(simulate(text, **light)["end.pressure"], off["end.pressure"], rtol=1e-4)
     assert not [n for n in scene(text, **{"effects.fluid_inertia": "off"}).system.unknown_names if "column" in n]
+
+
+@pytest.mark.parametrize(("setting", "above"), [(0.2, 0.05), (0.5, 0.1), (1.0, 0.2), (3.0, 0.5), (100.0, 5.0)])
+def test_a_relief_valve_of_any_setting_holds_its_setting_and_flow_over_slope(simulate, setting, above):
+    """Charge, cooler and bypass valves are set to parts of a bar: what is rounded off at no drop follows the setting."""
+    text = f"""
+        components:
+          pump: {{type: FixedPump, flow: {above * 1e5 * 1e-9} m^3/s}}
+          oil: {{type: Volume, volume: 0.1 l}}
+          relief: {{type: ReliefValve, setting: {setting} bar, slope: 1e-9 m^3/s/Pa}}
+          tank: {{type: Tank, pressure: 0 bar}}
+          return: {{type: Tank, pressure: 0 bar}}
+        connections: [[tank.port, pump.inlet], [pump.outlet, oil.port, relief.a], [relief.b, return.port]]
+        run: {{stop: 60 s, accuracy: 1e-6}}
+        record: {{every: 1 s, signals: [oil.pressure, relief.flow]}}
+    """
+    result = simulate(text)
+    assert result["oil.pressure"][-1] == pytest.approx((setting + above) * 1e5, rel=1e-3)
+    assert result["relief.flow"][-1] == pytest.approx(above * 1e5 * 1e-9, rel=1e-6)
