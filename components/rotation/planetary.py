@@ -8,7 +8,8 @@ class Planetary(Component):
 
     Torques are in the ratio 1 : ratio : -(1 + ratio), so nothing is lost. A shaft that is joined to nothing with an
     inertia takes no torque, and then none carries any. Limits: the inertia of the planets is to be added to the
-    carrier; losses are a ShaftFriction or a Gearbox beside it.
+    carrier; losses are a ShaftFriction or a Gearbox beside it. How contacts at all three shafts share a load while all
+    of them hold is not known: clutches and brakes must be pressed in turn, by signals.
     """
 
     sun = Rotational("shaft of the sun")

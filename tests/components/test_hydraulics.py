@@ -590,7 +590,7 @@ def test_oil_without_inertia_is_the_limit_of_light_oil(scene, simulate):
 
 @pytest.mark.parametrize(("setting", "above"), [(0.2, 0.05), (0.5, 0.1), (1.0, 0.2), (3.0, 0.5), (100.0, 5.0)])
 def test_a_relief_valve_of_any_setting_holds_its_setting_and_flow_over_slope(simulate, setting, above):
-    """Charge, cooler and bypass valves are set to parts of a bar: what is rounded off at no drop follows the setting."""
+    """Charge, cooler and bypass valves are set to parts of a bar: rounding at no drop follows the setting."""
     text = f"""
         components:
           pump: {{type: FixedPump, flow: {above * 1e5 * 1e-9} m^3/s}}

@@ -61,7 +61,8 @@ def compile(flat: FlatModel) -> System:
     still_supports(blocks, numbering, rows_eliminated(blocks, numbering))
     begin, initially, faults = starts(flat, numbering)
     faults += nominal_faults(flat, numbering)
-    faults += undetermined(flat, numbering, blocks)
+    left_open, numbering.open_first = undetermined(flat, numbering, blocks)
+    faults += left_open
     if faults:
         raise ModelError(faults)
     system = build(flat, numbering, blocks, tables, [path for path, _ in machines], begin)

@@ -97,7 +97,7 @@ def _with_numbers(
         memory |= {"tables": tables.vector(), "time_place": time_places(blocks)}
         memory["zones"] = np.zeros(len(old.zones), dtype=np.int64)
         other = {
-            "timed_tables": first_pieces(blocks, memory["zones"]), "zones": memory["zones"],
+            "timed_tables": first_pieces(blocks, memory["zones"], numbering.open_first), "zones": memory["zones"],
             "kink_guard": kinks(blocks), "machine_zones": machine_zones(blocks, len(old.zones)),
         }  # fmt: skip
     shared, end = shares(blocks)

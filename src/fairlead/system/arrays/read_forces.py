@@ -21,7 +21,9 @@ def pressing(blocks: Sequence[Block], numbering: Numbering) -> Integers:
     found: list[tuple[int, int]] = []
     for block in blocks:
         s = block.kernel.structure
-        for unknown in filter(lambda one, s=s: _holds_for_ever(s, one), s.rigid):
+        for unknown in s.rigid:
+            if not _holds_for_ever(s, unknown):
+                continue
             at, row = s.inputs.index(f"own:{unknown}"), s.targets.index(f"own:{unknown}")
             sign = -int(np.sign(s.senses[unknown]))
             for inputs, rows in zip(block.in_index.tolist(), block.flow_index.tolist(), strict=True):
@@ -38,13 +40,13 @@ def _holds_for_ever(s: Structure, unknown: str) -> bool:
 
 def _read_by_laws(blocks: Sequence[Block], numbering: Numbering) -> set[int]:
     """Places in z of signals that flows depend on, and of what those signals are made of."""
-    n, dump = numbering.n, numbering.dump
+    n, dump, end = numbering.n, numbering.dump, numbering.first_reaction
     read = {
         inputs[i]
         for block in blocks
         for inputs in block.in_index.tolist()
         for _, i in block.kernel.structure.d_flows
-        if n <= inputs[i] < dump
+        if n <= inputs[i] < end
     }
     made = [
         (outputs[o], inputs[i])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +11,9 @@ from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import polynomial
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Integers, Memory
+
+OPEN = "off"
+"""The zone in which a contact is open."""
 
 
 class PlacedTable(NamedTuple):
@@ -41,13 +44,16 @@ def time_places(blocks: Sequence[Block]) -> Integers:
     return np.array(found, dtype=np.int64).reshape(-1, layout.TIME)
 
 
-def first_pieces(blocks: Sequence[Block], zones: Integers) -> list[PlacedTable]:
+def first_pieces(blocks: Sequence[Block], zones: Integers, open_first: Collection[str]) -> list[PlacedTable]:
     """Put parts into the zones in which they begin, and tables of unknowns into a piece from which they settle.
 
-    What is given in time waits for the start: those.
+    What is given in time waits for the start: those. `open_first` are contacts that begin open (determinacy.py).
     """
     timed = []
     for block in blocks:
+        for instance, machines in zip(block.instances, block.machines, strict=True) if open_first else ():
+            if instance.path in open_first:
+                zones[machines[0]] = block.kernel.structure.zones.index(OPEN)
         begins = block.instances[0].type.answers.begins_in if block.count else None
         if begins is not None:
             for instance, machines in zip(block.instances, block.machines, strict=True):

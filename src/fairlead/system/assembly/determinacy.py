@@ -14,7 +14,7 @@ Where all are matched, parts that ask for differences of potentials alone are le
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.shares import shares
+from fairlead.system.arrays.timing import OPEN as OPEN_ZONE
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.assembly.common_level import Open as WithoutLevel
 from fairlead.system.assembly.common_level import said_of, without_level
@@ -44,16 +45,49 @@ THROUGH = {"translational": "force", "rotational": "torque", "hydraulic": "press
            "thermal": "temperature"}  # fmt: skip
 
 
-def undetermined(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> list[Fault]:
-    """Parts of the model that its equations leave open, each with its nodes and a way out."""
+def undetermined(
+    flat: FlatModel, numbering: Numbering, blocks: list[Block]
+) -> tuple[list[Fault], frozenset[str]]:
+    """Parts of the model that its equations leave open, each with its nodes and a way out; and contacts to begin open.
+
+    Those are of circles with a gear of three shafts that move, if all contacts of them hold: how they would share is
+    not known, and seldom asked. Clutches and brakes of an automatic gearbox, pressed in turn, never hold all at once.
+    """
     faults = [*_unknown_speeds(flat, numbering, blocks), *_floating(flat, blocks)]
     if faults or all(unknown.differential for unknown in numbering.unknowns):
-        return faults
+        return faults, frozenset()
     parts = _unmatched(_incidence(flat, numbering, blocks, start=True))
     if not parts:
-        return [_levelless(flat, one) for one in without_level(flat, blocks)]
+        return [_levelless(flat, one) for one in without_level(flat, blocks)], frozenset()
     always = set().union(*_unmatched(_incidence(flat, numbering, blocks, start=False)))
-    return [_open(flat, numbering, blocks, part, always=bool(part & always)) for part in parts]
+    to_open: set[str] = set()
+    for part in parts:
+        contacts = set() if part & always else _may_open(flat, numbering, blocks, part)
+        to_open |= contacts
+        if not contacts:
+            faults.append(_open(flat, numbering, blocks, part, always=bool(part & always)))
+    return faults, frozenset(to_open)
+
+
+def _may_open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[int]) -> set[str]:
+    """Contacts pressed by what changes in a part in which gears of three shafts close circles; none of another part."""
+    owners = {path for (path, _), at in numbering.own.items() if at in part}
+    alone = not part - {at for (path, _), at in numbering.own.items() if path in owners}
+    cannot, many = _sharing(blocks, owners)
+    if not alone or not many or cannot or not owners <= _holding(blocks):
+        return set()
+    can_open = (one for block in blocks if OPEN_ZONE in block.kernel.structure.zones for one in block.instances)
+    by = {one.path: one.type.answers.pressed_by for one in can_open if one.path in owners}
+    return {path for path, input_ in by.items() if input_ and _changes(flat, PortRef(path, input_))}
+
+
+def _changes(flat: FlatModel, ref: PortRef) -> bool:
+    """Whether an input is connected to more than what parts without inputs of their own hand on as a parameter."""
+    source = flat.sources.get(ref)
+    if source is None or source.instance not in flat.assembly.instances:
+        return False
+    inputs = flat.assembly.instances[source.instance].type.declaration.inputs
+    return not inputs or any(_changes(flat, PortRef(source.instance, name)) for name in inputs)
 
 
 def _unknown_speeds(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> Iterator[Fault]:
@@ -185,16 +219,23 @@ def _index(block: Block, owners: Iterable[str]) -> int:
 
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
     """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
-    wanted, cannot, many = set(owners), list[str](), list[str]()
+    wanted = set(owners)
+    cannot, many = _sharing(blocks, wanted)
+    if many and not cannot:
+        return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
+    return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
+
+
+def _sharing(blocks: list[Block], wanted: Collection[str]) -> tuple[list[str], list[str]]:
+    """Of these: whose force does not act on its ports with fixed numbers, and who joins more than two bodies."""
+    cannot, many = list[str](), list[str]()
     for block in blocks:
         s = block.kernel.structure
         mine = [instance.path for instance in block.instances if instance.path in wanted]
         cannot += mine if s.holds.keys() - s.pairs.keys() - s.ratios.keys() else []
         ports = [*map(len, s.pairs.values()), *map(len, s.ratios.values())]
         many += mine if max(ports, default=0) > 2 else []
-    if many and not cannot:
-        return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
-    return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
+    return cannot, many
 
 
 def _apart(flat: FlatModel, owners: Iterable[str]) -> str:

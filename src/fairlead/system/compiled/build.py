@@ -74,7 +74,7 @@ def build(
     memory["partials"] = np.concatenate([memory["partials"], np.zeros(more)])
     memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
     memory["context"] = context(blocks, numbering, program, memory, end.mass)
-    timed = first_pieces(blocks, memory["zones"])
+    timed = first_pieces(blocks, memory["zones"], numbering.open_first)
     working = set_apart(memory, blocks, samples=whole)
     unknowns, run = numbering.unknowns, flat.assembly.netlist.run
     return System(

@@ -51,6 +51,7 @@ class Numbering:
     reactions: dict[int, int] = field(default_factory=dict)  # prescribed group -> position among reactions
     rated: dict[int, int] = field(default_factory=dict)  # group -> position of the rate of its balance
     geared: frozenset[int] = frozenset()  # groups without inertia whose speeds rows give that always hold
+    open_first: frozenset[str] = frozenset()  # contacts that begin open, since all together would hold too much
     resting: int = 0  # numbers behind `dump` that stand for what rests, see subsystem.py
 
     @property
