@@ -79,10 +79,18 @@ def _light_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
         if here.takes_impulse[k] == RIGID and j in speeds:
             read.setdefault(k, []).append(j)
     light = {k: of for k, of in read.items() if not all(here.differential[of])}
-    slip, steps = _slip(here, y), np.eye(here.n)
-    moved = {j: _slip(here, y + steps[j]) - slip for j in dict.fromkeys(j for of in light.values() for j in of)}
-    rows = {k: {j: float(moved[j][k]) for j in of if moved[j][k] != 0.0} for k, of in light.items()}
-    return {k: row for k, row in rows.items() if row}
+    rows: dict[int, dict[int, float]] = {}
+    if light:
+        moving = y.copy()
+        moving[list(speeds)] = 0.0
+        slip = _slip(here, moving)
+        for j in dict.fromkeys(j for of in light.values() for j in of):
+            moving[j] = 1.0
+            for k in np.flatnonzero(change := _slip(here, moving) - slip).tolist():
+                if j in light.get(k, ()):
+                    rows.setdefault(k, {})[j] = float(change[k])
+            moving[j] = 0.0
+    return rows
 
 
 def _moving_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
