@@ -28,7 +28,7 @@ AGREE = 0.25
 """Share of the largest second difference by which three may differ that are of one smooth curve."""
 ON_CURVE = 0.5
 """Share of the largest second difference that a fourth may have on a curve: of a sine it is 0.15 for a quarter of its
-period in a step, 0.6 for half of one."""
+period in a step, 0.6 for half of one. And by which neighbouring second differences of a curve may differ."""
 Floats = NDArray[np.float64]
 Taken = Callable[[Integers, Integers], Floats]
 
@@ -97,6 +97,8 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
             if len(of):
                 at = which[step[of]]
                 peak, share = peak_of_curves(taken(of, at))
+                if at.shape[1] == 3:
+                    peak[_bends_alone(rows, taken, of, at)] = -np.inf
                 t0, t1 = rows.t[at[:, 0]], rows.t[at[:, -1]]
                 _raise_to(value, t, of, peak, t0 + share * (t1 - t0))
     _raise_to(value, t, *peak_of_neighbours(rows, taken, row))
@@ -145,6 +147,22 @@ def _raise_to(best: Floats, when: Floats, of: Integers, value: Floats, t: Floats
     """Take values of the places `of` that are above the best."""
     higher = value > best[of]
     best[of[higher]], when[of[higher]] = value[higher], t[higher]
+
+
+def _bends_alone(rows: Rows, taken: Taken, of: Integers, at: Integers) -> NDArray[np.bool_]:
+    """Of steps with one row inside [k, 3]: whether the parabola bends otherwise than its neighbours on either side do.
+
+    Then it leads through a jump and would overshoot it. A step without neighbours is believed.
+    """
+    wide = np.concatenate([at[:, :1] - 1, at, at[:, -1:] + 1], axis=1)
+    seen = np.clip(wide, 0, len(rows.t) - 1)
+    gaps, v = np.diff(rows.t[seen], axis=1), taken(of, seen)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slopes = np.diff(v, axis=1) / gaps
+        bends = np.diff(slopes, axis=1) / (gaps[:, 1:] + gaps[:, :-1])
+        alike = np.abs(bends[:, ::2] - bends[:, 1:2]) <= ON_CURVE * np.abs(bends[:, 1:2])
+    known = gaps[:, ::3] > 0.0  # nothing before the first row, nor on the other side of an event
+    return np.asarray(known.any(axis=1) & ~(alike & known).any(axis=1))
 
 
 def peak_of_neighbours(rows: Rows, taken: Taken, row: Integers) -> tuple[Integers, Floats, Floats]:
