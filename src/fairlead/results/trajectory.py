@@ -228,6 +228,9 @@ class Result:
         rows on both sides of it have the same time. At an event itself `side` chooses the value
         before it (`left`), after it (`right`) or both, as a last axis of length 2.
 
+        What changes and changes back within a step is not seen, as friction over a small range of speeds that a heavy
+        body passes at once: give `run.max_step`.
+
         Raises FairleadError for a time that the run did not reach.
         """
         values = self[name]
