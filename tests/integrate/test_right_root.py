@@ -1,4 +1,4 @@
-"""Of two answers of a force that friction follows the one that a stiff part has; a shaft, a gear without give, a load."""
+"""Of two answers of a force that friction follows the one that a stiff part has: a shaft, a rigid gear, a load."""
 
 from __future__ import annotations
 
