@@ -89,9 +89,10 @@ class LossyGear(Composite):
     Source: Pelchen, Schweiger, Otter 2002, Modeling and simulating the efficiency of gearboxes and of planetary
     gearboxes, 2nd Modelica Conference, 257; of the default, the power screw (Shigley's Mechanical Engineering Design).
 
-    Limits: there is no play (put a Backlash beside it). A gear that locks itself may jam while a load is let down,
-    if ratio^2 times the inertia of the load is more than that of the driving side over -efficiency_back. Unless the
-    driving side pushes, no motion of rigid parts exists then, so a run ends. Give the load a TorsionSpring.
+    Limits: there is no play (put a Backlash beside it). A load does not follow the driving side of a gear that
+    locks itself, if ratio^2 times its inertia is more than that of the driving side over -efficiency_back: let down, it
+    is pushed at once, or the gear jams. No motion of rigid parts exists then, so a run ends. Give the load a
+    TorsionSpring.
     """
 
     a = Rotational("driving shaft")
