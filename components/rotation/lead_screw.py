@@ -115,7 +115,7 @@ class LeadScrew(Screw):
     Source: square and angular threads, e.g. Shigley's Mechanical Engineering Design, power screws.
 
     Limits: there is no play (put a Backlash on the shaft) and no give. The collar that takes the thrust is a Bearing
-    of its own. A mass m' at the nut of a screw that locks itself does not follow a shaft that lets it down, if it is above
+    of its own. A mass m' at the nut of a screw that locks itself does not follow the shaft down, if it is above
 
         J/r^2 (1 + m tan s)/(tan s (m - tan s))        J: moment of inertia of the shaft
 
@@ -139,9 +139,9 @@ class Worm(Screw):
     above the slope of the thread. `lead` is the number of threads times pi times the module. `half_angle` is the
     pressure angle.
 
-    Limits: those of LeadScrew. The load of a worm that locks itself does not follow it down, if the inertia at the wheel
-    is too large for that at the worm (m' is moment/wheel_radius^2). Give the load a TorsionSpring, and the wheel an
-    Inertia of its own.
+    Limits: those of LeadScrew. The load of a worm that locks itself does not follow it down, if the inertia at the
+    wheel is too large for that at the worm (m' is moment/wheel_radius^2). Give the load a TorsionSpring, and the wheel
+    an Inertia of its own.
     """
 
     worm = Rotational("the worm")
