@@ -102,3 +102,32 @@ def test_brakes_that_are_always_pressed_hold_too_much(scene):
     """
     with pytest.raises(Exception, match="how they share is not known"):
         scene(text).run(out=None)
+
+
+def test_signals_that_press_all_of_them_at_once_end_the_run_with_their_names(scene):
+    parts = "\n".join(
+        f"          n{k}: {{type: SignalSource, value: {{constant: {force}}}}}\n"
+        f"          b{k}: {{type: Brake, radius: 0.1 m, curve: 0.3}}"
+        for k, force in ((1, 300), (2, 400), (3, 500))
+    )
+    text = f"""
+        components:
+          engine: {{type: TorqueSource, torque: {{ramp: {{to: 60 N*m, over: 2 s}}}}}}
+          s: {{type: Inertia, moment: 0.3 kg*m^2}}
+          r: {{type: Inertia, moment: 0.3 kg*m^2}}
+          c: {{type: Inertia, moment: 1 kg*m^2}}
+          p: {{type: Planetary, ratio: 2}}
+{parts}
+        connections:
+          - [engine.shaft, s.shaft, p.sun, b1.shaft]
+          - [r.shaft, p.ring, b2.shaft]
+          - [c.shaft, p.carrier, b3.shaft]
+          - [n1.signal, b1.normal]
+          - [n2.signal, b2.normal]
+          - [n3.signal, b3.normal]
+        run: {{stop: 2 s}}
+    """
+    result = scene(text).run(out=None, check=False)
+    assert result.status == "failed"
+    assert "If all of b1.contact, b2.contact, b3.contact hold" in result.run["sentence"]
+    assert "write method: binding for one of them" in result.run["sentence"]

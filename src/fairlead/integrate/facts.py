@@ -5,6 +5,7 @@ The engines are right without; with these facts they are quicker, and find what 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -72,6 +73,10 @@ class Facts(Protocol):
 
         3 for a relation of positions, which takes any, and never meets what it keeps.
         """
+
+    @property
+    def held_too_much(self) -> Sequence[str]:
+        """Names of machines that all together hold more than there is to hold, and how they share is not known."""
 
     @property
     def pressing(self) -> Integers:
@@ -187,6 +192,7 @@ class Plain:
     n_swings = 0
     longest_step = np.inf
     ledger = (-1, -1)
+    held_too_much: Sequence[str] = ()
     narrowing = None
 
     @property

@@ -70,6 +70,17 @@ def jam(problem: Problem) -> str:
     )
 
 
+def shared(problem: Problem) -> str:
+    """What else may be the cause where contacts are on circles with gears of three shafts."""
+    names = ", ".join(problem.held_too_much[:MOST_NAMED])
+    if not names:
+        return ""
+    return (
+        f" If all of {names} hold, beside a gear of three shafts that move, how they share is not known: write method: "
+        "binding for one of them, or put a spring between one of them and its body."
+    )
+
+
 def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culprits: tuple[str, ...]) -> str:
     """One paragraph about the end of the run."""
     t, names = float(memory.number["t"]), ", ".join(culprits)
@@ -91,7 +102,7 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         Status.NOT_SETTLED: (
             f"{when}: zones did not settle in {int(memory.number['passes'])} passes; still switching: "
             f"{cycling}. Two laws contradict each other there; add a mass, damping or hysteresis "
-            f"between them.{jam(problem)}"
+            f"between them.{jam(problem)}{shared(problem)}"
         ),
         Status.INCONSISTENT: (
             f"{when}: no consistent values found for the algebraic unknowns, least of all for {names}. "

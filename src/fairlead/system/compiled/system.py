@@ -240,6 +240,11 @@ class System:
         return self.memory["mean"] if len(self.memory["given_places"]) else np.zeros(0)
 
     @property
+    def held_too_much(self) -> list[str]:
+        """Contacts that begin open, since all together would hold too much (determinacy.py)."""
+        return sorted(self.numbering.open_first)
+
+    @property
     def longest_step(self) -> float:
         """An eighth of the shortest period [s] of what swings in time: while all rests, nothing else tells of it.
 
