@@ -2,19 +2,17 @@
 
 No law gives the speed of a node without inertia when all its contacts slide, and all that are beyond their limits let
 go at once. What would really happen is told by a node with a little inertia: the stronger contacts accelerate it
-until one of the others is caught. Nor does a law give the pressure between two valves that both keep their flow. So of
-the patterns
+until one of the others is caught. So of the patterns
 
     after a pass in which several changed     only one of them changed
-                                              the same, and one that changed before goes back
     after a pass in which one changed         one that changed before goes back: the two exchange their places
                                               another that holds lets go, of these the one nearest to its limit
 
-the first one that determines all unknowns is taken, and judged as any other. The exchange is that of Lemke's method,
-whose pivot of one vanishes where that of two does not (Cottle, Pang, Stone, The Linear Complementarity Problem, 1992,
-section 4.4); so is the last, for a row that holds more than there is to hold: a gear has its ring on a backstop, a
-given motion at its sun, and another catches up with its carrier. Where there is none, the run ends and names what is
-open.
+the first one that determines all unknowns is taken, and judged as any other. Only contacts change so. The second is the
+exchange of Lemke's method, whose pivot of one vanishes where that of two does not (Cottle, Pang, Stone, The Linear
+Complementarity Problem, 1992, section 4.4); so is the third, for a row that holds more than there is to hold: a gear
+has its ring on a backstop, a given motion at its sun, and another catches up with its carrier. Where there is none, the
+run ends and names what is open.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ from __future__ import annotations
 from fairlead.integrate.events.consistent import prepare_consistent
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.linear.systems import SINGULAR
-from fairlead.integrate.memory.foreign import compiled, copy, indices, mass_at, reals, switch_at
+from fairlead.integrate.memory.foreign import compiled, indices, mass_at, reals, switch_at
 
 NOT_IN_FORCE = -1.0
 """The value of a guard that the zone in force does not have."""
@@ -37,11 +35,23 @@ def change_to_near_pattern(m):
     for z in range(nz):
         if zones[z] != before[z]:
             changed += 1
+            if not may_hold(m.problem, z):
+                return False
     if changed == 0 or determines(m):
         return False
     if changed > 1:
         return change_one(m)
     return exchange_one(m) or open_one(m)
+
+
+@compiled
+def may_hold(problem, z):
+    """True if machine z is a contact that may hold."""
+    machine = indices(problem.at_guard_machine, problem.n_guards)
+    holding, found = indices(problem.at_may_hold, problem.n_guards), False
+    for i in range(problem.n_guards):
+        found = found or (machine[i] == z and holding[i] > 0)
+    return found
 
 
 @compiled
@@ -58,32 +68,17 @@ def change_one(m):
     nz, settling = m.problem.n_zones, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     wanted = indices(settling.at_zones_history + 8 * settling.passes * nz, nz)
-    for going_back in range(2):
-        for kept in range(nz):
-            if wanted[kept] != before[kept]:
-                for z in range(nz):
-                    zones[z] = wanted[z] if z == kept else before[z]
-                if (going_back == 0 and determines(m)) or (going_back == 1 and send_one_back(m) >= 0):
-                    copy(wanted, before)
-                    return True
-    copy(wanted, zones)
-    return False
-
-
-@compiled
-def send_one_back(m):
-    """The one of those that changed before this pass that goes back to the zone it began in; -1, and none, without."""
-    nz, settling = m.problem.n_zones, m.events.settling
-    zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
-    first = indices(settling.at_zones_history, nz)
-    for z in range(nz):
-        if zones[z] == before[z] and zones[z] != first[z]:
-            left = zones[z]
-            zones[z] = first[z]
+    for kept in range(nz):
+        if wanted[kept] != before[kept]:
+            for z in range(nz):
+                zones[z] = wanted[z] if z == kept else before[z]
             if determines(m):
-                return z
-            zones[z] = left
-    return -1
+                for z in range(nz):
+                    before[z] = wanted[z]
+                return True
+    for z in range(nz):
+        zones[z] = wanted[z]
+    return False
 
 
 @compiled
@@ -91,12 +86,18 @@ def exchange_one(m):
     """One that changed before goes back to the zone it began in, and the last one stays; False without one."""
     nz, settling = m.problem.n_zones, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
-    back = send_one_back(m)
-    if back >= 0:
-        left = before[back]
-        copy(zones, before)
-        before[back] = left
-    return back >= 0
+    first = indices(settling.at_zones_history, nz)
+    for z in range(nz):
+        if zones[z] == before[z] and zones[z] != first[z] and may_hold(m.problem, z):
+            left = zones[z]
+            zones[z] = first[z]
+            if determines(m):
+                for k in range(nz):
+                    before[k] = zones[k]
+                before[z] = left
+                return True
+            zones[z] = left
+    return False
 
 
 @compiled
