@@ -167,3 +167,74 @@ def test_a_shaft_without_inertia_between_a_gear_and_a_damper_starts_as_fast_as_t
     result = simulate(text, **{"run.engine": engine})
     assert result["j.speed"] == pytest.approx(speed, rel=1e-4)
     assert result["d.speed"] == pytest.approx(speed / 10, rel=1e-4)
+
+
+def hoists(loads, torque, speed=100.0, moved=100.0, names="gdl", turned=False):
+    """One shaft that drives a hoist per load: a gear that locks itself, a drum, and what pulls at it."""
+    g, d, pull = names
+    parts = [f"m: {{type: TorqueSource, torque: {torque!r} N*m}}"]
+    parts += [f"j: {{type: Inertia, moment: 0.01 kg*m^2, speed: {speed!r} rad/s}}"]
+    joined = [["m.shaft", "j.shaft", *(f"{g}{k}.a" for k in range(len(loads)))]]
+    for k, load in enumerate(loads):
+        parts += [f"{g}{k}: {{type: LossyGear, ratio: {1 / 30!r}, efficiency: 0.45}}"]
+        parts += [f"{d}{k}: {{type: Inertia, moment: {moved} kg*m^2}}"]
+        parts += [f"{pull}{k}: {{type: TorqueSource, torque: {load} N*m}}"]
+        joined += [[f"{g}{k}.b", f"{d}{k}.shaft", f"{pull}{k}.shaft"]]
+    lines = reversed(parts) if turned else parts
+    text = "    components:\n" + "".join(f"      {line}\n" for line in lines)
+    return text + f"    connections: {joined}\n    run: {{stop: 0.05 s, accuracy: 1e-6}}\n".replace("'", "")
+
+
+def hoisted(loads, torque, speed=100.0, moved=100.0):
+    """Speed after 0.05 s if the shaft pushes all of them: each takes 1/0.45 of what its load and inertia need."""
+    taken = sum(-load / 30 / 0.45 for load in loads)
+    return speed + 0.05 * (torque - taken) / (0.01 + len(loads) * moved / 900 / 0.45)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(
+    ("loads", "torque"),
+    [
+        ([-10.0, -10.0], 3.0),
+        ([-10.0, -12.0], 2.0),
+        ([-10.0, -10.0, -10.0], 4.0),
+        ([-6.0, -10.0, -14.0, -18.0], 6.0),
+        ([-10.0] * 7, 9.0),
+        ([-10.0 - k for k in range(8)], 10.0),
+    ],
+)
+def test_several_hoists_on_one_shaft_lift_together(simulate, engine, loads, torque):
+    """Each by itself may answer rightly where the others hold it back: all are asked together."""
+    result = simulate(hoists(loads, torque), **{"run.engine": engine})
+    assert result["j.speed"][-1] == pytest.approx(hoisted(loads, torque), rel=1e-4)
+
+
+def test_names_and_order_of_hoists_do_not_matter(simulate):
+    loads = [-6.0, -10.0, -14.0, -18.0]
+    ends = [simulate(hoists(loads, 6.0))["j.speed"][-1]]
+    ends += [simulate(hoists(loads[::-1], 6.0, names="zba", turned=True))["j.speed"][-1]]
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9)
+
+
+SERIES = """
+    components:
+      m: {{type: TorqueSource, torque: 2 N*m}}
+      j: {{type: Inertia, moment: 0.01 kg*m^2, speed: 100 rad/s}}
+      g: {{type: LossyGear, ratio: 0.2, efficiency: 0.45}}
+      i: {{type: Inertia, moment: {between} kg*m^2}}
+      h: {{type: LossyGear, ratio: 0.2, efficiency: 0.4}}
+      d: {{type: Inertia, moment: {moved} kg*m^2}}
+      l: {{type: TorqueSource, torque: -10 N*m}}
+    connections: [[m.shaft, j.shaft, g.a], [g.b, i.shaft, h.a], [h.b, d.shaft, l.shaft]]
+    run: {{stop: 0.05 s, accuracy: 1e-6}}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("between", [0.02, 1.0, 10.0])
+@pytest.mark.parametrize("moved", [10, 100, 1000])
+def test_gears_in_series_lift_together(simulate, engine, between, moved):
+    result = simulate(SERIES.format(between=between, moved=moved), **{"run.engine": engine})
+    taken = (0.2**2 * 10 / 0.4) / 0.45
+    inertia = 0.01 + 0.2**2 / 0.45 * (between + 0.2**2 * moved / 0.4)
+    assert result["j.speed"][-1] == pytest.approx(100 + 0.05 * (2 - taken) / inertia, rel=1e-4)

@@ -76,6 +76,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_moves": len(problem.moves), "n_balanced": len(problem.balanced), "n_light": len(light),
         "n_met_guards": len(problem.met_guard), "n_swings": problem.n_swings, "n_pressing": len(problem.pressing),
+        "pressing_square": len(problem.pressing) ** 2,
         "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],

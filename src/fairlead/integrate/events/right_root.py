@@ -1,4 +1,4 @@
-"""Of two answers of the forces at a point the one that a rigid part can have.
+"""Of the answers of the forces at a point the one that rigid parts can have.
 
 What rubs by the force of a rigid part, as the flanks of a screw do, makes its equation one of two branches: with a the
 acceleration by which everything else pushes its sides together, and T its force,
@@ -10,58 +10,198 @@ load is heavy. Then both branches have an answer if a > 0, and none has if a < 0
 one, whose force grows as its sides approach. So an answer on a branch with A < 0 is none: there, more approach asks for
 less force, and a part with ever so little give leaves it at once. Newton finds either one, by where it begins.
 
-1/A is how much T answers a push by one: a column of the inverse of C (consistent.py), of a sign that is known without
-friction (`Problem.pressing`). Where the sign is wrong, Newton begins once more with the opposite force. Where no answer
-is right, as where a screw jams, the first one stays, and the settlement goes on with it.
+Of several parts, as two hoists on one shaft, T and a are vectors and A a matrix by the signs of all forces. Whatever
+give each part has, springs of their own or none, more approach must ask for more force: no principal minor of A is
+below zero (a P0-matrix), and so none of its inverse. Its columns are how much T answers pushes by one, those of the
+inverse of C (consistent.py), of a sign that is known without friction (`Problem.pressing`). Each part by itself may
+have the right sign while they are wrong together.
+
+Where a minor is wrong, or Newton finds no answer, it begins once more from forces of other signs. Where no answer is
+right, as where a screw jams, the first one stays, and the settlement goes on with it.
 
 Source: of the part with give that decides, Dupont and Yamajako 1997, Stability of frictional contact in constrained
 rigid-body dynamics, IEEE Transactions on Robotics and Automation 13, 230; of screws, Vahid-Araghi and Golnaraghi 2011,
-Friction-Induced Vibration in Lead Screw Drives.
+Friction-Induced Vibration in Lead Screw Drives; of P-matrices, Fiedler and Ptak 1962, On matrices with non-positive
+off-diagonal elements and positive principal minors, Czechoslovak Mathematical Journal 12, 382.
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.events.consistent import give_back, keep, make_consistent, newton, prepare_consistent
-from fairlead.integrate.linear.systems import DONE, solve
+from fairlead.integrate.events.consistent import (
+    NOT_CONSISTENT,
+    give_back,
+    keep,
+    make_consistent,
+    newton,
+    prepare_consistent,
+)
+from fairlead.integrate.linear.systems import DONE, INACCURATE, solve
 from fairlead.integrate.memory.foreign import compiled, indices, reals
+
+MOST = 6
+"""Parts of which all subsets are asked, and all signs tried. Of more, single ones, all but one, and the first k are
+asked, and the signs of those are turned that are wrong."""
+ROUNDING = 1e-12
+"""Share of an answer below which what is left of it is rounding."""
 
 
 @compiled
 def find_consistent(m, iterations):
     """Make the point consistent (consistent.py) by an answer that rigid parts can have, where there is one."""
     status = make_consistent(m, iterations)
-    if status == DONE:
-        choose_root(m, iterations)
-    return status
+    if m.problem.n_pressing == 0 or (status != DONE and status != NOT_CONSISTENT):
+        return status
+    if status == DONE and are_rigid(m):
+        return status
+    return try_signs(m, iterations, status)
 
 
 @compiled
-def choose_root(m, iterations):
-    """Leave answers that no rigid part can have, where there are others."""
+def try_signs(m, iterations, first):
+    """Begin Newton from forces of other signs until rigid parts can have its answer; else the first one, as it was."""
+    point, count = m.point, m.problem.n_pressing
+    keep(point)
+    few = count <= MOST
+    for trial in range(1, 1 << count if few else count + 1):
+        if few:
+            give_back(point)
+            mark(m, trial)
+        turn_marked(m)
+        status = solved_here(m, iterations)
+        if status == INACCURATE or (status == DONE and are_rigid(m)):
+            return status
+    give_back(point)
+    return solved_here(m, iterations) if first == DONE else first
+
+
+@compiled
+def mark(m, bits):
+    """Mark the forces of these bits."""
+    count = m.problem.n_pressing
+    wrong = indices(m.problem.at_pressing_wrong, count)
+    for k in range(count):
+        wrong[k] = (bits >> k) & 1
+
+
+@compiled
+def turn_marked(m):
+    """Turn the forces that are marked, and give all of them at least their nominal size."""
     problem, point = m.problem, m.point
     count = problem.n_pressing
-    rows, signs = indices(problem.at_pressing_row, count), indices(problem.at_pressing_sign, count)
+    rows, wrong = indices(problem.at_pressing_row, count), indices(problem.at_pressing_wrong, count)
+    y = reals(point.at_y, point.n)
+    absolute, relative = reals(point.at_absolute, point.n), reals(point.at_relative, point.n)
     for k in range(count):
-        if answers(m, rows[k], signs[k]):
-            continue
-        keep(point)
-        reals(point.at_y, point.n)[rows[k]] *= -1.0
-        if not (solved_here(m, iterations) and answers(m, rows[k], signs[k])):
-            give_back(point)
-            solved_here(m, iterations)
-
-
-@compiled
-def answers(m, row, sign):
-    """True if the force of a row answers a push with the sign of a rigid part."""
-    pushed = reals(m.point.at_x, m.point.n)
-    pushed[:] = 0.0
-    pushed[row] = 1.0
-    solve(m.linear, m.point.at_x)
-    return pushed[row] * sign >= 0.0
+        row = rows[k]
+        size = max(abs(y[row]), absolute[row] / relative[row])
+        forward = (y[row] < 0.0) == (wrong[k] == 1)
+        y[row] = size if forward else -size
 
 
 @compiled
 def solved_here(m, iterations):
-    """True if Newton finds an answer, with J of where it begins."""
-    return prepare_consistent(m.problem, m.point, m.linear) == DONE and newton(m, iterations) == DONE
+    """Newton from here, with J of where it begins; its status."""
+    status = prepare_consistent(m.problem, m.point, m.linear)
+    return newton(m, iterations) if status == DONE else status
+
+
+@compiled
+def are_rigid(m):
+    """True if rigid parts can have the forces of this point. If not, of many those are marked that are wrong."""
+    find_answers(m)
+    count = m.problem.n_pressing
+    wrong = indices(m.problem.at_pressing_wrong, count)
+    wrong[:] = 0
+    if count > MOST:
+        return are_rigid_in_turn(m)
+    bits, rigid = 1, True
+    while rigid and bits < 1 << count:
+        rigid = last_pivot(m, bits) >= 0.0
+        bits += 1
+    return rigid
+
+
+@compiled
+def find_answers(m):
+    """Set answer[i, k]: how much force i answers a push by one at part k, in the sense of rigid parts."""
+    problem, point = m.problem, m.point
+    count = problem.n_pressing
+    rows, signs = indices(problem.at_pressing_row, count), indices(problem.at_pressing_sign, count)
+    answer, pushed = reals(problem.at_pressing_answer, count * count), reals(point.at_x, point.n)
+    for k in range(count):
+        pushed[:] = 0.0
+        pushed[rows[k]] = signs[k]
+        solve(m.linear, point.at_x)
+        for i in range(count):
+            answer[i * count + k] = pushed[rows[i]]
+
+
+@compiled
+def last_pivot(m, bits):
+    """Of the answers of these parts: the pivot of the last one, their minor over that without it.
+
+    Of subsets in numeric order the one without its last part has passed before: no pivot is below zero.
+    """
+    count = m.problem.n_pressing
+    begin_elimination(m)
+    pivot = 0.0
+    for k in range(count):
+        if (bits >> k) & 1 == 1:
+            pivot = eliminate(m, k)
+    return pivot
+
+
+@compiled
+def begin_elimination(m):
+    """Set what is left of the answers to all of them."""
+    square = m.problem.n_pressing**2
+    answer, left = reals(m.problem.at_pressing_answer, square), reals(m.problem.at_pressing_left, square)
+    for place in range(square):
+        left[place] = answer[place]
+
+
+@compiled
+def eliminate(m, k):
+    """Take part k out of the equations of the others; its pivot.
+
+    Zero, and nothing is taken out, where it is rounding: as of parts side by side of which any share is right.
+    """
+    count = m.problem.n_pressing
+    answer = reals(m.problem.at_pressing_answer, count * count)
+    left = reals(m.problem.at_pressing_left, count * count)
+    pivot = left[k * count + k]
+    if not abs(pivot) > ROUNDING * abs(answer[k * count + k]):
+        return 0.0
+    for i in range(count):
+        factor = left[i * count + k] / pivot
+        if i != k:
+            for j in range(count):
+                left[i * count + j] -= factor * left[k * count + j] if j != k else 0.0
+    return pivot
+
+
+@compiled
+def are_rigid_in_turn(m):
+    """Ask each part by itself and after all others, then after those before it; mark those that are wrong.
+
+    After all others its pivot is one over the A of this part alone: the answers of all hide it if there are many.
+    """
+    count = m.problem.n_pressing
+    wrong, answer = indices(m.problem.at_pressing_wrong, count), reals(m.problem.at_pressing_answer, count * count)
+    rigid = True
+    for k in range(count):
+        begin_elimination(m)
+        for other in range(count):
+            if other != k:
+                eliminate(m, other)
+        if answer[k * count + k] < 0.0 or eliminate(m, k) < 0.0:
+            wrong[k] = 1
+            rigid = False
+    if not rigid:
+        return False
+    begin_elimination(m)
+    for k in range(count):
+        if eliminate(m, k) < 0.0:
+            wrong[k] = 1
+            rigid = False
+    return rigid

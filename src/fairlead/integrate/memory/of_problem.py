@@ -42,6 +42,8 @@ PROBLEM = Struct(
         "impulse": "n", "before": "n",
         # the angles of `n_swings` at both ends of a trial step
         "swing": "n_swings", "swing_end": "n_swings",
+        # by rows whose force other laws read: what each answers to pushes at all, and what is left in an elimination
+        "pressing_answer": "pressing_square", "pressing_left": "pressing_square",
     },
     indices={
         # relations of positions: a position, its speed, and its acceleration where that is an unknown
@@ -51,6 +53,8 @@ PROBLEM = Struct(
         "met_guard": "n_met_guards",
         # rows whose force other laws read, and the sign with which that answers a push
         "pressing_row": "n_pressing", "pressing_sign": "n_pressing",
+        # which of them have a force that no rigid part has
+        "pressing_wrong": "n_pressing",
         # entries of M in columns of speeds without inertia
         "light": "n_light",
         # the speed of an acceleration that is an unknown; of others they themselves
