@@ -28,8 +28,8 @@ from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.shares import shares
-from fairlead.system.arrays.timing import OPEN as OPEN_ZONE
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
+from fairlead.system.assembly.begin_open import holding, may_open, sharing
 from fairlead.system.assembly.common_level import Open as WithoutLevel
 from fairlead.system.assembly.common_level import said_of, without_level
 from fairlead.system.assembly.left_open import OPEN, as_written
@@ -62,32 +62,11 @@ def undetermined(
     always = set().union(*_unmatched(_incidence(flat, numbering, blocks, start=False)))
     to_open: set[str] = set()
     for part in parts:
-        contacts = set() if part & always else _may_open(flat, numbering, blocks, part)
+        contacts = set() if part & always else may_open(flat, numbering, blocks, part)
         to_open |= contacts
         if not contacts:
             faults.append(_open(flat, numbering, blocks, part, always=bool(part & always)))
     return faults, frozenset(to_open)
-
-
-def _may_open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[int]) -> set[str]:
-    """Contacts pressed by what changes in a part in which gears of three shafts close circles; none of another part."""
-    owners = {path for (path, _), at in numbering.own.items() if at in part}
-    alone = not part - {at for (path, _), at in numbering.own.items() if path in owners}
-    cannot, many = _sharing(blocks, owners)
-    if not alone or not many or cannot or not owners <= _holding(blocks):
-        return set()
-    can_open = (one for block in blocks if OPEN_ZONE in block.kernel.structure.zones for one in block.instances)
-    by = {one.path: one.type.answers.pressed_by for one in can_open if one.path in owners}
-    return {path for path, input_ in by.items() if input_ and _changes(flat, PortRef(path, input_))}
-
-
-def _changes(flat: FlatModel, ref: PortRef) -> bool:
-    """Whether an input is connected to more than what parts without inputs of their own hand on as a parameter."""
-    source = flat.sources.get(ref)
-    if source is None or source.instance not in flat.assembly.instances:
-        return False
-    inputs = flat.assembly.instances[source.instance].type.declaration.inputs
-    return not inputs or any(_changes(flat, PortRef(source.instance, name)) for name in inputs)
 
 
 def _unknown_speeds(flat: FlatModel, numbering: Numbering, blocks: list[Block]) -> Iterator[Fault]:
@@ -171,7 +150,7 @@ def _open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: set[
         lacks = "has no mass and no" if nodes[0].domain.mechanical else "has nothing that gives way, and no"
         what = f"{_named(flat, nodes)} {lacks} law determines its {THROUGH[nodes[0].domain.name]}{while_}."
         return Fault(_written(flat, nodes[0]), what, _way_out(nodes[0], joined=False))
-    if owners and owners.keys() <= _holding(blocks):
+    if owners and owners.keys() <= holding(blocks):
         what = f"{_hold(owners)} in a closed circle, and {_unequal(blocks, owners)}, so how they share is not known."
         way_out = _apart(flat, owners)
         return Fault(flat.assembly.instances[next(iter(owners))].where, what, way_out)
@@ -220,22 +199,10 @@ def _index(block: Block, owners: Iterable[str]) -> int:
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
     """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
     wanted = set(owners)
-    cannot, many = _sharing(blocks, wanted)
+    cannot, many = sharing(blocks, wanted)
     if many and not cannot:
         return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
     return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
-
-
-def _sharing(blocks: list[Block], wanted: Collection[str]) -> tuple[list[str], list[str]]:
-    """Of these: whose force does not act on its ports with fixed numbers, and who joins more than two bodies."""
-    cannot, many = list[str](), list[str]()
-    for block in blocks:
-        s = block.kernel.structure
-        mine = [instance.path for instance in block.instances if instance.path in wanted]
-        cannot += mine if s.holds.keys() - s.pairs.keys() - s.ratios.keys() else []
-        ports = [*map(len, s.pairs.values()), *map(len, s.ratios.values())]
-        many += mine if max(ports, default=0) > 2 else []
-    return cannot, many
 
 
 def _apart(flat: FlatModel, owners: Iterable[str]) -> str:
@@ -253,16 +220,6 @@ def _apart(flat: FlatModel, owners: Iterable[str]) -> str:
     if not all(is_bundled(part.type) for part in mine):
         said += " In a law of your own, leave ratios to a Gear or a Rack and write hold(b.v - a.v)."
     return said[0].upper() + said[1:]
-
-
-def _holding(blocks: list[Block]) -> set[str]:
-    """Components that hold in the zone they begin in."""
-    holding: set[str] = set()
-    for block in blocks:
-        s = block.kernel.structure
-        if any(s.zones[0] in zones for zones in s.holds.values()):
-            holding.update(instance.path for instance in block.instances)
-    return holding
 
 
 def _zones_at_start(blocks: list[Block], paths: set[str]) -> str:

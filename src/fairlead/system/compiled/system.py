@@ -15,6 +15,7 @@ from typing import Any, NoReturn, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.piecewise import FAR
 from fairlead.distinct import distinct
 from fairlead.errors import NoCopyError
 from fairlead.flatten.flat_model import FlatModel
@@ -37,8 +38,9 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 EVERYTHING = ("*",)
-FOR_EVER = 1e200  # s; the first and the last piece of what is given have no end
 LOOKED_AT = 400.0
+"""Steps in which a test bench takes a curve of friction. A parabola over its range is 1/400^2 = 6e-6 of its height from
+lines between their ends."""
 
 
 class Asked(Protocol):
@@ -258,7 +260,7 @@ class System:
                 fastest = max(fastest, np.abs(block.parameters[swings, omega]).max(initial=0.0))
         if self._all_given and not self.linear:
             lengths = [table.polynomial.rows[:, 1] - table.polynomial.rows[:, 0] for table in self.timed_tables]
-            longest = max((float(one[one < FOR_EVER].max(initial=0.0)) for one in lengths), default=0.0)
+            longest = max((float(one[one < FAR].max(initial=0.0)) for one in lengths), default=0.0)
             parts, pieces = LOOKED_AT, longest / LOOKED_AT or math.inf
         return min(2 * math.pi / (parts * fastest) if fastest else math.inf, pieces)
 
