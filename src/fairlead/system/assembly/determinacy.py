@@ -14,7 +14,7 @@ Where all are matched, parts that ask for differences of potentials alone are le
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
