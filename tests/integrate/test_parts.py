@@ -20,7 +20,7 @@ OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
 OF_A_SETTLEMENT = {
     "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "least_look", "nearness",
-    "own_time", "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest",
+    "own_time", "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest", "without_answer",
 }  # fmt: skip
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",

@@ -238,3 +238,36 @@ def test_gears_in_series_lift_together(simulate, engine, between, moved):
     taken = (0.2**2 * 10 / 0.4) / 0.45
     inertia = 0.01 + 0.2**2 / 0.45 * (between + 0.2**2 * moved / 0.4)
     assert result["j.speed"][-1] == pytest.approx(100 + 0.05 * (2 - taken) / inertia, rel=1e-4)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("method", ["binding", "karnopp", "tanh"])
+def test_hoists_that_creep_start_in_motion(simulate, engine, method):
+    """The plateau of binding has no answer at full speed: each pass asks which zone is that of the speed."""
+    loads = [-6.0, -10.0, -14.0, -18.0]
+    result = simulate(hoists(loads, 6.0), **{"run.engine": engine, "friction.method": method})
+    assert result["j.speed"][-1] == pytest.approx(hoisted(loads, 6.0), rel=1e-4)
+
+
+CLUTCHED = """
+    components:
+      m: {{type: TorqueSource, torque: 1 N*m}}
+      j: {{type: Inertia, moment: 1e-5 kg*m^2, speed: 100 rad/s}}
+      c: {{type: Clutch, radius: 30 mm, normal_force: 800 N, curve: 0.3}}
+      i: {{type: Inertia, moment: 1e-6 kg*m^2, speed: 100 rad/s}}
+      g: {{type: LeadScrew, radius: 10 mm, lead: 5 mm, curve: 0.12, half_angle: 15 deg}}
+      d: {{type: Mass, mass: {mass} kg}}
+      l: {{type: ForceSource, force: -200 N}}
+    connections: [[m.shaft, j.shaft, c.a], [c.b, i.shaft, g.screw], [g.nut, d.flange, l.flange]]
+    run: {{stop: 10 ms, accuracy: 1e-6}}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("method", ["hold", "binding", "karnopp", "tanh"])
+@pytest.mark.parametrize("mass", [20, 600])
+def test_a_screw_behind_a_clutch_starts_in_motion(simulate, engine, method, mass):
+    result = simulate(CLUTCHED.format(mass=mass), **{"run.engine": engine, "friction.method": method})
+    per_force, lead = taken(0.01, 0.005, 0.12 / cos(pi / 12)), 0.005 / (2 * pi)
+    lifted = (1.0 - 200 * per_force) / (1.1e-5 + mass * lead * per_force)
+    assert result["j.speed"][-1] == pytest.approx(100 + 0.01 * lifted, rel=1e-4)

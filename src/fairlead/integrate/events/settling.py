@@ -5,6 +5,7 @@
     if a pattern of zones recurs, or their number has not fallen for a while: those at least half as wrong
         as the worst; if a pattern recurs again: the worst alone; and again: the one of least index; and again: that
         and all at once in turn, since two diodes in a row that a current leaves together change by no single switch
+    a pattern without an answer for the forces: what is wrong by speeds and places changes (no_answer.py)
     a pattern that leaves an unknown open, as a node without inertia of which all contacts slide: one near it
     no settlement within `max_passes` is an error that names what still switches
 
@@ -22,9 +23,9 @@ from fairlead.integrate.events.chatter import watch_chatter, watch_progress
 from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.events.left_open import change_to_near_pattern
+from fairlead.integrate.events.no_answer import find_answer
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
-from fairlead.integrate.events.right_root import find_consistent
 from fairlead.integrate.events.violators import fire_violators, look_ahead, looked_ahead
 from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
@@ -62,7 +63,7 @@ def settle(m, iterations):
         if status == DONE and guards.n_fired > 0:
             continue
         if status == DONE:
-            status = find_consistent(m, iterations)
+            status = find_answer(m, iterations)
         status = settle_nearby(m, status)
         if status == RELEASED:
             continue
@@ -111,7 +112,7 @@ def begin_settling(problem, run, point, events):
     settling, loads = events.settling, events.loads
     settling.passes = 0
     loads.levels, loads.level_due, loads.ordered = 0, 0, 0
-    settling.one_by_one = 0
+    settling.one_by_one, settling.without_answer = 0, 0
     settling.stage, settling.stage_from, settling.fewest, settling.waited = ALL, 0, settling.n_guards + 1, 0
     settling.look = 0.0
     settling.nearness = 1.0

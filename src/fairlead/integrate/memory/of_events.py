@@ -38,6 +38,8 @@ SETTLING = Struct(
         "passes", "one_by_one", "stalls",
         # which violators change, since which pass, the fewest there were, passes since
         "stage", "stage_from", "fewest", "waited", "switches", "settling_passes",
+        # passes in which zones changed that have no answer
+        "without_answer",
     ),
     numbers=(
         "t_last_switch", "look", "least_look", "nearness", "own_time",

@@ -49,6 +49,8 @@ POINT = Struct(
         "y_probe": "n", "f": "n", "b": "n", "x": "n", "u": "n", "v": "n", "minus_slip": "n", "asked": "n",
         # the point and its slopes before updates that may be taken back
         "y_kept": "n", "slope_kept": "n",
+        # and before its forces are looked for, in zones that may have none
+        "y_unsettled": "n", "slope_unsettled": "n",
         # energy lost in impacts, by the row that held
         "lost": "n",
         # the fastest meeting that gave nothing back since it was slow, by the row; -1 where one did before
