@@ -106,7 +106,7 @@ def _start(assembly: Any, laid: Any) -> Location:
 
 def _drum(one: Placed, p: Any) -> Iterator[tuple[str, str]]:
     """A drum that cannot take the line."""
-    layers, wanted = one.station.wound(), one.station.filled + p.length
+    layers, wanted = one.station.wound(p.diameter), one.station.filled + p.length
     if layers.wraps < 1:
         yield (
             f"its width of {layers.width:g} m takes no wrap of a line of {layers.diameter:g} m",

@@ -323,7 +323,7 @@ class OnRoute:
             if one.station.layers == "on":
                 wound = one.station.filled + max(one.end - p.start, 0.0)
                 path, instances = f"{self.path}.{one.name}.layers", self.to.assembly.instances
-                radius = one.station.wound().over_angle(wound, one.station.crossover)
+                radius = one.station.wound(p.diameter).over_angle(wound, one.station.crossover)
                 instances[path] = with_other(instances[path], radius=radius)
 
     def loops(self) -> None:

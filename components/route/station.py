@@ -80,8 +80,8 @@ class Station(Family, abstract=True):
         """True for a drum (`Winch`): the line inboard of its end is wound on it and moves with it."""
         return False
 
-    def leaves_at(p, stored):
-        """Radius of a drum at which the line leaves it, with `stored` [m] of the line on it [m]."""
+    def leaves_at(p, stored, diameter):
+        """Radius of a drum at which a line of this diameter [m] leaves it, with `stored` [m] of it on the drum [m]."""
         raise NotImplementedError
 
     def immerses(p):

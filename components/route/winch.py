@@ -43,7 +43,7 @@ class Winch(Station):
     lay = Parameter("rad/m", "Twist that winding gives the line, per length; for a line with torsion.", default=0.0)
     filled = Parameter("m", "Line on the drum beside that of the model.", default=0.0, least=0)
     lock = Parameter("N*s/m", "Bond of a stored node with the drum.", default=1e9, above=0)
-    line_diameter = Parameter("m", "Diameter that a layer takes.", default=0.085, above=0)
+    line_diameter = Parameter("m", "Diameter that a layer takes; that of the line by default.", default=None, above=0)
 
     def extent(p):
         """It takes no length of the route."""
@@ -57,13 +57,13 @@ class Winch(Station):
         """What is inboard of it."""
         return True
 
-    def leaves_at(p, stored):
+    def leaves_at(p, stored, diameter):
         """The radius, which grows by layers if they are on."""
-        return p.radius if p.layers == "off" else p.wound().radius_at(p.filled + stored)
+        return p.radius if p.layers == "off" else p.wound(diameter).radius_at(p.filled + stored)
 
-    def wound(p):
-        """Layers of the drum."""
-        return Layers(p.radius, p.line_diameter, p.width, p.packing == "nested", p.height)
+    def wound(p, diameter):
+        """Layers of a line of this diameter [m] on the drum."""
+        return Layers(p.radius, p.line_diameter or diameter, p.width, p.packing == "nested", p.height)
 
     def machinery(p, scene):
         """Drum with a rim, or with a radius that follows its angle."""
@@ -80,7 +80,7 @@ class Winch(Station):
 
 
 def constant_radius(p):
-    """The radius over the angle when nothing more is wound than at the start; the line replaces it when laid."""
+    """The radius of the bare drum; the line replaces it when laid."""
     from fairlead.component.piecewise import constant
 
-    return constant(p.wound().radius_at(p.filled))
+    return constant(p.radius)

@@ -282,6 +282,26 @@ record: {{every: 10 ms}}
     assert changed == pytest.approx((40 - 36.33) / 0.7161, abs=0.05)
 
 
+@pytest.mark.parametrize(
+    ("said", "first"), [("", 0.3 + 0.02 / 2), (", line_diameter: 30 mm", 0.3 + 0.03 / 2)], ids=["line", "drum"]
+)
+def test_a_layer_takes_the_diameter_of_the_line_unless_the_drum_says_another(simulate, said, first):
+    text = f"""
+components:
+  rope: {{{ROPE}, diameter: 20 mm, length: 12 m, element: 0.5 m, start: -6 m, tension: 100 N}}
+  route:
+    type: Route
+    stations:
+      - {{type: Winch, radius: 0.3 m, layers: on, width: 0.3 m{said}}}
+      - {{type: Straight, length: 30 m}}
+  drive: {{type: SpeedSource, speed: 0 rad/s}}
+  pull: {{type: ForceSource, force: 100 N}}
+connections: [[rope.path, route.path], [drive.shaft, route.winch.shaft], [pull.flange, rope.outboard]]
+run: {{stop: 10 ms}}
+"""
+    assert simulate(text)["route.winch.layers.radius_now"] == pytest.approx(first, rel=1e-9)
+
+
 def test_24_layers_of_a_drum():
     from fairlead.components.route.drum_layers import Layers
 

@@ -138,7 +138,7 @@ class LaidRoute:
         """Radius at which the line leaves the drum [m]; 1 when there is none."""
         if self.winch is None:
             return 1.0
-        return float(self.winch.station.leaves_at(self.stored(way)))
+        return float(self.winch.station.leaves_at(self.stored(way), self.says.diameter))
 
     def drivers(self) -> Iterator[tuple[str, Machine]]:
         """All that takes whatever force its motion needs, inboard first."""
