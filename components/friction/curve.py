@@ -15,8 +15,9 @@ class Curve(Family, abstract=True):
         mu(a_T v) (N/N_ref)^(n - 1) exp(-alpha (Theta - Theta_ref)),    n = load_exponent, alpha = softening
         a_T = exp(-beta (Theta - Theta_ref)),                           beta = velocity_shift
 
-    so that friction is mu N_ref (N/N_ref)^n, and warmed rubber slides at v as cold rubber does at a_T v; and it may
-    have points of its own for backward slip, where a surface has a nap. What is not given is absent.
+    so that friction is mu N_ref (N/N_ref)^n, and warmed rubber slides at v as cold rubber does at a_T v. On a line N
+    and N_ref are loads on a metre of it. A curve may have points of its own for backward slip, where a surface has a
+    nap. What is not given is absent.
     """
 
     asked_with = {"velocity_shift": None}  # not every method knows it, so the contract suite does not give it at random
@@ -31,7 +32,9 @@ class Curve(Family, abstract=True):
     bare = ("coulomb", "coulomb")
     backward = Table("m/s", "1", "Slip speed and coefficient for backward slip; as forward when absent.", default=None)
     load_exponent = Parameter("1", "n: friction grows as the normal force to the n.", default=None, above=0, most=2)
-    load_reference = Parameter("N", "N_ref, the normal force the coefficients hold for.", default=None, above=0)
+    load_reference = Parameter(
+        "N", "N_ref, the normal force that the coefficients hold for; on a line that on a metre.", default=None, above=0
+    )
     softening = Parameter("1/K", "alpha: relative loss of friction per kelvin.", default=None)
     velocity_shift = Parameter("1/K", "beta: relative shift of the curve to higher speeds per kelvin.", default=None)
     reference_temperature = Parameter(

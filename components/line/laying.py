@@ -28,12 +28,15 @@ class Laying:
         return name
 
     def contact(
-        self, name: str, a: str, body: str, load: str, curve: Any, masses: dict[str, float], port: str = "flange"
+        self, name: str, a: str, body: str, load: str, curve: Any, more: dict[str, float], port: str = "flange"
     ) -> None:
-        """A contact as the scene's friction block treats it, between the port `a` (a full path) and a body."""
+        """A contact as the scene's friction block treats it, between the port `a` (a full path) and a body.
+
+        `more` are parameters that it takes if its treatment has them.
+        """
         scene = self.assembly.scene
         declared = scene.member(Contact, {}).declaration.parameters
-        known = {key: value for key, value in masses.items() if key in declared}
+        known = {key: value for key, value in more.items() if key in declared}
         self.child(name, Contact, curve=curve, **known)
         self.join_to(f"{name}.a", a)
         self.join(f"{body}.{port}", f"{name}.b")

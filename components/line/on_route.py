@@ -35,6 +35,11 @@ FIXED_DEVICE = 1e9  # kg; what a body bound to a fixed device counts as
 SIDES = ("in", "out")
 
 
+def spread(curve: Any, reach: Reach) -> dict[str, float]:
+    """Over what a load is spread on which friction depends: a line has `load_reference` on a metre, not on a node."""
+    return {} if curve is None or curve.load_exponent is None else {"extent": reach.length}
+
+
 @dataclass(frozen=True)
 class OnRoute:
     """A line (a `LaidLine`) and the route it is laid on."""
@@ -97,7 +102,8 @@ class OnRoute:
         if self.rubs():
             two = self.line.inner and i not in self.line.mesh.connectors
             masses = {"partner_mass_b": self.to.mass(f"{self.line.inner}[{i}]")} if two else {}
-            self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, masses)
+            more = masses | spread(surface.friction, reach)
+            self.rub(f"{name}[{i}]", i, f"{self.path}.{surface.flange}", body, load, surface.friction, more)
             self.meter(f"{name}[{i}]")
         if self.sums(surface):
             self.tell(surface.name, f"{name}_tells[{i}]", load)
@@ -120,15 +126,15 @@ class OnRoute:
                 read = self.tension_load(f"{name}[{i}]", LateralLoad, i, body, reach, windows, self.line.layers, "")
                 self.tell(one.name, f"{name}_tells[{i}]", read)
 
-    def rub(self, name: str, i: int, surface: str, body: str, load: str, curve: Any, masses: dict[str, float]) -> None:
+    def rub(self, name: str, i: int, surface: str, body: str, load: str, curve: Any, more: dict[str, float]) -> None:
         """The contact itself; for a line that twists, one in two directions or one in each."""
-        p = self.line.values
+        p, extent = self.line.values, {name: value for name, value in more.items() if name == "extent"}
         if p.torsion is None or p.planar_slip == "off":
-            self.to.contact(name, surface, body, load, curve, masses)
+            self.to.contact(name, surface, body, load, curve, more)
         if p.torsion is None:
             return
         if p.planar_slip == "on":
-            self.to.child(name, PlanarContact, curve=curve, radius=p.diameter / 2, **self.to.creep)
+            self.to.child(name, PlanarContact, curve=curve, radius=p.diameter / 2, **extent, **self.to.creep)
             self.to.join_to(f"{name}.a", surface)
             self.to.join(f"{body}.flange", f"{name}.b")
             self.to.join(f"twist[{i}].shaft", f"{name}.turning")
@@ -137,7 +143,7 @@ class OnRoute:
         if f"{self.to.line.path}.rim[{i}]" not in self.to.assembly.instances:
             self.to.child(f"rim[{i}]", Rack, radius=p.diameter / 2)
             self.to.join(f"twist[{i}].shaft", f"rim[{i}].pinion")
-        self.to.contact(f"twist_{name}", self.to.still(), f"rim[{i}]", load, curve, {}, port="rack")
+        self.to.contact(f"twist_{name}", self.to.still(), f"rim[{i}]", load, curve, extent, port="rack")
 
     def inner_contact(self, i: int, body: str, reach: Reach, clamped: str, slots: list[str]) -> None:
         """Bulkhead on hose: pressed by the tension of the core in bends, and by clamps."""
@@ -148,9 +154,9 @@ class OnRoute:
             load = self.tension_load(f"inner_load[{i}]", LateralLoad, i, core, reach, curved, layers, clamped)
         if not load:
             return
-        masses = {"partner_mass_a": FIXED_DEVICE}
-        path = f"{self.to.line.path}.{body}.flange"
-        self.to.contact(f"inner[{i}]", path, core, load, self.line.values.bulkhead_friction, masses)
+        curve = self.line.values.bulkhead_friction
+        more = {"partner_mass_a": FIXED_DEVICE} | spread(curve, reach)
+        self.to.contact(f"inner[{i}]", f"{self.to.line.path}.{body}.flange", core, load, curve, more)
         self.meter(f"inner[{i}]")
         if slots:
             self.to.exchange(slots[0], "bound_b", f"inner[{i}]")

@@ -1,10 +1,11 @@
 """Friction of a line that slips along its axis and turns about it at once."""
 
 from fairlead.components.friction.contact import with_lift
-from fairlead.components.friction.curve import Curve, stays_in_place
+from fairlead.components.friction.curve import Curve, load_factor, stays_in_place
 
 from fairlead.component import (
     Component,
+    Effect,
     Input,
     Law,
     Output,
@@ -43,6 +44,8 @@ class PlanarContact(Component):
         "that is below 1 mN.", default=1e-6, above=0,
     )  # fmt: skip
     normal_force = Parameter("N", "Normal force, when the input `normal` is not connected.", default=None, least=0)
+    load_dependence = Effect("The curve's load_exponent; off: friction in proportion to the normal force.")
+    extent = Parameter("1", "What shares the normal force, as metres of line: see Contact.", default=1.0, above=0)
     normal = Input("N", "Normal force.", default="normal_force")
     slip = Output("m/s", "Slip speed along the line.")
     friction = Output("N", "Friction along the line.", role="share")
@@ -62,7 +65,8 @@ class PlanarContact(Component):
         """Against the resultant slip."""
         v, w = b.v - a.v, p.radius * turning.speed
         speed = sqrt(v**2 + w**2 + p.creep**2)
-        level = normal * p.curve.coefficient(speed) / speed
+        load = load_factor(p.curve, normal / p.extent, p.lift / p.extent) if p.load_dependence == "on" else 1
+        level = normal * load * p.curve.coefficient(speed) / speed
         friction, torque = level * v, p.radius * level * w
         return Law(a=-friction, b=+friction, turning=torque, slip=v, friction=friction, torque=torque,
                    dissipated=friction * v + torque * turning.speed)  # fmt: skip

@@ -93,7 +93,7 @@ def _through(
     if not device.machine.drives:
         widest = max(bearing(device, abs(x)) if math.isfinite(x) else 0.0 for x in now)
     elif device.clamping:
-        widest = device.friction(0.0) * piece.pressed * piece.length
+        widest = device.friction(0.0) * piece.counts(piece.pressed) * piece.length
     elif math.isfinite(low) and math.isfinite(high):
         grip = math.exp(device.friction(0.0) * piece.curvature * piece.length)
         return min(low / grip, low * grip), max(high * grip, high / grip)

@@ -16,6 +16,7 @@ from fairlead.analysis.statics.tracing import trace
 from fairlead.brief import in_a_line
 from fairlead.component.along import OfLine, OfRoute
 from fairlead.component.declare import ROTATIONAL
+from fairlead.component.effects import switch
 from fairlead.component.instantiate import Line, PortRef
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
@@ -98,6 +99,16 @@ class LaidRoute:
         """What the line says of itself."""
         said: OfLine = self.line.line
         return said
+
+    def power(self, curve: Any) -> tuple[float, float]:
+        """How friction grows with the load on a metre of line: the exponent, and the load that a curve holds for [N/m].
+
+        (1, 1) where it grows in proportion.
+        """
+        effect = self.flat.assembly.scene.effects.get("load_dependence")
+        if curve is None or curve.load_exponent is None or (effect is not None and switch(effect.plain()) == "off"):
+            return 1.0, 1.0
+        return float(curve.load_exponent), float(curve.load_reference)
 
     @property
     def mass(self) -> float:

@@ -34,19 +34,10 @@ def pieces(route: LaidRoute, t: float, speed: float, way: float, acceleration: f
         pressed = device.squeeze(t) + (weight * math.cos(p.slope) if p.bears_weight() else 0.0)
         load += weight * math.sin(p.slope)
         lightened = route.mass * speed**2 if route.says.lightened else 0.0
-        piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round(), lightened)
-        slid = 0.0 if device.machine is not None else device.friction(speed) * _grip(route, device, piece)
+        power = route.power(device.curve)
+        piece = Piece(begin, end, device.curvature, abs(pressed), load, p.all_round(), lightened, *power)
+        slid = 0.0 if device.machine is not None else device.friction(speed)
         yield device, piece, math.copysign(slid, speed)
-
-
-def _grip(route: LaidRoute, device: Device, piece: Piece) -> float:
-    """Factor of the friction of a curve that depends on the load, which is that of one element of the mesh."""
-    curve = device.curve
-    if curve is None or curve.load_exponent is None or not (piece.pressed or piece.curvature):
-        return 1.0
-    element = max(route.says.mesh.lengths)
-    load = (piece.pressed + abs(route.says.tension) * piece.curvature) * element
-    return float((load / curve.load_reference) ** (curve.load_exponent - 1)) if load > 0 else 1.0
 
 
 def drag(route: LaidRoute, sea: Device, t: float, speed: float) -> float:

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.analysis.statics.laid_route import coefficient
+from fairlead.analysis.statics.sliding import counts
 
 if TYPE_CHECKING:
     from fairlead.analysis.statics.states import Passage, State
@@ -95,7 +96,8 @@ def _slips(state: State, one: Passage, together: float) -> bool:
         return False
     held = coefficient(state.route.says.inner_curve, 0.0)
     tension = np.maximum(one.tension, 0.0)
-    can = held * (together * tension * one.piece.curvature + _squeezed(one))
+    presses = together * tension * one.piece.curvature + _squeezed(one)
+    can = held * counts(presses, *state.route.power(state.route.says.inner_curve))
     if one.device.machine is not None and not one.device.machine.drives and not one.piece.curvature:
         return False
     if one.device.clamping:
@@ -103,7 +105,7 @@ def _slips(state: State, one: Passage, together: float) -> bool:
     elif one.device.machine is not None:  # a wheel goes with the hose
         return False
     else:
-        needed = abs(one.friction) * (tension * one.piece.curvature + one.piece.pressed)
+        needed = abs(one.friction) * one.piece.counts(tension * one.piece.curvature + one.piece.pressed)
     return bool((needed > can * (1 + 1e-9)).any())
 
 
@@ -137,11 +139,19 @@ def _core(state: State, one: Passage, piece: slice, slips: bool) -> tuple[Values
         share = says.masses[1] / sum(says.masses)
         more = more - share * says.weight * math.sin(one.device.station.slope) * runs
     if slips:
-        slid = coefficient(says.inner_curve, state.speed)
+        slid = coefficient(says.inner_curve, state.speed) * _loaded(state, one, piece)
         sense = math.copysign(1, one.outboard - one.inboard)
         growth = np.exp(sense * slid * one.piece.curvature * runs)
         more = more + sense * slid * _squeezed(one) * runs
     return growth, more
+
+
+def _loaded(state: State, one: Passage, piece: slice) -> float:
+    """Factor of the friction of bulkheads that depends on the load, which is that of the core's share in the middle."""
+    stiff = state.route.says.stiffnesses
+    tension = float(np.mean(np.maximum(one.tension[piece], 0.0))) * stiff[1] / sum(stiff)
+    load = tension * one.piece.curvature + _squeezed(one)
+    return float(counts(load, *state.route.power(state.route.says.inner_curve))) / load if load > 0 else 1.0
 
 
 def _solve(state: State, span: _Span, cores: list[Values], hose: float, core: float) -> float:

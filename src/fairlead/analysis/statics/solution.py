@@ -265,7 +265,7 @@ def _end_tension(march: _March, *, inboard: bool) -> float:
 
 def capacity(device: Device, piece: Piece) -> float | None:
     """Largest force of belts on the line, 2 mu q length [N]; None for what is not clamped, or nobody knows how."""
-    return device.friction(0.0) * piece.pressed * piece.length if device.clamps else None
+    return device.friction(0.0) * piece.counts(piece.pressed) * piece.length if device.clamps else None
 
 
 def lever(device: Device) -> float | None:
