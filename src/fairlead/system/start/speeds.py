@@ -3,6 +3,10 @@
 A row that takes any impulse (a torque sensor, a rigid stop that touches) joins the speeds of what it holds. Where
 one of them is not given it follows from the others, row by row until nothing new follows. Where all are given and the
 row slips, an impulse would have to start the run: that is a contradiction. Friction is no such row: it slips.
+
+Rows may be left that know too little, as that of a gear of three shafts of which one has a speed. What is given stays:
+of the speeds that fit, the others take those of least energy, as if what is given had been brought to its speed at once
+while they were at rest.
 """
 
 from __future__ import annotations
@@ -23,6 +27,8 @@ from fairlead.system.start.places import ratios_at
 RIGID = 2
 AGREES = 1e-9
 """Share of the speeds in a row that its slip may be: numbers in a netlist are rounded."""
+LIGHT = 1e-9
+"""Inertia of a speed without any, as a share of the least that there is."""
 LEVER = 1e-9
 """Ratio [m, or 1] below which a motion is in its dead centre: its speed does not follow from others."""
 
@@ -55,9 +61,35 @@ def start_speeds(system: System, initially: Collection[int]) -> tuple[Floats, li
             (j,) = free[k]
             y[j] -= _slip(here, y)[k] / rows[k][j]
             missing[j] = False
+    if left:
+        y = _of_least_energy(here, y, [rows[k] for k in left], list(left), missing)
     slip = _slip(here, y)
     wrong = {k for k, row in rows.items() if k not in left and abs(slip[k]) > AGREES * _size(row, y, slip[k])}
     return y, [fault for block in system.blocks for fault in _faults(system, block, y, wrong)]
+
+
+def _of_least_energy(
+    here: Instance, y: Floats, rows: list[dict[int, float]], numbers: list[int], missing: list[bool]
+) -> Floats:
+    """The unknowns with missing speeds that bring rows with several of them to rest: of all, those of least energy.
+
+    As they were where none fit. A speed without inertia counts as one with hardly any.
+    """
+    speeds = sorted({j for row in rows for j in row if missing[j]})
+    mass = dict.fromkeys(speeds, 0.0)
+    mass |= {j: here.flat.groups[k].mass for k, j in here.numbering.rate.items() if j in mass}
+    least = min((m for m in mass.values() if m > 0.0), default=1.0)
+    scale = np.array([1.0 / np.sqrt(mass[j] if mass[j] > 0.0 else LIGHT * least) for j in speeds])
+    slip = _slip(here, y)[numbers]
+    if not slip.any():
+        return y
+    a = np.array([[row.get(j, 0.0) for j in speeds] for row in rows]) * scale
+    size = np.abs(a).max(axis=1)
+    change = np.linalg.lstsq(a / size[:, None], -slip / size, rcond=None)[0] * scale
+    moved = y.copy()
+    moved[speeds] += change
+    fits = np.abs(_slip(here, moved)[numbers]) <= [AGREES * _size(row, moved, 0.0) for row in rows]
+    return moved if fits.all() else y
 
 
 def _rows(here: Instance) -> dict[int, dict[int, float]]:
@@ -130,11 +162,13 @@ def _faults(system: System, block: Block, y: Floats, wrong: set[int]) -> list[Fa
         at = block.flow_index[:, s.targets.index(f"own:{unknown}")].tolist()
         for instance, k in zip(block.instances, at, strict=True):
             if k in wrong:
-                ends = " and ".join(_end(system.flat, PortRef(instance.path, port), y, system.numbering.rate)
-                                    for port in s.pairs.get(unknown, instance.type.declaration.ports))  # fmt: skip
-                kept = "relation of positions" if unknown in s.positions else "one speed"
-                what = f"{instance.path} keeps its ends at {kept}, but they start with {ends}."
-                faults.append(Fault(instance.where, what, "Give speeds that agree, or leave out all but one of them."))
+                ports = s.pairs.get(unknown, instance.type.declaration.ports)
+                ends = [_end(system.flat, PortRef(instance.path, port), y, system.numbering.rate) for port in ports]
+                kept = "at one speed" if len(ends) == 2 else f"at {len(ends)} speeds of which one follows"
+                kept = "in a relation of positions" if unknown in s.positions else kept
+                what = f"{instance.path} keeps its ends {kept}, but they start with {' and '.join(ends)}."
+                which = "all but one of them" if len(ends) == 2 else "one of them"
+                faults.append(Fault(instance.where, what, f"Give speeds that agree, or leave out {which}."))
     return faults
 
 
