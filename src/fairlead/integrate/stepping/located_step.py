@@ -26,6 +26,8 @@ HOLD_SHARE = 0.025
 """Share of the second difference of a holding force that counts as its error."""
 LITTLE = 1.0 / CAREFUL
 """Weights of a force that the stop of a slip that counts as none may seem to be: what is allowed of any error."""
+ROUNDING = 16 * 2.0**-52
+"""Share of a momentum to which the change of it in a step is known: a few ulps, and twice as many of two steps."""
 FOLLOWED = 0.1
 """Share of the way to the balance that is left as error where it was gone. The factors of the step go all of it but
 2/(2 + h |J|/M), less than 2/STIFF, where the law is straight. Five times that is for laws that bend: it is chosen."""
@@ -60,16 +62,35 @@ def stop_slip(m):
 
 
 @compiled
-def error_of_located(point, stepping, h):
+def error_of_located(m, h):
     """Size of the error of a step in weights, from the differences in `error_vector` and the slopes of forces."""
-    rule = stepping.rule
-    error, slope = reals(point.at_error_vector, point.n), reals(rule.at_mean_slope, point.n)
-    before = reals(rule.at_slope_before, point.n)
-    holds, differential = indices(stepping.exchange.at_holds, point.n), indices(point.at_differential, point.n)
-    for k in range(point.n):
+    add_error_of_forces(m, h)
+    return CAREFUL * weighted_norm(m.point, m.point.at_error_vector)
+
+
+@compiled
+def add_error_of_forces(m, h):
+    """Into `error_vector`: of forces that hold a share of their second differences, beyond what rounding makes of them.
+
+    A mean force is known to the rounding of momentum over the step, m |v| eps/h. In the last steps before a switch,
+    of a picosecond, that is more than any weight, and the difference of two such means says nothing.
+    """
+    point, rule, exchange, matrices = m.point, m.stepping.rule, m.stepping.exchange, m.linear.matrices
+    n = point.n
+    error, slope, before = reals(point.at_error_vector, n), reals(rule.at_mean_slope, n), reals(rule.at_slope_before, n)
+    holds, differential = indices(exchange.at_holds, n), indices(point.at_differential, n)
+    for k in range(n):
         if holds[k] == 1 and differential[k] == 0:
-            error[k] = HOLD_SHARE * h * (slope[k] - before[k])
-    return CAREFUL * weighted_norm(point, point.at_error_vector)
+            error[k] = HOLD_SHARE * h * abs(slope[k] - before[k])
+    row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
+    column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
+    entry, masses = indices(exchange.at_hold_mass, exchange.n_hold_mass), reals(matrices.at_mass, matrices.n_mass)
+    own, y_end = indices(matrices.at_diagonal_mass, n), reals(point.at_y_end, n)
+    for e in range(exchange.n_hold_mass):
+        k, j = row[e], column[e]
+        if holds[k] == 1 and differential[k] == 0 and own[j] >= 0 and masses[entry[e]] != 0.0:
+            momentum = abs(masses[own[j]] * y_end[j] / masses[entry[e]])
+            error[k] = max(error[k] - HOLD_SHARE * ROUNDING * momentum / h, 0.0)
 
 
 @compiled

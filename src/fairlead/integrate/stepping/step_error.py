@@ -25,7 +25,7 @@ from fairlead.integrate.codes import MIDDLE
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.stepping.limit_violation import unseen_force, unseen_slip
-from fairlead.integrate.stepping.located_step import HOLD_SHARE, error_of_located
+from fairlead.integrate.stepping.located_step import add_error_of_forces, error_of_located
 
 STILL = 1e-2
 """Where no position changes by more than this share of its weight, HOLD_SHARE of the second difference of a holding
@@ -49,7 +49,7 @@ def find_error(m, h):
     find_bulges(point, stepping.rule, h)
     find_differences(point, stepping.rule, h)
     if stepping.rule.locates == 1:
-        return error_of_located(point, stepping, h)
+        return error_of_located(m, h)
     return error_inside(m, h)
 
 
@@ -121,7 +121,8 @@ def error_inside(m, h):
         return keep_larger(point, size, worst, unseen_force(m, h))
     if anything_moves(point, stepping.rule):
         return size
-    return keep_larger(point, size, worst, error_of_held(point, stepping, h))
+    add_error_of_forces(m, h)
+    return keep_larger(point, size, worst, weighted_norm(point, point.at_error_vector))
 
 
 @compiled
@@ -141,14 +142,3 @@ def anything_moves(point, rule):
     for k in range(point.n):
         found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k])
     return found
-
-
-@compiled
-def error_of_held(point, stepping, h):
-    """The largest error, in weights, with that of the forces that hold: a share of their second differences."""
-    slope, before = reals(stepping.rule.at_mean_slope, point.n), reals(stepping.rule.at_slope_before, point.n)
-    error, holds = reals(point.at_error_vector, point.n), indices(stepping.exchange.at_holds, point.n)
-    for k in range(point.n):
-        if holds[k] == 1:
-            error[k] = HOLD_SHARE * h * (slope[k] - before[k])
-    return weighted_norm(point, point.at_error_vector)
