@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fairlead.analysis.statics.machines import Machine, machine
+from fairlead.analysis.statics.off_the_drum import line_speed
 from fairlead.analysis.statics.schedule import Schedule
 from fairlead.analysis.statics.tracing import trace
 from fairlead.brief import in_a_line
@@ -18,6 +19,7 @@ from fairlead.component.along import OfLine, OfRoute
 from fairlead.component.declare import ROTATIONAL
 from fairlead.component.effects import switch
 from fairlead.component.instantiate import Line, PortRef
+from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
 
@@ -166,13 +168,21 @@ class LaidRoute:
         run = self.flat.assembly.netlist.run
         for _, drive in reversed(list(self.drivers())):
             if drive.speed is not None:
-                return Schedule(self.line_speed(drive), run.start, run.stop, drive.by)
+                return self._scheduled(drive, drive.speed, run.start, run.stop)
         return None
 
-    def line_speed(self, drive: Machine) -> Wave:
-        """The speed of the line [m/s] that a machine gives."""
-        assert drive.speed is not None
-        return drive.speed.scaled(self.lever(drive, 0.0))
+    def _scheduled(self, drive: Machine, speed: Wave, begin: float, end: float) -> Schedule:
+        """The speed of the line in a time that a machine gives with its own."""
+        radius = self._radius_over_angle if self._on_shaft(drive) else None
+        if radius is None:
+            return Schedule(speed.scaled(self.lever(drive, 0.0)), begin, end, drive.by)
+        return Schedule(line_speed(speed, radius, begin, end), begin, end, drive.by, speed)
+
+    @property
+    def _radius_over_angle(self) -> PiecewisePolynomial | None:
+        """Radius of a drum with layers over the angle paid out; None of another one."""
+        layers = self.winch and self.flat.assembly.instances.get(f"{self.route.path}.{self.winch.name}.layers")
+        return layers.values.radius if layers else None
 
     def pull(self, drive: Machine, t: float, speed: float, way: float) -> float:
         """Force outboard [N] that a machine gives to the line."""
@@ -185,10 +195,14 @@ class LaidRoute:
 
     def lever(self, drive: Machine, way: float) -> float:
         """Way of the line over that of the machine's port: the radius [m] where that is the shaft of a drum, else 1."""
+        return self.radius(way) if self._on_shaft(drive) else 1.0
+
+    def _on_shaft(self, drive: Machine) -> bool:
+        """True for a machine at the shaft of the drum."""
         if self.winch is None or drive is not self.inboard:
-            return 1.0
+            return False
         ports = self.flat.assembly.instances[drive.port.instance].type.declaration.ports
-        return self.radius(way) if ports[drive.port.port].domain is ROTATIONAL else 1.0
+        return ports[drive.port.port].domain is ROTATIONAL
 
     def signal(self, device: Device, t: float) -> float:
         """Speed of the ship at a sea [m/s]."""

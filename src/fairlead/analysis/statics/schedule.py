@@ -29,7 +29,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Schedule:
-    """A speed over the time of a run; `by` says who gives it."""
+    """A speed over the time of a run; `by` says who gives it, and `drum` how fast that turns if its layers change."""
 
     __repr__ = in_a_line
 
@@ -37,6 +37,7 @@ class Schedule:
     begin: float
     end: float
     by: str = ""
+    drum: Wave | None = None
 
     def speed(self, t: float) -> float:
         """Speed [m/s]."""
@@ -64,9 +65,16 @@ class Schedule:
     def steady(self, sign: int) -> Stretch | None:
         """The stretch that stands for a direction: the fastest, and the longest of those; 0: rest.
 
-        Without a steady one, the instant at which the speed is greatest.
+        Of layers of a drum that turns steadily, the one with most line out. Without a steady stretch, the instant at
+        which the speed is greatest.
         """
         here = [one for one in self.stretches() if _sign(one.speed) == sign]
+        if here and self.drum is not None:
+            turns, way = self.drum, self.way
+            return max(
+                here,
+                key=lambda one: (round(abs(turns((one.begin + one.end) / 2)), 9), max(way(one.begin), way(one.end))),
+            )
         if here:
             return max(here, key=lambda one: (round(abs(one.speed), 9), one.end - one.begin))
         if sign == 0:

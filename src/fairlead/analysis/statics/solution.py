@@ -21,7 +21,7 @@ from fairlead.analysis.statics.cone import Held, held
 from fairlead.analysis.statics.laid_route import Device, LaidRoute, laid_routes
 from fairlead.analysis.statics.pieces import Laid, bearing, pieces, tail
 from fairlead.analysis.statics.schedule import STILL, Schedule
-from fairlead.analysis.statics.sliding import Piece, along
+from fairlead.analysis.statics.sliding import Piece, along, beyond
 from fairlead.analysis.statics.states import Drive, Passage, State
 from fairlead.brief import in_a_line
 from fairlead.distinct import distinct
@@ -29,6 +29,7 @@ from fairlead.flatten.flat_model import FlatModel
 
 POINTS = 33  # along a piece, beside the connectors in it
 LOOKS = 201  # instants at which forces in time are looked at
+CHANGES = 1e-3  # share of a pull below which it is said to be steady
 WANTED = 1.5  # clamp capacity over the force needed (physics 4.5), as chosen in docs/routes.md
 
 
@@ -63,7 +64,10 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
         for sign in (1, -1):
             t = schedule.furthest(sign)
             if t is not None:
-                moving.append(state(route, t, _steady_speed(schedule, sign), schedule.way(t)))
+                hardest = _hardest_while(route, schedule, sign, t)
+                if hardest != t:
+                    remarks.append(f"what pulls at its ends changes while it moves; it is hardest at {hardest:.4g} s")
+                moving.append(state(route, hardest, _steady_speed(schedule, sign), schedule.way(hardest)))
         t = schedule.furthest(0)
         rest = (t, schedule.way(t)) if t is not None else rest
     else:
@@ -76,9 +80,29 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
 def _hardest(route: LaidRoute) -> float:
     """When the ends of a line that nothing moves are pulled hardest."""
     run = route.flat.assembly.netlist.run
-    times = [float(t) for t in np.linspace(run.start, run.stop, LOOKS)]
-    times += [t for t in (*route.inboard.corners(), *route.outboard.corners()) if run.start <= t <= run.stop]
-    return max(times, key=lambda t: abs(tail(route, t, 0.0, 0.0)) + abs(route.pull(route.inboard, t, 0.0, 0.0)))
+    return max(_looks(route, run.start, run.stop), key=lambda t: _pulled(route, t, 0.0, 0.0))
+
+
+def _hardest_while(route: LaidRoute, schedule: Schedule, sign: int, otherwise: float) -> float:
+    """When the ends are pulled hardest while the line moves steadily; the time `otherwise` if that does not change."""
+    stretch = schedule.steady(sign)
+    if stretch is None or stretch.end <= stretch.begin:
+        return otherwise
+    way = schedule.way(otherwise)
+    pulls = {t: _pulled(route, t, stretch.speed, way) for t in _looks(route, stretch.begin, stretch.end)}
+    most = max(pulls, key=pulls.__getitem__)
+    return most if pulls[most] - min(pulls.values()) > CHANGES * pulls[most] else otherwise
+
+
+def _looks(route: LaidRoute, begin: float, end: float) -> list[float]:
+    """Instants in a time, with those at which what acts at the ends changes its course."""
+    corners = (t for t in (*route.inboard.corners(), *route.outboard.corners()) if begin <= t <= end)
+    return [*map(float, np.linspace(begin, end, LOOKS)), *corners]
+
+
+def _pulled(route: LaidRoute, t: float, speed: float, way: float) -> float:
+    """How hard both ends are pulled [N]."""
+    return abs(tail(route, t, speed, way)) + abs(route.pull(route.inboard, t, speed, way))
 
 
 def _steady_speed(schedule: Schedule, sign: int) -> float:
@@ -231,8 +255,21 @@ def _assembled(march: _March, remarks: tuple[str, ...]) -> State:
             given = float(found[k][0] - found[k][-1]) - piece.load * piece.length
             own = device.machine.inertia * march.acceleration if device.machine.drives else 0.0
             drives.append(Drive(device.name, given, march.speed, capacity(device, piece), lever(device), own))
+    remarks = (*remarks, *filter(None, map(_slips, passages)))
     state = State(route, march.t, march.speed, march.way, tuple(passages), (), march.acceleration, remarks)
     return replace(state, drives=(*_end_drives(state), *drives))
+
+
+def _slips(one: Passage) -> str:
+    """What there is to say of a wheel on which the line slips, for what pulls on its two sides."""
+    device, piece = one.device, one.piece
+    if device is None or device.machine is None or device.clamps or not piece.curvature or not device.touches:
+        return ""
+    low, high = sorted((one.inboard, one.outboard))
+    most = beyond(piece, max(low, 0.0), device.friction(0.0), piece.length) if math.isfinite(low) else math.inf
+    if high <= most * (1 + 1e-9):
+        return ""
+    return f"{device.name}: {high:.4g} N on one side and {low:.4g} N on the other are more than it grips, {most:.4g} N"
 
 
 def _end_drives(state: State) -> Iterator[Drive]:
@@ -279,8 +316,9 @@ def _not_counted(route: LaidRoute) -> Iterator[str]:
     movers = [("inboard end", route.inboard), ("outboard end", route.outboard)]
     movers += [(one.name, one.machine) for one in route.devices if one.machine is not None]
     for name, made in movers:
-        if made.efforts and made.left_out:
-            yield f"{name}: {', '.join(made.left_out)} acts there besides, and is not counted"
+        if made.left_out and not made.drives and made.tension is None:
+            counted = "acts there, and is" if len(made.left_out) == 1 else "act there, and are"
+            yield f"{name}: {', '.join(made.left_out)} {counted} not counted"
         if made.unknown:
             yield f"{name}: what {made.by} gives cannot be told; it is taken to hold whatever comes"
 

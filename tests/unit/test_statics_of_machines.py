@@ -1,0 +1,120 @@
+"""Statics of what moves a line: drums whose layers change, wheels that slip, what is not counted, loads that change."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+ROPE = "{type: Cable, mass: 0.8 kg/m, stiffness: 500 kN, length: %s m, element: 0.2 m, start: %s m, tension: 300 N}"
+
+
+def table(model):
+    (found,) = model.statics()
+    return found
+
+
+LAYERED = f"""
+components:
+  rope: {ROPE % (36, -32)}
+  route:
+    type: Route
+    stations:
+      - {{type: Winch, radius: 0.1 m, layers: on, width: 62 mm, line_diameter: 20 mm, moment: 1 kg*m^2}}
+      - {{type: Sea, start: 3 m, speed: 5 m/s, drag_coefficient: 0.05}}
+  d: {{type: SpeedSource, speed: {{ramp: {{to: 1.3 rad/s, over: 1 s}}}}}}
+  load: {{type: ForceSource, force: 100 N}}
+connections: [[rope.path, route.path], [d.shaft, route.winch.shaft], [load.flange, rope.outboard]]
+run: {{stop: 100 s, accuracy: 1e-4}}
+"""
+
+
+def paid_out(angle):
+    """32 m lie in layers of three wraps; each lies sqrt(3)/2 of 20 mm above the one below. Steps, without crossover."""
+    rise, left = 0.02 * math.sqrt(3) / 2, 32.0
+    radii = [0.11 + k * rise for k in range(40)]
+    layer = 0
+    while left > 6 * math.pi * radii[layer]:
+        left -= 6 * math.pi * radii[layer]
+        layer += 1
+    way = 0.0
+    while layer >= 0 and angle * radii[layer] > left:
+        way, angle = way + left, angle - left / radii[layer]
+        layer -= 1
+        left = 6 * math.pi * radii[layer]
+    return way + angle * radii[layer], radii[layer]
+
+
+def test_a_drum_that_turns_steadily_pays_out_ever_slower(scene):
+    model = scene(LAYERED)
+    state = next(one for one in table(model).moving if one.speed > 0)
+    way, radius = paid_out(1.3 * 99.5)
+    assert state.way == pytest.approx(way, rel=1e-3)
+    assert state.speed == pytest.approx(1.3 * radius, rel=1e-9)
+    assert not model.check()  # it had found that 34 m of 32 m would be paid out
+    (winch,) = [one for one in state.drives if one.name == "winch"]
+    in_water = state.way - 32 + 36 - 3
+    drag = 0.5 * 1025 * 0.05 * math.pi * 0.02 * in_water * (5 - state.speed) ** 2
+    assert -winch.force == pytest.approx(100 + drag, rel=1e-2)
+    assert winch.lever == pytest.approx(radius, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_the_run_pays_out_as_statics_says(scene):
+    model = scene(LAYERED)
+    state = next(one for one in table(model).moving if one.speed > 0)
+    result = model.run(out=None)
+    assert result["rope.node[0].x"][-1] + 32 == pytest.approx(state.way, rel=1e-3)
+    assert result["route.winch.layers.radius_now"][-1] == pytest.approx(state.speed / 1.3, rel=1e-6)
+
+
+def on_a_wheel(station, more, joined, load="300 N"):
+    return f"""
+components:
+  rope: {ROPE % (12, 0)}
+  route:
+    type: Route
+    stations: [{station}]
+  load: {{type: ForceSource, force: {load}}}
+{more}
+connections:
+  - [rope.path, route.path]
+  - [load.flange, rope.outboard]
+{joined}
+run: {{stop: 8 s}}
+"""
+
+
+HAUL = "  haul: {type: MotionSource, velocity: {ramp: {to: -0.2 m/s, over: 1 s}}}"
+HAULED = "  - [haul.flange, rope.inboard]"
+WHEEL = "{name: w, type: Pulley, start: 4 m, angle: 180 deg, radius: 0.5 m, friction: 0.4, moment: 1 kg*m^2}"
+
+
+@pytest.mark.parametrize("load", [345, 360])
+def test_a_wheel_that_is_driven_beyond_its_grip_is_told(scene, load):
+    """A capstan of half a turn holds exp(0.4 pi) = 3.51 times the 100 N behind it."""
+    more = "  d: {type: SpeedSource, speed: -0.4 rad/s}\n  tail: {type: ForceSource, force: -100 N}"
+    text = on_a_wheel(WHEEL, more, "  - [d.shaft, route.w.shaft]\n  - [tail.flange, rope.inboard]", f"{load} N")
+    told = [remark for state in table(scene(text)).moving for remark in state.remarks]
+    if load < 100 * math.exp(0.4 * math.pi):
+        assert not told
+    else:
+        assert told == [f"w: {load} N on one side and 100 N on the other are more than it grips, 351.4 N"]
+
+
+@pytest.mark.parametrize("brake", ["ShaftFriction, sliding: 30 N*m", "RotationalDamper, damping: 1 N*m*s/rad"])
+def test_what_rubs_on_the_shaft_of_a_wheel_is_said_not_to_be_counted(scene, brake):
+    more = f"{HAUL}\n  h: {{type: Housing}}\n  br: {{type: {brake}}}"
+    text = on_a_wheel(WHEEL, more, f"{HAULED}\n  - [br.b, route.w.shaft]\n  - [br.a, h.shaft]")
+    (told,) = table(scene(text)).remarks
+    assert told.startswith("w: br")
+    assert told.endswith("acts there, and is not counted")
+
+
+def test_of_a_load_that_changes_the_hardest_pull_is_told_and_when(scene):
+    load = "{table: {t: [0, 3, 4], y: [300, 300, 600]}}"
+    bend = "{type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: 0.3}"
+    found = table(scene(on_a_wheel(bend, HAUL, HAULED, load)))
+    (state,) = [one for one in found.moving if one.speed < 0]
+    assert state.passages[0].inboard == pytest.approx(600 * math.exp(0.3 * math.pi / 2), rel=1e-9)
+    assert any("changes while it moves; it is hardest at 4" in remark for remark in found.remarks)
