@@ -25,7 +25,7 @@ EFFICIENCY = {
     "back_points": Table("rad/s", "1", "The same over the speed of a.", default=None),
     "bearing": Parameter("N*m", "Dry torque at shaft a without load.", default=0.0, least=0),
     "bearing_points": Table("rad/s", "N*m", "The same over the speed of a.", default=None),
-    "round_off": Parameter("N*m", "Torque over which the corner at no load is rounded off.", default=1e-3, above=0),
+    "round_off": Parameter("N*m", "Torque by which the load counts less: a corner rounded off.", default=1e-6, above=0),
     "slow": Parameter("rad/s", "Speed below which its size is rounded off.", default=1e-3, above=0),
 }
 """Of the loss of teeth, which LossyGear hands on."""
@@ -39,7 +39,8 @@ class ToothLoss(Component):
 
     Both are written as  skew T + level sign(w).  `skew` is half the difference of the two factors: this part is a
     torque without a threshold, and the shaft takes it here. `level` is half the sum of the factors times |T|: this
-    part is dry friction, and its level is an output.
+    part is dry friction, and its level is an output. |T| is sqrt(T^2 + round_off^2) - round_off, whose slope is nowhere
+    above one: near no load the gear would else lock itself where its efficiencies do not.
     """
 
     exempt = {
@@ -64,8 +65,7 @@ class ToothLoss(Component):
         driven = drives
         if p.back_points is not None or p.efficiency_back is not None:
             driven = 1 - (p.efficiency_back if p.back_points is None else p.back_points(w))
-        rounded = sqrt(carried**2 + p.round_off**2)
-        size = rounded - p.round_off**3 / rounded**2  # zero without load, and never below it with one
+        size = sqrt(carried**2 + p.round_off**2) - p.round_off
         rubs = p.bearing if p.bearing_points is None else p.bearing_points(w)
         skew = (drives - driven) / 2 * carried
         return Law(shaft=skew, level=(drives + driven) / 2 * size + rubs, skew=skew, pressed=carried,

@@ -193,10 +193,11 @@ def test_a_gear_of_less_than_half_keeps_the_load_and_lifts_at_its_share(simulate
 
 @pytest.mark.parametrize("back", [0.6, 0.01, 0.0, pytest.param(-0.5, marks=pytest.mark.slow)])
 def test_a_load_drives_a_gear_back_with_its_share_and_not_below_none(back):
-    """(J + eta m k^2) w' = eta W k, where eta is positive."""
+    """(J + eta m k^2) w' = eta W k, where eta is not negative; and half of both losses of the corner's 1e-6 N m."""
     result = run("lossy_gear", **{"gear.efficiency": "0.8", "gear.efficiency_back": str(back), "gear.bearing": "0 N*m",
                                   "motor.torque": "0 N*m", "run.stop": "1 s"})  # fmt: skip
-    falls = back * WEIGHT * HOIST / (0.05 + back * 80 * HOIST**2) * HOIST if back > 0 else 0
+    drives = back * WEIGHT * HOIST + ((1 / 0.8 - 1) + (1 - back)) / 2 * 1e-6
+    falls = drives / (0.05 + back * 80 * HOIST**2) * HOIST if back >= 0 else 0
     assert result["load.x"][-1] == pytest.approx(-falls / 2, rel=1e-5, abs=1e-12)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from math import cos, pi
 
+import numpy as np
 import pytest
 
 ENGINES = ("rodas", "stepping", "ida")
@@ -271,3 +272,50 @@ def test_a_screw_behind_a_clutch_starts_in_motion(simulate, engine, method, mass
     per_force, lead = taken(0.01, 0.005, 0.12 / cos(pi / 12)), 0.005 / (2 * pi)
     lifted = (1.0 - 200 * per_force) / (1.1e-5 + mass * lead * per_force)
     assert result["j.speed"][-1] == pytest.approx(100 + 0.01 * lifted, rel=1e-4)
+
+
+LET_DOWN = """
+    components:
+      t1: {type: TorqueSource, torque: {sine: {amplitude: 12 N*m, frequency: 0.7 Hz}}}
+      t2: {type: TorqueSource, torque: -200 N*m}
+      j1: {type: Inertia, moment: 0.01 kg*m^2, speed: 0 rad/s}
+      j2: {type: Inertia, moment: 30 kg*m^2}
+      g: {type: LossyGear, ratio: 0.03333333333333333, efficiency: 0.45, efficiency_back: -0.2, bearing: 0.1 N*m}
+      d: {type: ShaftFriction, sliding: 0.2 N*m}
+      h: {type: Housing}
+    connections: [[t1.shaft, j1.shaft, g.a], [g.b, j2.shaft, t2.shaft, d.b], [d.a, h.shaft]]
+    run: {stop: 1.7 s, accuracy: 1e-7}
+"""
+
+
+def let_down():
+    """Speed at 1.45 s of the shaft that a motor turns down with a load that presses, then pushes: by quadrature.
+
+    Both branches are single-valued (A = 0.28 and 0.011): the load is below the limit of the gear. With s = -w > 0
+    and the torque T that b asks, at a:  0.01 s' = -t1 - c T - bearing.
+    """
+    from scipy.integrate import solve_ivp
+
+    ratio, bearing, rubs = 1 / 30, 0.1, 0.2
+
+    def rate(t, s):
+        given = -12 * np.sin(2 * np.pi * 0.7 * t)  # torque downward at a
+        load = 200 - rubs  # torque downward at b
+        asked = []
+        for c in (1 / 0.45, -0.2):  # b is pushed; b drives, and a must help
+            down = (given - bearing + c * ratio * load) / (0.01 + c * ratio**2 * 30)
+            carried = (ratio * down * 30 - load) * ratio  # what a gives b, downward
+            if carried >= 0.0 if c > 0.0 else carried <= 0.0:
+                asked.append(down)
+        return [asked[0]] if s[0] > 0.0 or asked[0] > 0.0 else [0.0]
+
+    found = solve_ivp(rate, (0.72, 1.45), [0.0], max_step=2e-4, rtol=1e-8, atol=1e-9)
+    return found.y[0, -1]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_load_that_is_let_down_and_then_drives_goes_through_no_load_at_the_teeth(simulate, engine):
+    """The rounded corner of the loss had a slope of 1.2: between both branches it left no answer at all."""
+    result = simulate(LET_DOWN, **{"run.engine": engine})
+    assert result.status == "finished"
+    assert -result.at("j1.speed", 1.45) == pytest.approx(let_down(), rel=1e-3)
