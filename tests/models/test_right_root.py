@@ -319,3 +319,36 @@ def test_a_load_that_is_let_down_and_then_drives_goes_through_no_load_at_the_tee
     result = simulate(LET_DOWN, **{"run.engine": engine})
     assert result.status == "finished"
     assert -result.at("j1.speed", 1.45) == pytest.approx(let_down(), rel=1e-3)
+
+
+COASTS = """
+    components:
+      j: {{type: Inertia, moment: 1e-3 kg*m^2, speed: 100 rad/s}}
+      g: {{type: Worm, radius: 20 mm, lead: 12 mm, curve: {mu}, wheel_radius: 100 mm, round_off: 1e-6 N}}
+      d: {{type: Inertia, moment: {moved} kg*m^2}}
+      b: {{type: Brake, radius: 0.1 m, curve: 0.4, normal_force: {pressed} N}}
+      h: {{type: Housing}}
+      s: {{type: ShaftFriction, sliding: 0.02 N*m}}
+    connections: [[j.shaft, g.worm, s.b], [s.a, h.shaft], [g.wheel, d.shaft, b.shaft]]
+    run: {{stop: {stop} s, accuracy: 1e-6}}
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("mu", [0.14, 0.3])
+@pytest.mark.parametrize(("moved", "pressed"), [(0.1, 10.0), (3.0, 1000.0), (100.0, 1e4)])
+def test_what_locks_itself_and_is_braked_on_both_sides_comes_to_rest_and_stays(simulate, engine, mu, moved, pressed):
+    """Three contacts hold one motion at the capture, and the flanks rub by a force that depends on what they share.
+
+    With `binding`, `tanh` and `karnopp` a heavy wheel that creeps drives the worm, which jams: the run ends so.
+    """
+    per_force, lead, brake = taken(0.02, 0.012, mu), 0.012 / (2 * pi), 0.04 * pressed
+    falls = (0.02 + per_force * brake / 0.1) / (1e-3 + per_force * lead * moved / 0.1**2)
+    assert brake > falls * moved * lead / 0.1  # the worm pushes all the time
+    at_rest = 100.0 / falls
+    text = COASTS.format(mu=mu, moved=moved, pressed=pressed, stop=repr(1.5 * at_rest))
+    result = simulate(text, **{"run.engine": engine})
+    assert result.at("j.speed", 0.9 * at_rest) == pytest.approx(10.0, rel=1e-3)
+    assert result["j.speed"][-1] == pytest.approx(0.0, abs=1e-3)
+    turned = result["j.angle"]
+    assert turned[-1] == pytest.approx(50.0 * at_rest, rel=2e-3)
