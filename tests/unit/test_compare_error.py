@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fairlead.analysis.cost.compare import LEAST, _error
+from fairlead.analysis.cost.compare import LEAST, _error, compare
 
 
 class Recorded(dict[str, np.ndarray]):
@@ -19,6 +19,9 @@ class Recorded(dict[str, np.ndarray]):
 
     def match(self, _pattern):
         return list(self)
+
+    def at(self, name, t):
+        return np.interp(t, self.t, self[name])
 
 
 def test_a_block_that_moves_by_rounding_does_not_make_the_error():
@@ -35,3 +38,38 @@ def test_a_block_that_should_rest_and_does_not_still_counts():
     t = Recorded.t
     error, name = _error(Recorded(moves=0.1 * t, rests=0 * t + 1e-3), Recorded(moves=0.1 * t, rests=0 * t), "*")
     assert (name, error) == ("rests", pytest.approx(1e-3 / (LEAST * 0.1)))
+
+
+SWINGS = """
+    components:
+      g: {type: Ground}
+      s: {type: Spring, stiffness: 100 N/m}
+      m: {type: Mass, mass: 1 kg, position: 0.5 m}
+      c: {type: SlideFriction, sliding: 1 N}
+    connections: [[g.flange, s.a, c.a], [s.b, m.flange, c.b]]
+    run: {stop: 20 s}
+"""
+
+
+def closed(t):
+    """Half swings about +-F/k, 2 F/k less each time, until it lies where the spring cannot move it."""
+    omega, offset, start = 10.0, 0.01, 0.5
+    half = np.pi / omega
+    number = np.minimum((t / half).astype(int), 25)
+    turn = start - 2 * offset * number  # how far out the half swing begins; at 0 it stays
+    centre = offset * (1 - 2 * (number % 2))
+    begins = turn * (1 - 2 * (number % 2))
+    return np.where(turn > offset, centre + (begins - centre) * np.cos(omega * (t - number * half)), 0.0)
+
+
+def test_the_error_is_that_of_the_motion_and_not_of_lines_between_its_rows(scene, tmp_path):
+    """By lines exact hold had 1.2e-4, more than binding, and both only because their steps are as long as they are."""
+    vary = {"friction.method": ["hold", "binding"]}
+    found = compare(lambda chosen: scene(SWINGS, **chosen), vary, out=tmp_path / "compared")
+    hold, binding = (row.error for row in found.rows)
+    t = np.linspace(0.0, 20.0, 4001)
+    run = scene(SWINGS).run(out=None)
+    right = float(np.sqrt(np.mean((run.at("m.x", t) - closed(t)) ** 2)) / np.ptp(closed(t)))
+    assert hold == pytest.approx(right, rel=0.2)
+    assert hold < 5e-6
+    assert hold < binding

@@ -3,9 +3,10 @@
     comparison = compare(lambda settings: fairlead.load("belt", settings), {"pad.method": ["hold", "tanh"]})
     print(comparison.rows[0].error)
 
-Error is the root mean square difference from the reference over the common time, relative to the range of the
-signal in the reference, or to a thousandth of the widest range of its unit where that is more; the worst signal
-counts. Runs that end early or do not start are rows with a reason.
+Error is the root mean square difference from the reference over the common time, relative to the range of the signal
+in the reference, or to a thousandth of the widest range of its unit where that is more; the worst signal counts. Both
+are taken from the curves of their steps: lines between rows would be the larger error of a run with few of them. Runs
+that end early or do not start are rows with a reason.
 """
 
 from __future__ import annotations
@@ -158,14 +159,14 @@ def _error(result: Result, reference: Result, pattern: str) -> tuple[float | Non
         signal for signal in reference.signals
         if signal.name in common and signal.unit in ("m", "rad")
     ]  # fmt: skip
-    right = {signal.name: np.interp(t, reference.t, reference[signal.name]) for signal in compared}
+    right = {signal.name: reference.at(signal.name, t) for signal in compared}
     widest = {unit: max((float(np.ptp(right[s.name])) for s in compared if s.unit == unit), default=0.0)
               for unit in ("m", "rad")}  # fmt: skip
     for signal in compared:
         span = max(float(np.ptp(right[signal.name])), LEAST * widest[signal.unit])
         if span == 0:
             continue
-        difference = np.interp(t, result.t, result[signal.name]) - right[signal.name]
+        difference = result.at(signal.name, t) - right[signal.name]
         share = float(np.sqrt(np.mean(difference**2))) / span
         if worst is None or share > worst:
             worst, name = share, signal.name
