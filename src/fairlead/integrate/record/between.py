@@ -23,6 +23,8 @@ from fairlead.integrate.point.stiff import FURTHEST, OF_BALANCES
 MOST_MOVES = 12
 """Moves behind the first, at most. Where laws are linear one is enough; a flow through orifices that turns round, whose
 slope changes many times on the way, took no more than this on either engine (test_shown_in_balance.py)."""
+MOST_FURTHER = 6
+"""Moves that each go FURTHEST times as far as the one before, at most: a law a millionth as stiff is none."""
 LAST_MOVE = 1e-6
 """Share of the first move that the last one may have: what is left of the error of an unknown that was to be shown in
 balance, and of what flows."""
@@ -129,16 +131,67 @@ def balance_stiff(m, t, s, at_y):
     add_mass_times(m.linear.matrices, point.at_v, point.at_x)
     field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
     problem.rhs += 2
+    further = False
     for k in range(n):
-        if stiff[k] == 1 and differential[k] == 1:
-            gone = before[k] - f[k] - inert[k]
-            if before[k] * gone > 0.0:
-                y[k] += (min(before[k] / gone, FURTHEST) - 1.0) * move[k]
-            else:
-                y[k] -= move[k]
-        move[k] = 0.0
+        mine = stiff[k] == 1 and differential[k] == 1
+        left = f[k] + inert[k]
+        gone = before[k] - left
+        if mine and before[k] * gone > 0.0:
+            share = before[k] / gone
+            further = further or share > FURTHEST
+            move[k] = (min(share, FURTHEST) - 1.0) * move[k]
+            before[k] = left if share > FURTHEST else 0.0
+            y[k] += move[k]
+        elif mine:
+            y[k] -= move[k]
+            before[k] = move[k] = 0.0
+        else:
+            move[k] = 0.0
+    if further:
+        go_further(m, t, at_y, gain)
     if m.recorder.any_stiff == OF_BALANCES:
         balance_on(m, t, at_y)
+
+
+@compiled
+def go_further(m, t, at_y, gain):
+    """Move speeds in y on whose laws have become weaker by orders than the factors of the step have them.
+
+    Where a line leaves a drum its bond falls from 1e9 N s/m to nothing within a step, and what it carries stays. `move`
+    is the last move and `before` what was left over before it, zero for speeds that are there. Each move tells the
+    slope to the next one, which goes at most FURTHEST times as far.
+    """
+    problem, point = m.problem, m.point
+    n = problem.n
+    y, f, minus_rate, move, inert, before = (
+        reals(at_y, n), reals(point.at_f, n), reals(point.at_v, n), reals(point.at_b, n), reals(point.at_x, n),
+        reals(point.at_u, n),
+    )  # fmt: skip
+    stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
+    for _ in range(MOST_FURTHER):
+        for k in range(n):
+            if stiff[k] == 1 and differential[k] == 1:
+                minus_rate[k] -= gain * move[k]
+            inert[k] = 0.0
+        add_mass_times(m.linear.matrices, point.at_v, point.at_x)
+        field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
+        problem.rhs += 1
+        further = False
+        for k in range(n):
+            if before[k] == 0.0 or stiff[k] == 0 or differential[k] == 0:
+                move[k] = 0.0
+                continue
+            left = f[k] + inert[k]
+            gone = before[k] - left
+            share = min(left / gone, FURTHEST) if before[k] * gone > 0.0 else 0.0
+            move[k] *= share
+            before[k] = left if share == FURTHEST else 0.0
+            y[k] += move[k]
+            further = further or share == FURTHEST
+        if not further:
+            break
+    for k in range(n):
+        move[k] = 0.0
 
 
 @compiled
