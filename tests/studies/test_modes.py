@@ -306,3 +306,36 @@ def test_an_instant_that_the_run_does_not_reach_is_refused(at, says) -> None:
     with pytest.raises(ModelError, match=says):
         fairlead.modes(model, at=at)
     assert fairlead.modes(model.with_values({"run.stop": 1}), at=1).t == 1.0
+
+
+TURNED = """
+    components:
+      j: {{type: Inertia, moment: 0.05 kg*m^2, angle: 1 rad, speed: 0}}
+      c: {{type: {kind}}}
+      m: {{type: Mass, mass: 2 kg}}
+      g: {{type: Ground}}
+      s: {{type: SpringDamper, stiffness: 1000 N/m, damping: 5 N*s/m, free_length: {free!r} m}}
+      t: {{type: TorqueSource, torque: {torque!r} N*m}}
+    connections: [[j.shaft, c.shaft, t.shaft], [c.slider, m.flange, s.b], [g.flange, s.a]]
+    run: {{stop: 1 s, accuracy: 1e-8}}
+"""
+PLACES = {
+    "Crank, radius: 0.1 m, rod: 0.3 m": lambda a: 0.1 * np.cos(a) + np.sqrt(0.3**2 - (0.1 * np.sin(a)) ** 2),
+    "Cam, lift: 0.2 m": lambda a: 0.1 * (1 - np.cos(a)),
+}
+
+
+@pytest.mark.parametrize("kind", PLACES)
+@pytest.mark.parametrize("stretch", [0.0, 0.02, -0.03])
+def test_a_relation_of_positions_leaves_one_motion_and_its_bend_counts(scene, kind, stretch):
+    """Of V = k/2 (x(a) - x0)^2 - T a at rest: V'' = k x'^2 + k (x - x0) x'', with J + m x'^2 and c x'^2."""
+    place, e = PLACES[kind], 1e-4
+    first = (place(1 + e) - place(1 - e)) / (2 * e)
+    second = (place(1 + e) - 2 * place(1.0) + place(1 - e)) / e**2
+    text = TURNED.format(kind=kind, free=float(place(1.0) - stretch), torque=float(1000 * stretch * first))
+    found = fairlead.modes(scene(text))
+    inertia, stiffness, damping = 0.05 + 2 * first**2, 1000 * (first**2 + stretch * second), 5 * first**2
+    (mode,) = found
+    assert abs(mode.value) ** 2 == pytest.approx(stiffness / inertia, rel=1e-5)
+    assert -2 * mode.value.real == pytest.approx(damping / inertia, rel=1e-5)
+    assert (found.at_rest, found.held) == (0, 1)

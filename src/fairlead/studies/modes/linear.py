@@ -11,6 +11,9 @@ S^2 = M_d (the d'Alembert projection), q = Q' S dd are the states, and
 
     q' = (Q' S A S^-1 Q) q + Q' S B du
 
+A relation of positions g(x) = 0, as of a crank, is kept as an acceleration, so that C has no row of it. Its states keep
+the relation and its rate: two rows more, g_x dx = 0 and g_x dv + (g_x v)_x dx = 0.
+
 Quadratures (the ledger of energy) have no say in what happens and are left out. The Jacobians are those of the traced
 laws, by which the engine itself takes its steps.
 """
@@ -25,6 +28,7 @@ from numpy.typing import NDArray
 from fairlead.errors import FairleadError
 from fairlead.system.compiled.asking import call, mass_of
 from fairlead.system.compiled.system import Instance
+from fairlead.system.start.places import ratios_at
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -32,6 +36,9 @@ MOST = 3000
 """States of a model; their eigenvalues take some minutes."""
 SMALLEST = 1e-13
 """Reciprocal condition, rows and columns scaled, below which equations are singular."""
+BEND = 1e-4
+"""How far a position is moved to see how the rate of a relation changes, relative to it or in its unit. The error of
+the difference is 1e-8 of what bends, and rounding 1e-12."""
 RANK = 1e-10
 """Slip of a contact, beside those before it, that is none of its own: contacts that hold in a circle."""
 
@@ -49,6 +56,8 @@ class Equations:
     j: Floats
     m: Floats
     differential: NDArray[np.bool_]
+    relations: Floats
+    """Of positions and their rates, [2 relations, n]: what the states keep at zero beside the rows of M."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +70,7 @@ class Linear:
     onto: Floats
     spread: Floats
     held: int
-    """Contacts that hold, and rows that always do."""
+    """Contacts that hold, rows that always do, and relations of positions."""
     pace: float
     """Of what has a derivative, as if nothing held [1/s]: what is far below it is rounding."""
 
@@ -73,14 +82,32 @@ def equations(instance: Instance, t: float, y: Floats, zones: Integers) -> Equat
     try:
         values, drift = np.zeros(len(instance.pattern.rows)), np.zeros(instance.n)
         call(instance, "jacobian", t, y, values, drift)
-        masses = mass_of(instance)
+        masses, relations = mass_of(instance), _relations(instance, t, y)
     finally:
         instance.zones[:] = before
     at = np.flatnonzero(~instance.quadrature)
     take = np.ix_(at, at)
     names = tuple(instance.unknown_names[k] for k in at)
     return Equations(at, names, _dense(instance.pattern, values)[take], _dense(instance.mass_pattern, masses)[take],
-                     instance.differential[at])  # fmt: skip
+                     instance.differential[at], relations[:, at])  # fmt: skip
+
+
+def _relations(instance: Instance, t: float, y: Floats) -> Floats:
+    """Relations of positions in force, linearised: those of the positions, then those of their rates."""
+    ratios = ratios_at(instance, y) if instance.kept_positions else np.zeros((0, 0))
+    rows, numbering = np.flatnonzero(ratios.any(axis=1)), instance.numbering
+    made = np.zeros((2, len(rows), instance.n))
+    for k, index in enumerate(numbering.accelerated if len(rows) else ()):
+        x, v = numbering.position[index], numbering.rate[index]
+        step, rates = BEND * max(1.0, abs(y[x])), []
+        for side in (-1.0, 1.0):
+            moved, slip = y.copy(), np.zeros(instance.n)
+            moved[x] += side * step
+            call(instance, "slip", t, moved, slip)
+            rates.append(-slip[rows])
+        made[0, :, x] = made[1, :, v] = ratios[rows, k]
+        made[1, :, x] = (rates[1] - rates[0]) / (2.0 * step)
+    return made.reshape(-1, instance.n)
 
 
 def linear(found: Equations) -> Linear:
@@ -92,13 +119,14 @@ def linear(found: Equations) -> Linear:
     count = int(d.sum())
     roots = np.sqrt(np.diag(found.m[np.ix_(d, d)]))
     held = found.m[~d][:, d]
-    held = held[np.abs(held).any(axis=1)] / roots
+    held = np.vstack([held[np.abs(held).any(axis=1)], found.relations[:, d]]) / roots
     q = _null_space(held)
     basis, onto = q / roots[:, None], (q * roots[:, None]).T
     spread = np.zeros((len(d), q.shape[1]))
     spread[d], spread[~d] = basis, rates[count:] @ basis
     pace = np.linalg.norm(_balanced(found.j[np.ix_(d, d)] / np.outer(roots, roots)), 1) if count else 0.0
-    return Linear(found, onto @ rates[:count] @ basis, basis, onto, spread, len(held), float(pace))
+    kept = len(held) - len(found.relations) // 2
+    return Linear(found, onto @ rates[:count] @ basis, basis, onto, spread, kept, float(pace))
 
 
 def _balanced(matrix: Floats) -> Floats:
