@@ -186,3 +186,28 @@ def test_a_run_and_its_margins_agree_on_what_is_broken(scene, tmp_path):
     found, stations = of(tmp_path / "run")
     assert stations["bend"].scuffed.value == pytest.approx(0.2 * 0.9, rel=0.02)  # the way of a node that stays in it
     assert found.whole.peak.value >= 100 * math.exp(0.3 * math.pi / 2) * 0.99
+
+
+PULSED = """
+components:
+  rope: {type: Cable, length: 12 m, element: 0.2 m, start: 0 m, tension: 300 N, mass: 0.8 kg/m, stiffness: 500 kN,
+         damping_ratio: 0.05, side_wall: 500 N/m}
+  route: {type: Route, stations: [{type: Bend, start: 3 m, angle: 60 deg, radius: 2 m, friction: 0.2}]}
+  d: {type: MotionSource, velocity: 0 m/s}
+  load:
+    type: ForceSource
+    force: {constant: 300 N, pulses: {to: 400 N, every: 1 s, wide: 8 ms, count: 1, rise: 2 ms, start: 1.123 s}}
+connections: [[rope.path, route.path], [d.flange, rope.inboard], [load.flange, rope.outboard]]
+run: {stop: 2 s, accuracy: 1e-5}
+"""
+
+
+@pytest.mark.parametrize("every", ["0.5 s", "1 ms"])
+def test_the_side_wall_bears_the_peak_that_the_same_row_tells_however_seldom_rows_are_recorded(scene, every):
+    """A pulse of 8 ms between rows half a second apart: the load on the bend is T/R of its peak, not that of a row."""
+    result = scene(PULSED, **{"record.every": every}).run(out=None)
+    (line,) = margins(result)
+    (bend,) = line.stations
+    assert bend.peak.value > 600
+    assert bend.side_wall.value == pytest.approx(bend.peak.value / 2.0, rel=1e-12)
+    assert bend.side_wall.t == bend.peak.t

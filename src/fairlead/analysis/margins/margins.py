@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -108,7 +108,7 @@ class _Judge(RecordedLine):
             return None
         found: dict[str, Worst | None] = dict(self._tensions(inside))
         if station["curvature"] and self.total is not None:
-            found["side_wall"] = self._worst(np.abs(self.total) * station["curvature"], inside, self._element)
+            found["side_wall"] = self._side_wall(station["curvature"], inside, found)
         held: NDArray[np.bool_] = (self.nodes >= begin) & (self.nodes <= end)
         if station["contact"]:
             found |= self._slips(station["contact"], "scuffed", held)
@@ -116,6 +116,16 @@ class _Judge(RecordedLine):
             if station["moves"]:
                 found["slipped"] = self._slipped(station["contact"], held)
         return StationMargins(station["name"], **found)
+
+    def _side_wall(self, curvature: float, inside: NDArray[np.bool_], found: Mapping[str, Worst | None]) -> Worst:
+        """Load per length of what is inside; of a line of one layer that of its extremes, between rows as well."""
+        assert self.total is not None
+        ends = [found[name] for name in ("peak", "lowest")] if self.layers is not None and len(self.layers) == 1 else []
+        known = [one for one in ends if one is not None]
+        if not known:
+            return self._worst(np.abs(self.total) * curvature, inside, self._element)
+        worst = max(known, key=lambda one: abs(one.value))
+        return Worst(abs(worst.value) * curvature, worst.t, worst.signal, worst.place)
 
     def _whole(self, stations: tuple[StationMargins, ...]) -> StationMargins:
         """Over all of the line, drum and sea as well, but for what moves as one body out there and has no waves."""
