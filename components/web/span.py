@@ -18,6 +18,7 @@ from fairlead.component import (
 
 TEARS = 1e-3  # s; in which the energy of a torn web is gone: it only has a place in the ledger
 CUT = 0.5  # of a signal that is 0 or 1
+LEAST = 0.01  # of the free length at the start: with less left the rollers meet
 
 
 def forward(p, v):
@@ -129,6 +130,11 @@ def span(p, pull, zone, length, rate, told, **ports):
     )  # fmt: skip
 
 
+def left_of(p, length):
+    """Above zero, and at once above one, where less than LEAST of the free length is left."""
+    return 1e6 * (LEAST - length / p.length)
+
+
 class FixedSpan(Web, abstract=True):
     """Half-model of a web between rollers that stand, with what may end it."""
 
@@ -223,14 +229,15 @@ class WebAccumulator(Web):
 
     Source: P. R. Pagilla and others, IEEE Trans. Industry Applications 37 (2001), 934.
 
-    Limits: rollers inside have no inertia and no friction, so all strands have one tension. `carriage.x` must stay
-    above -length/strands. With one strand it is one side of a loop round a dancer.
+    Limits: rollers inside have no inertia and no friction, so all strands have one tension. A run ends where less than
+    a hundredth of `length` is left. With one strand it is one side of a loop round a dancer.
     """
 
     asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     carriage = Translational("what lengthens the way of the web as x grows")
     strands = Parameter("1", "How often the web runs to the carriage or back.", default=2.0, above=0, usual=(1, 200))
     free = Output("m", "Free length, of all strands together.")
+    used_up = Output("1", "Above 1 where less than a hundredth of `length` is left.", role="used_up", of="free")
 
     @shared
     def damped(p, a, b, carriage, before, after, pull):
@@ -244,7 +251,7 @@ class WebAccumulator(Web):
         length, rate = p.length + p.strands * carriage.x, p.strands * carriage.v
         ends = flows(p, a, b, before, after, pull / p.stiffness if zone != "slack" else 0)
         law = span(p, pull, zone, length, rate, ends, carriage=p.strands)
-        return Law(**law.terms, free=length)
+        return Law(**law.terms, free=length, used_up=left_of(p, length))
 
 
 def tail_flows(p, a, before, strain):
@@ -267,11 +274,13 @@ class RopeTail(Web):
     For small strain  length d(tension)/dt = stiffness (b.v - a.v) + a.v tension_before.  What is paid out at `a` lets
     the body go; the force on it is `tension`, back towards the roller. `after` is not read: nothing comes from it.
 
-    Source: docs/physics.md, 4.9. Limits: as of a WebSpan; the free length must stay above zero.
+    Source: docs/physics.md, 4.9. Limits: as of a WebSpan; a run ends where less than a hundredth of `length` is left.
     """
 
     asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     b = Translational("the body at its end")
+    free = Output("m", "Free length.")
+    used_up = Output("1", "Above 1 where less than a hundredth of `length` is left.", role="used_up", of="free")
 
     @shared
     def damped(p, a, b, before, pull):
@@ -281,7 +290,8 @@ class RopeTail(Web):
     @zone("taut", "slack", "closing")
     def running(p, a, b, before, pull, zone):
         """The balance of material, over a way that the body changes."""
-        return tail(p, a, before, pull, zone, p.length + b.x, b.v)
+        law = tail(p, a, before, pull, zone, p.length + b.x, b.v)
+        return Law(**law.terms, free=p.length + b.x, used_up=left_of(p, p.length + b.x))
 
 
 class MovingTail(Web):
@@ -296,6 +306,8 @@ class MovingTail(Web):
     exempt = {"balance": "the rope also goes through `a`, whose rim moves with the place"}
     b = Translational("the body at its end")
     place = Translational("the ship")
+    free = Output("m", "Free length.")
+    used_up = Output("1", "Above 1 where less than a hundredth of `length` is left.", role="used_up", of="free")
 
     @shared
     def damped(p, a, b, place, before, pull):
@@ -306,5 +318,6 @@ class MovingTail(Web):
     @zone("taut", "slack", "closing")
     def running(p, a, b, place, before, pull, zone):
         """The balance of material, over a way that both change."""
-        law = tail(p, a, before, pull, zone, p.length + b.x - place.x, b.v - place.v)
-        return Law(**law.terms, place=-law.terms["b"])
+        length = p.length + b.x - place.x
+        law = tail(p, a, before, pull, zone, length, b.v - place.v)
+        return Law(**law.terms, place=-law.terms["b"], free=length, used_up=left_of(p, length))

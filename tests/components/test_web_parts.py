@@ -410,3 +410,48 @@ def test_with_it_the_ratio_of_tensions_stays_within_eulers(simulate):
     assert taut.any()
     assert ratio.max() < 0.1 * np.pi + 0.02
     assert result.run["energy"]["closure"] < 1e-3
+
+
+HAULED_IN = """
+    components:
+      v: {type: MotionSource, velocity: {ramp: {to: -1 m/s, over: 0.1 s}}}
+      tail: {type: RopeTail, length: 3 m, stiffness: 100 kN, tension: 100 N, damping: 500 N*s}
+      m: {type: Mass, mass: 10 kg}
+      pull: {type: ForceSource, force: 100 N}
+    connections: [[v.flange, tail.a], [tail.b, m.flange, pull.flange]]
+    run: {stop: 8 s}
+    record: {every: 10 ms}
+"""
+TAKEN_IN = """
+    components:
+      v1: {type: MotionSource, velocity: {table: [[0 s, 1], [1 s, 1], [1.5 s, 0]]}}
+      v2: {type: MotionSource, velocity: 1 m/s}
+      acc: {type: WebAccumulator, length: 4 m, strands: 4, stiffness: 1 MN, tension: 200 N, damping: 500 N*s}
+      car: {type: Mass, mass: 50 kg, position: 0, velocity: 0}
+      pull: {type: ForceSource, force: 800 N}
+      dmp: {type: Damper, damping: 500 N*s/m}
+      g: {type: Ground}
+      eps: {type: SignalSource, value: 2e-4}
+    connections:
+      - [v1.flange, acc.a]
+      - [acc.b, v2.flange]
+      - [acc.carriage, car.flange, pull.flange, dmp.b]
+      - [dmp.a, g.flange]
+      - [eps.signal, acc.before, acc.after]
+    run: {stop: 8 s}
+    record: {every: 10 ms}
+"""
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+@pytest.mark.parametrize(
+    ("text", "name", "when"),
+    [(HAULED_IN, "tail", 0.05 + 2.97), (TAKEN_IN, "acc", 1.25 + 3.96)],  # 99 % of 3 m and 4 m are gone, at 1 m/s
+    ids=["tail", "accumulator"],
+)
+def test_a_run_ends_where_no_free_length_is_left(scene, engine, text, name, when):
+    """It went on with a negative length, or bounced at a rope without one, and nothing said so."""
+    result = scene(text, **{"run.engine": engine}).run(out=None, check=False)
+    assert f"{name} is used up" in result.run["sentence"]
+    assert result.t[-1] == pytest.approx(when, abs=0.03)
+    assert (result[f"{name}.free"][:-1] > 0).all()

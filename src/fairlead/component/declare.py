@@ -113,8 +113,8 @@ class Output:
     STRAIN is that of an element, over its length without load; a run watches it, see `compressible` of a component.
     PULL is the force of what can only pull in a machine, though not by its law; a run tells where it pushes.
     INTEGRAL is what a controller has gathered; a run tells where it winds up, see `saturates_in`.
-    USED_UP is 1 once nothing is left of what a part gives; the run ends there, unless another part listens to the
-    output `of`, which tells what is left. It is 2 where the law says no more at all, and any run ends.
+    USED_UP is above zero once nothing is left of what a part gives; the run ends there, unless another part listens to
+    the output `of`, which tells what is left. It is above 1 where the law says no more at all, and any run ends.
     `rounded_by` is the parameter over which a corner at zero of this output is rounded off; a run tells where the
     output stays so small that the rounding counts. In a Composite the parameter has the same name.
     `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
