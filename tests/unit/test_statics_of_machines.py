@@ -6,6 +6,8 @@ import math
 
 import pytest
 
+from fairlead.analysis.margins.quasi_static import against_statics
+
 ROPE = "{type: Cable, mass: 0.8 kg/m, stiffness: 500 kN, length: %s m, element: 0.2 m, start: %s m, tension: 300 N}"
 
 
@@ -117,4 +119,30 @@ def test_of_a_load_that_changes_the_hardest_pull_is_told_and_when(scene):
     found = table(scene(on_a_wheel(bend, HAUL, HAULED, load)))
     (state,) = [one for one in found.moving if one.speed < 0]
     assert state.passages[0].inboard == pytest.approx(600 * math.exp(0.3 * math.pi / 2), rel=1e-9)
-    assert any("changes while it moves; it is hardest at 4" in remark for remark in found.remarks)
+    assert any("changes while it moves; it is hardest at 4" in remark for remark in found.notes)
+
+
+def test_a_line_at_whose_end_another_one_pulls_says_so_and_is_not_compared(scene):
+    text = f"""
+components:
+  one: {ROPE % (6, 0)}
+  two: {ROPE % (6, 6)}
+  first: {{type: Route, stations: [{{type: Bend, start: 1 m, angle: 90 deg, radius: 1 m, friction: 0.3}}]}}
+  second: {{type: Route, stations: [{{type: Bend, start: 8 m, angle: 90 deg, radius: 1 m, friction: 0.3}}]}}
+  haul: {{type: MotionSource, velocity: {{ramp: {{to: -0.2 m/s, over: 1 s}}}}}}
+  load: {{type: ForceSource, force: 300 N}}
+connections:
+  - [one.path, first.path]
+  - [two.path, second.path]
+  - [haul.flange, one.inboard]
+  - [one.outboard, two.inboard]
+  - [load.flange, two.outboard]
+run: {{stop: 4 s}}
+"""
+    model = scene(text)
+    told = [remark for found in model.statics() for remark in found.remarks]
+    assert "outboard end: two acts there, and is not counted" in told
+    assert "inboard end: one acts there, and is not counted" in told
+    against = against_statics(model.flat, model.run(out=None))
+    assert against["difference"] is None
+    assert "not counted" in against["reason"]

@@ -31,6 +31,7 @@ def record(found: Statics) -> dict[str, Any]:
 def _remarks(found: Statics) -> Iterator[str]:
     """What is open or not counted, and what `check` would warn of."""
     yield from found.remarks
+    yield from found.notes
     for state in found.moving:
         yield from state.remarks
     if len(found.route.says.layers) > 1 or not found.route.pushes:

@@ -35,7 +35,10 @@ WANTED = 1.5  # clamp capacity over the force needed (physics 4.5), as chosen in
 
 @dataclass(frozen=True)
 class Statics:
-    """All states of one line: those its references imply."""
+    """All states of one line: those its references imply.
+
+    `remarks` are what makes it differ from a run, `notes` what a reader should know besides.
+    """
 
     __repr__ = in_a_line
 
@@ -45,6 +48,7 @@ class Statics:
     standing: Held
     starts: tuple[State, ...] = ()
     remarks: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = field(default=())
 
 
 def statics(flat: FlatModel, speed: float | None = None) -> list[Statics]:
@@ -54,7 +58,7 @@ def statics(flat: FlatModel, speed: float | None = None) -> list[Statics]:
 
 def _of(route: LaidRoute, speed: float | None) -> Statics:
     schedule = route.schedule()
-    remarks = list(_not_counted(route))
+    remarks, notes = list(_not_counted(route)), list[str]()
     moving, rest = [], (route.flat.assembly.netlist.run.start, 0.0)
     if speed is not None:
         if not list(route.drivers()):
@@ -66,7 +70,7 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
             if t is not None:
                 hardest = _hardest_while(route, schedule, sign, t)
                 if hardest != t:
-                    remarks.append(f"what pulls at its ends changes while it moves; it is hardest at {hardest:.4g} s")
+                    notes.append(f"what pulls at its ends changes while it moves; it is hardest at {hardest:.4g} s")
                 moving.append(state(route, hardest, _steady_speed(schedule, sign), schedule.way(hardest)))
         t = schedule.furthest(0)
         rest = (t, schedule.way(t)) if t is not None else rest
@@ -74,7 +78,7 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
         rest = (_hardest(route), 0.0)
         remarks.append("no reference tells a speed of the line, so only standing still is told; --speed gives one")
     starts = tuple(starting(route, schedule)) if schedule is not None and speed is None else ()
-    return Statics(route, schedule, tuple(moving), held(route, *rest), starts, tuple(remarks))
+    return Statics(route, schedule, tuple(moving), held(route, *rest), starts, tuple(remarks), tuple(notes))
 
 
 def _hardest(route: LaidRoute) -> float:
@@ -317,8 +321,13 @@ def _not_counted(route: LaidRoute) -> Iterator[str]:
     movers += [(one.name, one.machine) for one in route.devices if one.machine is not None]
     for name, made in movers:
         if made.left_out and not made.drives and made.tension is None:
-            counted = "acts there, and is" if len(made.left_out) == 1 else "act there, and are"
-            yield f"{name}: {', '.join(made.left_out)} {counted} not counted"
+            who = dict.fromkeys(_line_or_part(route, path) for path in made.left_out)
+            counted = "acts there, and is" if len(who) == 1 else "act there, and are"
+            yield f"{name}: {', '.join(who)} {counted} not counted"
         if made.unknown:
             yield f"{name}: what {made.by} gives cannot be told; it is taken to hold whatever comes"
 
+
+def _line_or_part(route: LaidRoute, path: str) -> str:
+    """The line that has this part, or the part itself."""
+    return next((line for line in route.flat.assembly.lines if path.startswith(f"{line}.")), path)
