@@ -146,3 +146,31 @@ run: {{stop: 4 s}}
     against = against_statics(model.flat, model.run(out=None))
     assert against["difference"] is None
     assert "not counted" in against["reason"]
+
+
+@pytest.mark.parametrize("amplitude", [1.0, -1.0])
+def test_of_a_speed_that_swings_the_moment_that_needs_most_is_told(scene, amplitude):
+    """a = A R omega cos(omega t): as hauling begins it pulls with its capstan and both inertias, 100 kg m^2 at most."""
+    text = f"""
+components:
+  rope: {ROPE % (14, -4)}
+  route:
+    type: Route
+    stations:
+      - {{type: Winch, radius: 0.3 m, moment: 100 kg*m^2}}
+      - {{type: Bend, start: 2 m, angle: 90 deg, radius: 1 m, friction: 0.3}}
+  d: {{type: SpeedSource, speed: {{sine: {{amplitude: {amplitude} rad/s, frequency: 0.25 Hz}}}}}}
+  load: {{type: ForceSource, force: 300 N}}
+connections: [[rope.path, route.path], [d.shaft, route.winch.shaft], [load.flange, rope.outboard]]
+run: {{stop: 8 s}}
+"""
+    found = table(scene(text))
+    rate = 0.3 * math.pi / 2
+    told = {math.copysign(1, one.acceleration): one for one in found.starts}
+    for sense in (1, -1):
+        assert told[sense].acceleration == pytest.approx(sense * rate, rel=1e-4)
+    (winch,) = [one for one in told[-1].drives if one.name == "winch"]
+    grip = math.exp(0.3 * math.pi / 2)
+    assert -winch.force == pytest.approx(300 * grip, rel=0.02)  # and the line's own mass times the acceleration
+    assert -winch.force > 300 * grip
+    assert -winch.own == pytest.approx((100 / 0.3**2 + 0.8 * 6) * rate, rel=0.01)

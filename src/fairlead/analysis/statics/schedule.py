@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fairlead.brief import in_a_line
-from fairlead.component.piecewise import FAR, constant, horner, linear_table
+from fairlead.component.piecewise import FAR, horner, linear_table
 from fairlead.component.values import Wave, steady
 
 STILL = 1e-9  # m/s; less is rest
@@ -106,21 +106,24 @@ class Schedule:
         return max(ends, key=lambda t: round(self.way(t), 6))
 
     def accelerations(self) -> Iterator[tuple[float, float, float]]:
-        """(t, speed, acceleration) at both ends of every piece in which the speed changes; steps are left out."""
-        swing = self._swing
-        for begin, end, row in self._pieces():
-            for t in (begin, end) if row[4:].any() or swing else ():
-                slope = horner(row[4:] * np.arange(1, len(row) - 3), t - row[2])
-                yield t, self.speed(t), float(slope) + math.copysign(swing, slope or 1.0)
+        """(t, speed, acceleration) at both ends of every piece in which the speed changes; steps are left out.
 
-    @functools.cached_property
-    def _swing(self) -> float:
-        """The largest acceleration that sines add."""
-        whole = abs(self.wave.sine.amplitude * self.wave.sine.omega)
-        if not self.wave.swings:
-            return whole
-        swings = Wave(constant(0.0), swings=self.wave.swings).derivative()
-        return whole + max(abs(swings(float(t))) for t in np.linspace(self.begin, self.end, LOOKS))
+        Of a speed that swings the largest acceleration of each sense, in each direction of the speed.
+        """
+        if self.wave.is_swinging:
+            yield from self._largest()
+            return
+        for begin, end, row in self._pieces():
+            for t in (begin, end) if row[4:].any() else ():
+                yield t, self.speed(t), float(horner(row[4:] * np.arange(1, len(row) - 3), t - row[2]))
+
+    def _largest(self) -> Iterator[tuple[float, float, float]]:
+        rate, times = self.wave.derivative(), np.linspace(self.begin, self.end, LOOKS).tolist()
+        looks = [(t, self.speed(t), rate(t)) for t in times]
+        for sense, way in itertools.product((1, -1), (1, -1)):
+            here = [one for one in looks if sense * one[2] > 0 and way * one[1] >= 0]
+            if here:
+                yield max(here, key=lambda one: round(abs(one[2]), 12))
 
     def _pieces(self) -> Iterator[tuple[float, float, np.ndarray]]:
         """Times between two borders, with the row of the pieces that do not swing."""
