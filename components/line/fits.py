@@ -106,17 +106,17 @@ def _start(assembly: Any, laid: Any) -> Location:
 
 def _drum(one: Placed, p: Any) -> Iterator[tuple[str, str]]:
     """A drum that cannot take the line."""
-    layers, wanted = one.station.wound(p.diameter), one.station.filled + p.length
+    layers, lies = one.station.wound(p.diameter), one.station.filled + max(one.end - p.start, 0.0)
     if layers.wraps < 1:
         yield (
             f"its width of {layers.width:g} m takes no wrap of a line of {layers.diameter:g} m",
             "Give a wider drum.",
         )
-    elif one.station.height is not None and layers.capacity < wanted:
+    elif one.station.height is not None and layers.capacity < lies:
         yield (
             f"it takes {layers.capacity:.4g} m of line ({layers.most} layers of {layers.wraps} wraps), "
-            f"and the line has {wanted:.4g} m",
-            "Give a wider drum, higher flanges or a larger radius.",
+            f"and {lies:.4g} m lie on it at the start",
+            "Give a wider drum, higher flanges or a larger radius, or let the line start further outboard.",
         )
 
 

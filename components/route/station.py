@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -83,6 +84,10 @@ class Station(Family, abstract=True):
     def leaves_at(p, stored, diameter):
         """Radius of a drum at which a line of this diameter [m] leaves it, with `stored` [m] of it on the drum [m]."""
         raise NotImplementedError
+
+    def takes(p, diameter):
+        """How much of the model's line, of this diameter [m], a drum takes [m]."""
+        return math.inf
 
     def immerses(p):
         """True for a water (`Sea`) that drags the line outboard of its start."""

@@ -27,7 +27,7 @@ class Winch(Station):
                    speed or a tension may be given. `on` takes `width` and the diameter of the line and grows the
                    radius by layers: R_j = radius + d/2 + (j - 1) d (nested: times sqrt(3)/2), with a change from
                    one to the next over `crossover`. `filled` is what is on the drum at the start beside the line
-                   of the model. The radius is that of the line's middle in the first layer when layers are off.
+                   of the model; it has no mass, so add its inertia to `moment`. The radius is that of the line's middle in the first layer when layers are off.
     """
 
     word = "Winch"
@@ -64,6 +64,11 @@ class Winch(Station):
     def wound(p, diameter):
         """Layers of a line of this diameter [m] on the drum."""
         return Layers(p.radius, p.line_diameter or diameter, p.width, p.packing == "nested", p.height)
+
+    def takes(p, diameter):
+        """What its flanges hold beside what is `filled`, if they are told and layers are on."""
+        limited = p.layers == "on" and p.height is not None
+        return p.wound(diameter).capacity - p.filled if limited else math.inf
 
     def machinery(p, scene):
         """Drum with a rim, or with a radius that follows its angle."""

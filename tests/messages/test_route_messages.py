@@ -95,7 +95,7 @@ def test_a_bend_tighter_than_the_line_allows(scene):
 def test_a_drum_too_small_for_the_line(scene):
     drum = "{type: Winch, radius: 0.3 m, layers: on, width: 0.5 m, height: 0.1 m, line_diameter: 50 mm}"
     text = told(scene, [drum, BEND], line="length: 60 m, element: 0.25 m, start: -50 m")
-    assert "route.winch: it takes 43.56 m of line (2 layers of 10 wraps), and the line has 60 m" in text
+    assert "route.winch: it takes 43.56 m of line (2 layers of 10 wraps), and 50 m lie on it at the start" in text
 
 
 def test_a_route_without_devices(scene):

@@ -174,3 +174,25 @@ run: {{stop: 8 s}}
     assert -winch.force == pytest.approx(300 * grip, rel=0.02)  # and the line's own mass times the acceleration
     assert -winch.force > 300 * grip
     assert -winch.own == pytest.approx((100 / 0.3**2 + 0.8 * 6) * rate, rel=0.01)
+
+
+@pytest.mark.parametrize(("speed", "told"), [(-0.05, 0), (-3.0, 1)])
+def test_a_drum_must_take_what_is_hauled_on_to_it_and_no_more(scene, speed, told):
+    """Two layers of three wraps take 4.47 m: 2 m lie there, and 0.1 r turns or all that 10 s give come on."""
+    text = f"""
+components:
+  rope: {ROPE % (30, -2)}
+  route:
+    type: Route
+    stations:
+      - {{type: Winch, radius: 0.1 m, layers: on, width: 62 mm, line_diameter: 20 mm, height: 45 mm, moment: 1 kg*m^2}}
+      - {{type: Straight, start: 2 m, length: 40 m}}
+  d: {{type: SpeedSource, speed: {{ramp: {{to: {speed} rad/s, over: 1 s}}}}}}
+  load: {{type: ForceSource, force: 100 N}}
+connections: [[rope.path, route.path], [d.shaft, route.winch.shaft], [load.flange, rope.outboard]]
+run: {{stop: 10 s}}
+"""
+    remarks = [str(one) for one in scene(text).check()]
+    assert len(remarks) == told
+    if told:
+        assert "lie on it by 10 s, and its flanges take 4.473 m" in remarks[0]

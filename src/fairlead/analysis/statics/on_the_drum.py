@@ -1,4 +1,4 @@
-"""Whether a winch has the line it is to haul: told when the line begins outboard, stays on it, or comes off."""
+"""Whether a winch has the line it is to haul: told when that begins outboard, stays on it, comes off or is too long."""
 
 from __future__ import annotations
 
@@ -40,6 +40,25 @@ def off_the_drum(route: LaidRoute) -> Iterator[Fault]:
             f"the drum; the inboard end of {name} comes off it."
         )
         yield Fault(_start(route), what, f"Let {name} start at {route.winch.end - way:.4g} m or further inboard.")
+    yield from _over_the_flanges(route, schedule)
+
+
+def _over_the_flanges(route: LaidRoute, schedule: Schedule | None) -> Iterator[Fault]:
+    """A drum on which more is wound than its flanges take; all of the line may be, where nothing tells how much."""
+    assert route.winch is not None
+    most = route.winch.station.takes(route.says.diameter)
+    if schedule is None:
+        wound, when = route.says.length, "if all of it is hauled in"
+    else:
+        times = np.linspace(schedule.begin, schedule.end, LOOKS)
+        ways = np.array([schedule.way(float(t)) for t in times])
+        wound = route.stored(0.0) - float(ways.min())
+        when = f"by {times[int(ways.argmin())]:.4g} s"
+    wound = min(wound, route.says.length)
+    if wound > most * (1 + 1e-9):
+        drum = f"{route.route.path}.{route.winch.name}"
+        what = f"{drum}: {wound:.4g} m of {route.line.path} lie on it {when}, and its flanges take {most:.4g} m."
+        yield Fault(_start(route), what, "Give a wider drum, higher flanges or a larger radius.")
 
 
 def most_paid_out(schedule: Schedule) -> tuple[float, float]:
