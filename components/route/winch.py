@@ -27,7 +27,8 @@ class Winch(Station):
                    speed or a tension may be given. `on` takes `width` and the diameter of the line and grows the
                    radius by layers: R_j = radius + d/2 + (j - 1) d (nested: times sqrt(3)/2), with a change from
                    one to the next over `crossover`. `filled` is what is on the drum at the start beside the line
-                   of the model; it has no mass, so add its inertia to `moment`. The radius is that of the line's middle in the first layer when layers are off.
+                   of the model; it has no mass, so add its inertia to `moment`. The radius is that of the line's
+                   middle in the first layer when layers are off.
     """
 
     word = "Winch"
