@@ -34,6 +34,7 @@ from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import find_defect, find_midpoint_defect
+from fairlead.integrate.point.faded import error_of_faded
 from fairlead.integrate.point.meters import judge_meters
 from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
@@ -107,6 +108,8 @@ def judge_inside(m, h):
         run.error = max(run.error, weighted_norm(point, point.at_error_vector))
     if problem.n_accelerated > 0 and run.adaptive == 1:
         run.error = max(run.error, way_back(problem, point, linear, h))
+    if run.adaptive == 1 and run.error <= 1.0:
+        run.error = max(run.error, error_of_faded(m, h))
 
 
 @compiled

@@ -15,9 +15,12 @@ TABLEAU = Struct(
     reals={
         "K": "stages_n", "a": "stages_stages", "C": "stages_stages", "c": "stages", "d": "stages", "m": "stages",
         "e": "stages", "H": "three_stages",
+        # slopes of unknowns by themselves, one step ago
+        "slope_seen": "n",
     },
     indices={
-        "watched": "n",
+        # right at both ends of a step and wrong in between, perhaps; speeds whose law may fade in it
+        "watched": "n", "fades": "n",
     },
 )  # fmt: skip
 """A method of one step with its stages: a tableau, or what a method keeps there."""

@@ -12,16 +12,18 @@ from fairlead.integrate.linear.systems import DONE, factorise_step, solve, solve
 from fairlead.integrate.loop import method_of
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, jacobian_at, reals
 from fairlead.integrate.one_step import OneStep
+from fairlead.integrate.point.faded import remember_slopes
 
 CHUNK = 512
 """Unknowns combined at a time, so that sums over the stages stay in the nearest cache."""
 
 
 @compiled
-def linearise(problem, point, linear):
+def linearise(problem, point, linear, method):
     """J and f_t at the point, once for all steps tried from it."""
     matrices = linear.matrices
     if matrices.jacobian_fresh == 0:
+        remember_slopes(method, matrices)
         jacobian_at(problem.call_jacobian, (problem.context, point.t, point.at_y, matrices.at_jacobian, point.at_ft))
         problem.jacobians += 1
         matrices.jacobian_fresh = 1
@@ -46,7 +48,7 @@ def take_step(m, h):
     """Compute the stages K, the trial end `y_end` and the error estimate; DONE or why the matrix fails."""
     problem, point, linear, factors, method = m.problem, m.point, m.linear, m.linear.factors, m.method
     n = point.n
-    linearise(problem, point, linear)
+    linearise(problem, point, linear, method)
     unchecked = factors.factored_h != h
     status = prepare_matrix(linear, method, h)
     if status != DONE:
