@@ -103,6 +103,8 @@ def arrive(m, located):
         at_limit = as_shown(m, point.at_y if problem.n_moves > 0 else point.at_y_piece, True)
         write_row(problem, recorder, point.t, at_limit, BEFORE)
         remember(problem, point, m.events.loads)
+        if at_event:  # what is sampled at this instant is from before it
+            take_time_event(problem, run, point, events)
         begin_settling(problem, run, point, events)
         run.phase = SETTLE
     elif at_event:
