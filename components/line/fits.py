@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from fairlead.components.line.mesh import finest
+from fairlead.components.route.bond import SLOWEST_HOLD, TAKES_HOLD
 from fairlead.components.route.placing import TOUCHES, Placed, slits
 
 from fairlead.errors import Fault, Location
@@ -73,6 +74,12 @@ def _device(one: Placed, line: Any, laid: Any) -> Iterator[tuple[str, str]]:
         )
     if one.station.edge is not None and math.isfinite(extent) and extent < one.station.edge:
         yield f"it is {extent:.3g} m long, shorter than its edge of {one.station.edge:.3g} m", "Use a shorter edge."
+    if one.station.stores() and one.station.edge is not None and not TAKES_HOLD < one.station.edge <= SLOWEST_HOLD:
+        yield (
+            f"its edge is {one.station.edge:g} m, and a drum takes hold of line over more than {TAKES_HOLD:g} m, up to "
+            f"{SLOWEST_HOLD:g} m",
+            "Give another edge, or leave it out.",
+        )
     if one.station.stores() and one.station.layers == "on":
         yield from _drum(one, p)
 

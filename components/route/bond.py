@@ -2,6 +2,7 @@
 
 from fairlead.component import Component, Parameter, Translational, Zones, exp, guard, sqrt
 
+TAKES_HOLD, SLOWEST_HOLD = 0.02, 2.0  # m; lengths over which a drum takes hold of line lie between
 FADES = 24.0  # e-foldings over the edge: at its end the bond is 4e-11 of full strength, 0.04 N s/m
 
 
@@ -19,7 +20,7 @@ class Bond(Component, abstract=True):
 
     node = Translational("the node")
     place = Parameter("m", "Where the bond begins.", default=0.0)
-    edge = Parameter("m", "Length over which it takes hold.", default=0.1, above=0.02, most=2.0)
+    edge = Parameter("m", "Length over which it takes hold.", default=0.1, above=TAKES_HOLD, most=SLOWEST_HOLD)
     lock = Parameter("N*s/m", "Bond at full strength.", default=1e9, above=0)
     zones = Zones("stored", "edge", "free")
 

@@ -17,7 +17,9 @@ class Sea(Station):
 
         drag per length = 1/2 rho C_t pi d |u| u,   u = speed - v      (v: speed of the line, outboard positive)
 
-    At the outboard end of the line pulls `tail` and a drogue, 1/2 rho drogue |u| u (drogue: C_D A).
+    At the outboard end of the line pulls `tail` and a drogue, 1/2 rho drogue |u| u (drogue: C_D A), also where that end
+    has been hauled out of the water. The route is the frame in which the line moves: if `speed` changes, what the line
+    needs to be accelerated with the ship is not in its tension.
 
     `form: lumped` leaves the drag of all line in the water to the outboard end, for a line that is not modelled as far
     as that: `beyond` is the length in the water outboard of the modelled end at the start. With the modelled line that

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from fairlead.analysis.margins.ruck_cause import cause
+from fairlead.analysis.margins.ruck_cause import cause, recorded_time
 from fairlead.analysis.margins.ruck_places import ruck_places
 from fairlead.analysis.margins.ruck_words import figure, moment
 from fairlead.results import Result
@@ -22,9 +22,11 @@ def verdicts(result: Result) -> list[dict[str, Any]]:
     `cause` is what the bend at its place does there (`ruck_cause.py`), None where that cannot be told.
     `margin` is what it bears over the most it had; None where tensions were not recorded, infinity (null in run.json)
     where it was never compressed. Of a line that rucks, `most` has `t`, `element` and place of the greatest
-    compression, where tensions were recorded, and `places` are all at which elements ruck (`ruck_places.py`). Raises
-    DamagedResultsError.
+    compression, where tensions were recorded, and `places` are all at which elements ruck (`ruck_places.py`). None of
+    a run that ended before its first row. Raises DamagedResultsError.
     """
+    if not len(result.t):
+        return []
     found = routes(result.named(RUN_FILE), result.run)
     return [_verdict(result, record) for record in found if record["ruck_force"] is not None]
 
@@ -67,7 +69,7 @@ def _place(result: Result, record: dict[str, Any], element: int, t: float) -> di
     nodes = [f"{record['line']}.{record['outer']}[{k}].x" for k in (element, element + 1)]
     if not all(name in result for name in nodes):
         return {"along": along, "place": None, "station": ""}
-    place = sum(result.at(name, t) for name in nodes) / 2
+    place = sum(result.at(name, recorded_time(result, t)) for name in nodes) / 2
     ends = ((one, one["begin"], one["end"]) for one in record["stations"] if one["type"] != "Straight")
     inside = [one["name"] for one, begin, end in ends
               if (begin is None or begin <= place) and (end is None or place <= end)]  # fmt: skip

@@ -42,7 +42,8 @@ def cause(result: Result, record: dict[str, Any], found: Mapping[str, Any]) -> d
     names = [[f"{record['line']}.{layer}[{k}].tension" for layer in record["layers"]] for k in sides]
     if not all(name in result for each in names for name in each):
         return None
-    inboard, outboard = ([float(result.at(name, found["t"])) for name in each] for each in names)
+    t = recorded_time(result, found["t"])
+    inboard, outboard = ([float(result.at(name, t)) for name in each] for each in names)
     bends = [one for one in record["stations"] if _rubs(one) and not one["moves"]
              and here["begin"] <= one["begin"] < nodes[row][-1]]  # fmt: skip
     return {
@@ -51,6 +52,11 @@ def cause(result: Result, record: dict[str, Any], found: Mapping[str, Any]) -> d
         "critical": _critical(record, here), "devices": [called(one) for one in bends],
         "sum": sum(one["friction"][1] * _turn(one) for one in bends),
     }  # fmt: skip
+
+
+def recorded_time(result: Result, t: float) -> float:
+    """The time itself, or the end of what was recorded, if a run was ended after its last row and t is later."""
+    return min(max(t, float(result.t[0])), float(result.t[-1]))
 
 
 def _rubs(station: Mapping[str, Any]) -> bool:
