@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fairlead.analysis.margins.ruck import verdicts
+from fairlead.analysis.margins.ruck import sentence, verdicts
 
 SCENE = """
 components:
@@ -26,7 +26,7 @@ record: {every: 0.2 s, signals: ["line.hose[*].tension", "line.core[*].tension",
 def test_its_lowest_tension_may_lie_behind_the_last_row(scene, tmp_path, steps):
     result = scene(SCENE).run(out=tmp_path / "run", check=False, max_steps=steps)
     assert result.status == "budget"
-    (found,) = result.run["ruck"]
+    (found,) = verdicts(result)
     assert found["rucks"] is False
     assert found["compressed"] > 10
     assert found["place"] is not None
@@ -35,3 +35,10 @@ def test_its_lowest_tension_may_lie_behind_the_last_row(scene, tmp_path, steps):
 
 def test_a_run_without_a_row_has_none():
     assert verdicts(SimpleNamespace(t=np.empty(0))) == []
+
+
+def test_a_compression_that_its_damping_brings_beyond_the_limit_is_no_margin_below_one():
+    found = {"line": "l", "ruck_force": 138.0, "rucks": False, "compressed": 139.45, "margin": 138 / 139.45,
+             "t": 0.2, "element": 31}  # fmt: skip
+    assert sentence(found).endswith("with its damping, but without that by no more than 138 N")
+    assert "margin" not in sentence(found)

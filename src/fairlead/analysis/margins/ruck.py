@@ -87,6 +87,8 @@ def sentence(found: dict[str, Any]) -> str:
     if not found["compressed"]:
         return f"{line} does not ruck: it was never compressed"
     most = f"compressed by at most {figure(found['compressed'])} N, at t = {moment(found['t'])} s, {_where(found)}"
+    if found["margin"] < 1:
+        return f"{line} does not ruck: {most}, with its damping, but without that by no more than {limit} N"
     return f"{line} does not ruck: {_margin(found)}; {most}; an element rucks beyond {limit} N"
 
 
