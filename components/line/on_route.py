@@ -18,7 +18,7 @@ from fairlead.components.mechanics.mass import Mass
 from fairlead.components.mechanics.rigid_link import RigidLink
 from fairlead.components.rotation.rack import Rack
 from fairlead.components.route.bearing_load import Told
-from fairlead.components.route.drum import StoredNode, WoundNode
+from fairlead.components.route.drum import FastenedEnd, StoredNode, WoundNode
 from fairlead.components.route.far_line import FarNode
 from fairlead.components.route.placing import Placed
 from fairlead.components.route.route_line import RouteLine, Surface
@@ -236,7 +236,7 @@ class OnRoute:
             given = {"place": one.end, "lock": station.lock, "edge": station.edge or 0.1}
             name = self.of_layer("stored", body, i)
             if i == 0 and one in self.drums():
-                self.fasten(body, f"{self.path}.{one.name}.{made.surface}")
+                self.fasten(body, f"{self.path}.{one.name}.{made.surface}", one.end)
                 continue
             if station.layers == "off":
                 stored = self.to.child(name, StoredNode, **given)
@@ -271,11 +271,12 @@ class OnRoute:
         instance, _, port = f"{self.path}.{drum.name}.{self.route.machinery[drum.name].surface}".rpartition(".")
         return PortRef(instance, port) in self.to.prescribed
 
-    def fasten(self, body: str, rim: str) -> None:
+    def fasten(self, body: str, rim: str, place: float) -> None:
         """The inboard end of a line that lies on the drum is fastened to it: one body, which holds all tension."""
         link = self.to.child("fastening", RigidLink, length=self.line.values.start)
         self.to.join_to(f"{link}.a", rim)
         self.to.join(f"{link}.b", f"{body}.flange")
+        self.to.join(f"{self.to.child('on_drum', FastenedEnd, place=place)}.node", f"{body}.flange")
 
     def twist(self, i: int, body: str) -> None:
         """What holds the twist of a line on the drum; and its rim, where friction in turning acts by itself."""

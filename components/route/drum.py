@@ -2,7 +2,21 @@
 
 from fairlead.components.route.bond import Bond, strength
 
-from fairlead.component import Carries, Component, Input, Law, Output, Rotational, Table, Translational, shared, zone
+from fairlead.component import (
+    Carries,
+    Component,
+    Input,
+    Law,
+    Output,
+    Parameter,
+    Rotational,
+    Table,
+    Translational,
+    shared,
+    zone,
+)  # fmt: skip
+
+OFF = 1e-6  # m; an end that lies so far outboard of a drum has come off it
 
 
 class Drum(Component):
@@ -20,6 +34,20 @@ class Drum(Component):
         """Takes no torque itself."""
         radius = p.radius(shaft.angle)
         return Law(shaft=0, radius_now=radius, line_speed=radius * shaft.speed)
+
+
+class FastenedEnd(Component):
+    """How much line lies on the drum to which its inboard end is fastened: once none does, no law says what follows."""
+
+    node = Translational("the inboard end of the line")
+    place = Parameter("m", "Where the drum begins.", default=0.0)
+    lies = Output("m", "Line on the drum.")
+    used_up = Output("1", "Above 1 where no line lies there.", role="used_up", of="lies")
+
+    def law(p, node):
+        """It takes nothing."""
+        lies = p.place - node.x
+        return Law(node=0, lies=lies, used_up=-lies / OFF)
 
 
 class OnDrum(Bond, abstract=True):

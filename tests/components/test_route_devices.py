@@ -282,6 +282,34 @@ record: {{every: 10 ms}}
     assert changed == pytest.approx((40 - 36.33) / 0.7161, abs=0.05)
 
 
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+@pytest.mark.parametrize(
+    "pulled", ["drive: {type: SpeedSource, speed: 4 rad/s}", "drive: {type: TorqueSource, torque: 0 N*m}"]
+)
+def test_a_run_ends_where_the_inboard_end_comes_off_its_drum(scene, engine, pulled):
+    """It went on along the route, round the bends and into the sea, tied to a drum that was far behind."""
+    text = f"""
+components:
+  rope: {{{ROPE}, length: 12 m, element: 0.5 m, start: -2 m, tension: 100 N}}
+  route:
+    type: Route
+    stations:
+      - {{type: Winch, radius: 0.3 m, moment: 1 kg*m^2}}
+      - {{type: Straight, length: 30 m}}
+  {pulled}
+  pull: {{type: ForceSource, force: 100 N}}
+connections: [[rope.path, route.path], [drive.shaft, route.winch.shaft], [pull.flange, rope.outboard]]
+run: {{stop: 10 s}}
+record: {{every: 10 ms}}
+"""
+    result = scene(text, **{"run.engine": engine}).run(out=None, check=False)
+    assert result.status == "failed"
+    assert "rope is used up" in result.run["sentence"]
+    assert result["rope.node[0].x"][-1] == pytest.approx(0.0, abs=0.15)
+    if "Speed" in pulled:
+        assert result.t[-1] == pytest.approx(2 / 1.2, abs=0.011)
+
+
 @pytest.mark.parametrize(
     ("said", "first"), [("", 0.3 + 0.02 / 2), (", line_diameter: 30 mm", 0.3 + 0.03 / 2)], ids=["line", "drum"]
 )

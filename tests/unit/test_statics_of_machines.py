@@ -196,3 +196,35 @@ run: {{stop: 10 s}}
     assert len(remarks) == told
     if told:
         assert "lie on it by 10 s, and its flanges take 4.473 m" in remarks[0]
+
+
+def test_belts_that_are_open_all_the_time_drive_nothing(scene):
+    """The line passes between them: hauled by the winch, with the capstan of the bend behind them."""
+    text = f"""
+components:
+  rope: {ROPE % (14, -2)}
+  route:
+    type: Route
+    stations:
+      - {{type: Winch, radius: 0.3 m, moment: 1 kg*m^2}}
+      - {{type: Bend, start: 1 m, angle: 90 deg, radius: 1 m, friction: 0.3}}
+      - {{name: belts, type: Deployer, start: 4 m, length: 2 m, friction: 0.6}}
+  d: {{type: SpeedSource, speed: {{ramp: {{to: -1 rad/s, over: 1 s}}}}}}
+  rest: {{type: MotionSource, velocity: 0 m/s}}
+  load: {{type: ForceSource, force: 300 N}}
+connections:
+  - [rope.path, route.path]
+  - [d.shaft, route.winch.shaft]
+  - [rest.flange, route.belts.belt]
+  - [load.flange, rope.outboard]
+run: {{stop: 5 s}}
+"""
+    model = scene(text)
+    found = table(model)
+    (state,) = [one for one in found.moving if one.speed < 0]
+    (winch,) = [one for one in state.drives if one.name == "winch"]
+    assert -winch.force == pytest.approx(300 * math.exp(0.3 * math.pi / 2), rel=1e-9)
+    assert not state.remarks
+    assert not model.check()
+    against = against_statics(model.flat, model.run(out=None))
+    assert against["difference"] < 0.03

@@ -228,6 +228,8 @@ def _laid(flat: FlatModel, line: Line, route: Line) -> LaidRoute:
         moved = made is not None and made.surface and not one.station.stores()
         mover = machine(flat, _port(f"{path}.{made.surface}"), *ends) if moved else None
         clamps = _clamps(flat, path, made) if made is not None and made.clamp else ()
+        if clamps and not float(one.station.squeeze()) and all(map(_is_zero, clamps)):
+            mover, clamps = None, ()  # belts that are open all the time: the line passes between them
         curve = one.station.rubs() if line.line.rubs else None
         devices.append(Device(one.name, one.begin, one.end, one.station, curve, mover, clamps))
     aliases = flat.assembly.aliases
@@ -248,6 +250,11 @@ def _clamps(flat: FlatModel, path: str, made: Any) -> tuple[Wave, ...] | None:
     added = trace(flat, _port(f"{path}.{made.added}")) if made.added else None
     told = added.told() if added is not None else None
     return None if told is None or made.load is None else (made.load, told)
+
+
+def _is_zero(wave: Wave) -> bool:
+    """Whether a quantity in time is always zero."""
+    return not (wave.is_swinging or wave.polynomial.rows[:, 3:].any())
 
 
 def _port(path: str) -> PortRef:
