@@ -34,7 +34,7 @@ class PmDrive(Composite):
         same = ("constant", "resistance", "inductance", "most_voltage", "lag", "winding", "current_loop")
         children = {
             "limit": scene.make(CurrentLimit, constant=p.constant, most_current=p.most_current),
-            "motor": scene.make(PmMotor, **{name: getattr(p, name) for name in same}),
+            "motor": scene.make(PmMotor, most_current=p.most_current, **{name: getattr(p, name) for name in same}),
             "rotor": scene.make(Inertia, moment=p.inertia),
         }
         joins = [("limit.current", "motor.wanted"), ("motor.shaft", "rotor.shaft")]

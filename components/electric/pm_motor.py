@@ -16,6 +16,8 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 
+AS_ONE_LIKES = 1e9  # rad/s
+
 
 class PmTorque(Component, abstract=True):
     """Half-model: current asked for in, torque K i out."""
@@ -24,8 +26,14 @@ class PmTorque(Component, abstract=True):
     wanted = Input("A", "Current asked for.", signed=True)
     constant = Parameter("N*m/A", "K, torque per current (q axis) and voltage per speed.", above=0)
     resistance = Parameter("ohm", "R of the winding.", default=0.0, least=0)
+    most_current = Parameter("A", "What its drive limits the current to; for what `check` says of its speed.",
+                             default=None, above=0, physics=False)  # fmt: skip
     current, torque = Output("A", "Current."), Output("N*m", "Torque on the shaft.")
     integral = Output("A", "Integral of the current controller, which is the current as long as nothing limits it.")
+
+    def fastest(p):
+        """As fast as one likes without a voltage that ends; and no torque beyond that of the largest current."""
+        return AS_ONE_LIKES, stall(p)
 
 
 class IdealPm(PmTorque):
@@ -89,9 +97,14 @@ class PmMotor(PmTorque):
         return p.most_voltage - direction * voltage_wanted(p, shaft, wanted, flowing, summed)
 
     def fastest(p):
-        """All the voltage of the supply, without current and without speed."""
-        stall = p.constant * p.most_voltage / p.resistance if p.resistance else math.inf
-        return p.most_voltage / p.constant, stall
+        """All the voltage of the supply, without current and without speed, or the current it is limited to."""
+        at_rest = p.constant * p.most_voltage / p.resistance if p.resistance else math.inf
+        return p.most_voltage / p.constant, min(at_rest, stall(p))
+
+
+def stall(p):
+    """Torque at the largest current [N m]."""
+    return math.inf if p.most_current is None else p.constant * p.most_current
 
 
 def pm_law(p, shaft, current, **own):

@@ -222,3 +222,40 @@ def test_a_line_that_never_comes_off_its_drum(scene):
     found = remark(scene(text.replace("SPEED", "0.6 m/s")))
     assert "rope lies on route.winch with all its length, from -30 to -6 m: 6 m must be paid out before" in found.what
     assert found.what.endswith("comes off, and 5.4 m are.")
+
+
+WEAK = """
+components:
+  line: {type: Cable, length: 20 m, element: 0.5 m, start: -12 m, tension: 500 N, mass: 1 kg/m, stiffness: 500 kN}
+  route:
+    type: Route
+    stations:
+      - {name: winch, type: Winch, radius: 0.5 m, moment: 20 kg*m^2}
+      - {name: bend, type: Bend, start: 2 m, angle: 45 deg, radius: 2 m, friction: 0.1}
+  load: {type: ForceSource, force: 500 N}
+  want: {type: SignalSource, value: {table: {t: [0, 1, 10], y: [0, -0.3, -0.3]}}}
+  speed: {type: SignalGain, gain: 0.5}
+  control: {type: PiController, gain: 300, integral_time: 0.3 s, low: -300, high: 300}
+  drive: {type: PmDrive, constant: 1.2 N*m/A, most_current: AMPS A, inertia: 0.025 kg*m^2, resistance: 0.1 ohmWINDING}
+  gear: {type: Gearbox, ratio: "{1/30}", efficiency: 0.95}
+connections:
+  - [line.path, route.path]
+  - [want.signal, control.reference]
+  - [route.winch.speed, speed.value]
+  - [speed.signal, control.measured]
+  - [control.command, drive.command]
+  - [drive.shaft, gear.a]
+  - [gear.b, route.winch.shaft]
+  - [load.flange, line.outboard]
+run: {stop: 3 s}
+"""
+
+
+@pytest.mark.parametrize("winding", ["", ", effects: {winding: on}"])
+@pytest.mark.parametrize(("amps", "told"), [(2, 1), (20, 0)])
+def test_a_servo_whose_largest_current_does_not_hold_the_load(scene, winding, amps, told):
+    """540.9 N at 0.5 m behind a gear of 30 want 9 N m, 7.5 A: 2 A hold 2.4 N m."""
+    remarks = [str(one) for one in scene(WEAK.replace("AMPS", str(amps)).replace("WINDING", winding)).check()]
+    assert len([one for one in remarks if "drive.motor reaches" in one]) == told
+    if told:
+        assert "0 with the 540.9 N of route.winch" in remarks[0]

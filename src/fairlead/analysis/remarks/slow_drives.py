@@ -16,6 +16,7 @@ from fairlead.component.values import Wave
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel
 
+ENDLESS = 1e6  # times what is asked for: a speed that nothing limits
 WAY_OUT = "Ask for less, or give a larger valve, more pressure or voltage, another motor or another gear."
 
 
@@ -68,7 +69,10 @@ def _reference(
 ) -> Iterator[Fault]:  # fmt: skip
     """A reference against the speed that the sensor tells when its motor gives all it can."""
     asked, reach = most(flat, wave), abs(measured.factor) * motor.fastest()
-    what = f"{controller.path}: its reference goes to {asked:.4g}, and {motor.path} reaches {reach:.4g} without load"
+    goes, free = f"{controller.path}: its reference goes to {asked:.4g}, and {motor.path} reaches", ""
+    if reach < ENDLESS * asked:
+        free = f" {reach:.4g} without load,"
+    what = f"{goes}{free}".rstrip(",")
     if asked > reach:
         yield Fault(controller.where, f"{what}.", WAY_OUT)
         return
@@ -77,7 +81,8 @@ def _reference(
         if same is not None and force * speed > 0:
             loaded = reach * same.fastest(force) / same.fastest()
             if asked > loaded:
-                yield Fault(controller.where, f"{what}, {loaded:.4g} with the {abs(force):.4g} N of {name}.", WAY_OUT)
+                what = f"{goes}{free} {loaded:.4g} with the {abs(force):.4g} N of {name}."
+                yield Fault(controller.where, what, WAY_OUT)
                 return
 
 
