@@ -22,7 +22,7 @@ from fairlead.describe.specimen import families_of
 BUNDLED = "fairlead.components."
 INNARDS = frozenset((
     "ActiveForce", "BearingLoad", "BeltSpans", "CavitatingVolume", "ChainStrands", "Chamber", "Clamp",
-    "ClampLoad", "Core", "CurrentLimit", "Dancer", "Drum", "ElementaryFunction", "ErrorSeen", "FarNode",
+    "ClampLoad", "Core", "CurrentLimit", "Dancer", "Drum", "ElementaryFunction", "ErrorSeen", "FarNode", "FastenedEnd",
     "Flank", "FlankLoad", "Frictionless", "Growing", "Hose", "Jaws", "LaidOn", "LateralLoad", "LeverArm", "LineWeight",
     "LoadLoss", "LoopedCore", "LoopedHose", "LumpedEnd", "Meter", "MotorFriction", "OilColumn", "PilotedRelief",
     "PlanarContact", "PressedLoad", "Pressing", "Registration", "RelaxingHose", "ReturnSpring", "RigidCore",

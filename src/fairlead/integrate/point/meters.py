@@ -18,9 +18,9 @@ is an end of the piece, since there the slope of the dense output is rough. Else
 
 W is of the start of the step. A bond that takes hold of a node grows by several times within a step, and a move by W
 then goes so many times too far, each further off than the one before. So each unknown goes by the secant of its own
-last two moves: exact after one of them where a law is linear in its speed, whatever its strength has become. A bond
-that lets go of a node falls by orders: each move is at most FURTHEST times as far as W says, or as the one before, and
-tells the slope to the next. One whose residual a move does not change follows no law within the step, and stays.
+last two moves: exact after one of them where a law is linear in its speed, whatever its strength has become. One whose
+residual a move hardly changes follows no law within the step: it stays where it is, since it would be asked for the
+same move for ever.
 """
 
 from __future__ import annotations
@@ -37,9 +37,8 @@ accuracies after however many steps that all err the same way. The method finds 
 is stiff; at one, such runs would pay for nothing."""
 LEAST_PASSED = 0.1
 """What has passed, in the unit of the quadrature, below which the error is no longer measured by it."""
-TURNS = 6
-"""Most moves at a node. After the second the secants have met what is linear in its speed and a tenth as stiff as at
-the start of the step, after the sixth what is 1e-5 as stiff."""
+TURNS = 4
+"""Most moves at a node; after the second the secants have met what is linear in its speed."""
 NODE_DISTANCE = 0.5 * 0.6**0.5
 """Distance of the outer nodes from the middle of the piece, in pieces."""
 
@@ -129,12 +128,12 @@ def rates_settled(point, matrices, h, share):
 def secant(asked, left, moved):
     """Times the move by W to go: it asked for `asked`, `moved` was made, and it asks for `left` now.
 
-    None where that did not make the residual smaller; at most FURTHEST times as far as it was gone for that.
+    None where that did not make the residual smaller, or by less than 1/FURTHEST of what W foretold.
     """
     done = asked - left
-    if moved * done <= 0.0:
+    if moved * done <= 0.0 or abs(moved) > FURTHEST * abs(done):
         return 0.0
-    return min(moved / done, FURTHEST * abs(moved) / abs(left)) if left != 0.0 else 0.0
+    return moved / done
 
 
 @compiled
