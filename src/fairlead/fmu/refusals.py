@@ -44,8 +44,8 @@ def refuse_parts(own: Instance) -> None:
     if plain:
         told.append(
             f"{listing(plain)}: written in plain Python, which an FMU does not have.\n"
-            "    Take bundled controllers and signals; or leave it out, name its signals as inputs and outputs, and "
-            "let the master call it (docs/coupling.md)."
+            "    Take other bundled controllers and signals (of a SampledSensor its effect sampling: off); or leave it "
+            "out, name its signals as inputs and outputs, and let the master call it (docs/coupling.md)."
         )
     if foreign:
         told.append(
