@@ -92,6 +92,20 @@ def test_a_function_sees_the_result() -> None:
     assert row.figures["own"] == 1.0
 
 
+def test_of_a_part_made_of_others_the_one_with_zones_is_meant(scene) -> None:
+    """It asked "Did you mean t?", which is a source of torque."""
+    model = scene("""
+        components:
+          j: {type: Inertia, moment: 0.5 kg*m^2, speed: 20 rad/s}
+          b: {type: Brake, radius: 0.1 m, normal_force: 50 N, curve: 0.4}
+          t: {type: TorqueSource, torque: 1 N*m}
+        connections: [[j.shaft, b.shaft, t.shaft]]
+        run: {stop: 20 s}
+    """)
+    with pytest.raises(ModelError, match=r"no component of the name b has zones\. Did you mean b\.contact\?"):
+        Cases(model, {"stops": "time(b, held)"})
+
+
 def test_all_mistakes_in_figures_come_at_once() -> None:
     texts = ["peek(block.x)", "peak(blok.x)", "end(*.x)", "time(pad, stuk)", "mean(block.x, 3 s, 2 s)", "block.x",
              "at(block.x, 50 s)", "at(block.x, 2 N)", "margin(ruck)", "energy(heat)"]  # fmt: skip

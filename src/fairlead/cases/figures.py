@@ -193,9 +193,10 @@ class _Known:
         names = dict.fromkeys(self.model.system.machine_names)
         found = picked(names, pattern)
         if not found:
+            inside = [name for name in names if name.startswith(f"{pattern}.")]
+            near = f"Did you mean {inside[0]}?" if inside else did_you_mean(pattern, names)
             raise _Wrong(
-                f"no component of the name {shown(pattern)} has zones. {did_you_mean(pattern, names)}".rstrip(),
-                f"There are {listing(names)}.",
+                f"no component of the name {shown(pattern)} has zones. {near}".rstrip(), f"There are {listing(names)}."
             )
         return set(found)
 
