@@ -16,7 +16,7 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 
-OFF = 1e-6  # m; an end that lies so far outboard of a drum has come off it
+OFF = 1e-3  # m; an end that lies so far outboard of a drum has come off it: who pays out just all of it keeps it
 
 
 class Drum(Component):
@@ -47,7 +47,7 @@ class FastenedEnd(Component):
     def law(p, node):
         """It takes nothing."""
         lies = p.place - node.x
-        return Law(node=0, lies=lies, used_up=-lies / OFF)
+        return Law(node=0, lies=lies, used_up=-lies / OFF - 1)
 
 
 class OnDrum(Bond, abstract=True):

@@ -310,6 +310,23 @@ record: {{every: 10 ms}}
         assert result.t[-1] == pytest.approx(2 / 1.2, abs=0.011)
 
 
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_a_line_that_is_paid_out_to_its_very_end_stays(scene, engine):
+    """2 m at 1 m/s, for one second and two half ones."""
+    text = f"""
+components:
+  rope: {{{ROPE}, length: 12 m, element: 0.5 m, start: -2 m, tension: 100 N}}
+  route: {{type: Route, stations: [{{type: Winch, radius: 0.3 m, moment: 1 kg*m^2}}, {{type: Straight, length: 30 m}}]}}
+  drive: {{type: MotionSource, velocity: {{table: {{t: [0, 1, 2, 3], y: [0, 1, 1, 0]}}}}}}
+  pull: {{type: ForceSource, force: 100 N}}
+connections: [[rope.path, route.path], [drive.flange, route.winch.rim], [pull.flange, rope.outboard]]
+run: {{stop: 4 s}}
+"""
+    result = scene(text, **{"run.engine": engine}).run(out=None)
+    assert result.status == "finished"
+    assert result["rope.node[0].x"][-1] == pytest.approx(0.0, abs=1e-4)
+
+
 @pytest.mark.parametrize(
     ("said", "first"), [("", 0.3 + 0.02 / 2), (", line_diameter: 30 mm", 0.3 + 0.03 / 2)], ids=["line", "drum"]
 )
