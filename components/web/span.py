@@ -18,7 +18,7 @@ from fairlead.component import (
 
 TEARS = 1e-3  # s; in which the energy of a torn web is gone: it only has a place in the ledger
 CUT = 0.5  # of a signal that is 0 or 1
-LEAST = 0.01  # of the free length at the start: with less left the rollers meet
+LEAST = 1e-3  # of `length`: with less left a rope is a wall, stiffness/length, and a step may jump through it
 
 
 def forward(p, v):
@@ -230,14 +230,14 @@ class WebAccumulator(Web):
     Source: P. R. Pagilla and others, IEEE Trans. Industry Applications 37 (2001), 934.
 
     Limits: rollers inside have no inertia and no friction, so all strands have one tension. A run ends where less than
-    a hundredth of `length` is left. With one strand it is one side of a loop round a dancer.
+    a thousandth of `length` is left. With one strand it is one side of a loop round a dancer.
     """
 
     asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     carriage = Translational("what lengthens the way of the web as x grows")
     strands = Parameter("1", "How often the web runs to the carriage or back.", default=2.0, above=0, usual=(1, 200))
     free = Output("m", "Free length, of all strands together.")
-    used_up = Output("1", "Above 1 where less than a hundredth of `length` is left.", role="used_up", of="free")
+    used_up = Output("1", "Above 1 where less than a thousandth of `length` is left.", role="used_up", of="free")
 
     @shared
     def damped(p, a, b, carriage, before, after, pull):
@@ -274,13 +274,13 @@ class RopeTail(Web):
     For small strain  length d(tension)/dt = stiffness (b.v - a.v) + a.v tension_before.  What is paid out at `a` lets
     the body go; the force on it is `tension`, back towards the roller. `after` is not read: nothing comes from it.
 
-    Source: docs/physics.md, 4.9. Limits: as of a WebSpan; a run ends where less than a hundredth of `length` is left.
+    Source: docs/physics.md, 4.9. Limits: as of a WebSpan; a run ends where less than a thousandth of `length` is left.
     """
 
     asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}
     b = Translational("the body at its end")
     free = Output("m", "Free length.")
-    used_up = Output("1", "Above 1 where less than a hundredth of `length` is left.", role="used_up", of="free")
+    used_up = Output("1", "Above 1 where less than a thousandth of `length` is left.", role="used_up", of="free")
 
     @shared
     def damped(p, a, b, before, pull):
@@ -307,7 +307,7 @@ class MovingTail(Web):
     b = Translational("the body at its end")
     place = Translational("the ship")
     free = Output("m", "Free length.")
-    used_up = Output("1", "Above 1 where less than a hundredth of `length` is left.", role="used_up", of="free")
+    used_up = Output("1", "Above 1 where less than a thousandth of `length` is left.", role="used_up", of="free")
 
     @shared
     def damped(p, a, b, place, before, pull):

@@ -446,7 +446,7 @@ TAKEN_IN = """
 @pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
 @pytest.mark.parametrize(
     ("text", "name", "when"),
-    [(HAULED_IN, "tail", 0.05 + 2.97), (TAKEN_IN, "acc", 1.25 + 3.96)],  # 99 % of 3 m and 4 m are gone, at 1 m/s
+    [(HAULED_IN, "tail", 0.05 + 2.997), (TAKEN_IN, "acc", 1.25 + 3.996)],  # 0.1 % of 3 m and 4 m are left, at 1 m/s
     ids=["tail", "accumulator"],
 )
 def test_a_run_ends_where_no_free_length_is_left(scene, engine, text, name, when):

@@ -27,7 +27,7 @@ SCENE = """
 
 
 def end_speed(stop=3.0):
-    """It follows 3 sin until J w' + d w = 0, then decays until it is caught by the next rise."""
+    """It follows 3 sin until J w' + d w = 0, then decays until the next rise takes it along."""
     released = (math.pi - math.atan(MOMENT * RATE / DAMPING)) / RATE
     t, speed = released, TOP * math.sin(RATE * released)
 
@@ -36,8 +36,8 @@ def end_speed(stop=3.0):
 
     while True:
         rise = math.floor(t) + 1.0
-        caught = brentq(lambda at: free(at) - TOP * math.sin(RATE * at), rise, rise + 0.25) if rise < stop else stop
-        if caught >= stop:
+        taken = brentq(lambda at: free(at) - TOP * math.sin(RATE * at), rise, rise + 0.25) if rise < stop else stop
+        if taken >= stop:
             return free(stop)
         t, speed = rise + released, TOP * math.sin(RATE * released)
 

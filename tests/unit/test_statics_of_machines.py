@@ -31,6 +31,28 @@ run: {{stop: 100 s, accuracy: 1e-4}}
 """
 
 
+@pytest.mark.parametrize(
+    "speed",
+    [
+        "{table: {t: [0, 10, 20, 100], y: [0, 1, 1.3, 1.3], kind: cubic}}",
+        "{sine: {amplitude: 1 rad/s, frequency: 0.01 Hz}}",
+        "{step: {to: 1 rad/s, at: 1 s}}",
+        "1.3 rad/s",
+        "{table: {t: [0, 10, 20, 100], y: [0, 1, 1.3, 1.3]}}",
+    ],
+)
+def test_layers_turn_any_speed_into_that_of_the_line(scene, speed):
+    """The way is the length of what came off: by the angle that quad gives, whatever form the speed has."""
+    from scipy.integrate import quad
+
+    model = scene(LAYERED.replace("{ramp: {to: 1.3 rad/s, over: 1 s}}", speed))
+    found = table(model)
+    drum = model.flat.assembly.instances["d"].values.speed
+    corners = [t for t in drum.borders if 0 < t < 40]
+    angle = quad(drum, 0, 40, points=corners or None, limit=200)[0]
+    assert found.schedule.way(40.0) == pytest.approx(paid_out(angle)[0], rel=2e-3)
+
+
 def paid_out(angle):
     """32 m lie in layers of three wraps; each lies sqrt(3)/2 of 20 mm above the one below. Steps, without crossover."""
     rise, left = 0.02 * math.sqrt(3) / 2, 32.0

@@ -13,11 +13,14 @@ from fairlead.component.wave import times
 def line_speed(drum: Wave, radius: PiecewisePolynomial, begin: float, end: float) -> Wave:
     """Speed of the line [m/s] from that of a drum [rad/s], whose radius [m] is known over the angle paid out [rad].
 
-    The radius is taken over time in straight lines, between its corners, those of the speed, and 2000 looks.
+    The radius is taken over time in straight lines, between its corners, those of the speed, and 2000 looks. So is a
+    speed of a degree above two: times the radius its way could not be written in pieces.
     """
-    angle = drum.integral(begin)
     corners = [t for t in drum.borders if begin < t < end]
     looks = np.union1d(np.linspace(begin, end, LOOKS), corners)
+    if drum.polynomial.rows[:, 6:].any():
+        drum = Wave(linear_table(looks.tolist(), [drum(float(t)) for t in looks]))
+    angle = drum.integral(begin)
     turned = np.array([angle(float(t)) for t in looks])
     at = np.union1d(looks, [t for border in radius.rows[1:, 0] for t in _crossings(looks, turned, float(border))])
     wound = np.array([radius(angle(float(t))) for t in at])
