@@ -33,5 +33,8 @@ no grid point, and a row inside one; a grid point inside one."""
 PARABOLA, QUARTIC = 1, 3
 """Rows inside a step, evenly spaced, that its dense output goes through: of `stepping`, and of the other engines."""
 
+NEVER = 1e308
+"""A time that does not come; minus that, one that has never been."""
+
 MIDDLE = 0.5
 """The theta of the midpoint rule: the one whose error is taken away (third_order.py)."""

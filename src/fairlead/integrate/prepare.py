@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 import fairlead.integrate.linear.ordering as ordering
-from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_PERTURBED, QUARTIC
+from fairlead.integrate.codes import KNOWN_ZONES, LEVELS, MOST_PERTURBED, NEVER, QUARTIC
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.linear.condensing import columns_of, lay_out
 from fairlead.integrate.memory.arena import BUFFERS, Memory
@@ -25,7 +25,6 @@ EVENTS = 4096
 """Zone changes a block may hold, if four passes of a settlement are no more."""
 LEAST_PASSES, PATTERN_NUMBERS = 100, 1 << 22
 """Passes that a settling may take in any case, and how many zones the patterns that it remembers may have together."""
-NEVER = 1e308
 NEVER_LOOK = np.iinfo(np.int64).max
 """The step at which to look for a part of the problem, where there is none."""
 REACTIONS = {"warn": 0, "hold": 1, "stop": 2}

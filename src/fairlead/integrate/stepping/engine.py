@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fairlead.integrate.codes import MIDDLE, PARABOLA
+from fairlead.integrate.codes import MIDDLE, NEVER, PARABOLA
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.problem import Instance, Run
 
@@ -18,7 +18,7 @@ def stepping_numbers(run: Run, problem: Instance) -> Mapping[str, float]:
         "least_theta": run.theta, "fixed_step": run.fixed_step or 0.0,
         "error_exponent": 1.0 / 3.0 if run.theta == MIDDLE else 1.0 / 2.0,
         "linear": int(problem.linear), "most_inside": PARABOLA,
-        "samples": int(problem.samples),
+        "samples": int(problem.samples), "t_kink": -NEVER,
         "has_limits": int(np.any(problem.limit_guard)),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
         "locates": int(locates), "damps": int(not locates and np.any(problem.falls)),
