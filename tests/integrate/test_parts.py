@@ -6,7 +6,8 @@ from fairlead.integrate.parts import CARRIED
 
 OF_THE_PROBLEM = {
     *(name for name in INTEGERS if name.startswith("n_")), "n", "stages", "dense", "linear",
-    "most_perturbed", "most_inside", "has_limits", "weighs_guards", "rebounds", "takes_impulses", "rigid_circles",
+    "most_perturbed", "most_inside", "has_limits", "has_circles", "weighs_guards", "rebounds", "takes_impulses",
+    "rigid_circles",
     "falling", "dissipated_at", "supplied_at", "samples", "first_sample", "mean_at", "max_passes",
     "gamma", "error_exponent",
 }  # fmt: skip

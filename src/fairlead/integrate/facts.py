@@ -140,6 +140,13 @@ class Facts(Protocol):
         """[n]: the circles of contacts that share what they hold have numbers from 1; that of the row, 0 for none."""
 
     @property
+    def grows_with_slip(self) -> Integers:
+        """[n]: for a row of a circle, 1 where its force would grow with its slip, were it a spring, -1 where fall.
+
+        0 for other rows.
+        """
+
+    @property
     def falls(self) -> Integers:
         """[nz]: 1 for a contact whose friction falls with a jump as it lets go: the order may matter (release.py)."""
 
@@ -293,6 +300,11 @@ class Plain:
     @property
     def circle(self) -> Integers:
         """None lies in one."""
+        return np.zeros(len(self.initial), dtype=np.int64)
+
+    @property
+    def grows_with_slip(self) -> Integers:
+        """None lies in a circle."""
         return np.zeros(len(self.initial), dtype=np.int64)
 
     @property

@@ -91,6 +91,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),
         "holder": np.asarray(problem.holder, np.int64), "circle": np.asarray(problem.circle, np.int64),
+        "grows_with_slip": np.asarray(problem.grows_with_slip, np.int64),
         "is_speed": moved_at_once(problem), "struck": moved_at_once(problem) * (1 - integrals(problem)),
         "integral": integrals(problem),
         "differential": np.asarray(problem.differential, np.int64),
@@ -111,6 +112,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
     }  # fmt: skip
     numbers["n_integrals"] = int(given["integral"].sum())
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
+    numbers["has_circles"] = int((given["circle"] > 0).any())
     numbers["rigid_circles"] = int(((given["takes_impulse"] >= RIGID) & (given["circle"] > 0)).any())
     if contacts:
         given |= held_entries(problem) | held_bodies(problem) | neighbours(problem) | known_rows(problem)

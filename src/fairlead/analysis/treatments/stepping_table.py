@@ -23,6 +23,7 @@ from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
 from fairlead.system.active.timed_limits import switched_limits, timed_limits
 from fairlead.system.compiled.system import System
+from fairlead.system.numbering.contact_cycles import moved_apart
 
 Way = Literal["inside", "landed", "refused"]
 INSIDE: Way = "inside"
@@ -87,6 +88,15 @@ def _switched(system: System, settings: RunSettings) -> Iterable[str]:
     return switched_limits(system)
 
 
+def _apart(system: System, settings: RunSettings) -> Iterable[str]:
+    """Contacts whose friction falls, in a ring that holds bodies to motions that are given and are not the same.
+
+    With friction that does not fall there is one solution, which the active set of a step finds.
+    """
+    ring = moved_apart(system.numbering.circles, system.numbering.share)
+    return sorted(set(ring).intersection(_falling(system, settings))) if ring else ()
+
+
 def _any(system: System, settings: RunSettings) -> Iterable[str]:
     """Asks nothing: the class of what is in no other."""
     return ()
@@ -117,6 +127,8 @@ TABLE: tuple[Class, ...] = (
           "the force limit of {} jumps with a signal that switches, at an instant inside a step", _switched),
     Class("contacts that creep or bend at rest and have zones (binding)", LANDED,
           "the laws of {} turn within a slip of nearly nothing", _bending),
+    Class("friction that falls as a contact lets go, of contacts that hold a body to motions that are given and move "
+          "apart", LANDED, "which of {} lets go is decided where what they hold to moves apart", _apart),
     Class("limits of friction given in time that turn less often", INSIDE,
           "the force limit of {} varies in time, and stepping reads it in the middle of its steps", _timed,
           auto="it locates every switch, and a force limit varies in time"),

@@ -26,6 +26,7 @@ from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.no_answer import find_answer
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
+from fairlead.integrate.events.torn_loose import tear_first
 from fairlead.integrate.events.violators import fire_violators, look_ahead, looked_ahead
 from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
@@ -141,11 +142,15 @@ def change_zones(m):
 
 @compiled
 def settle_nearby(m, status):
-    """For SINGULAR: RELEASED if zones are in force instead that leave nothing open (left_open.py), else as it was.
+    """RELEASED if other zones are to be tried, else as it was.
 
-    NO_ROOM if the buffer of events is to be emptied first; called again it comes to the same.
+    For SINGULAR those that leave nothing open (left_open.py), which are in force then; for DONE those without the held
+    contacts that contradict others (torn_loose.py), which are in `fired`. NO_ROOM if the buffer of events is to be
+    emptied first; called again it comes to the same.
     """
     settling = m.events.settling
+    if status == DONE and tear_first(m):
+        return RELEASED
     if status != SINGULAR:
         return status
     if not there_is_room(m.problem, m.recorder):

@@ -13,6 +13,8 @@ PROBLEM = Struct(
     integers=(
         # sizes; n_zones is how many machines there are, each with one zone in force (`zones`)
         "n", "n_algebraic", "n_guards", "n_zones", "n_outputs",
+        # whether contacts share what they hold
+        "has_circles",
         # whether guards have inertias
         "weighs_guards",
         # impacts: whether any row takes impulses, and any such is in a circle; unknowns of the energy ledger (-1: none)
@@ -62,8 +64,10 @@ PROBLEM = Struct(
         # the position of each speed (-1: none)
         "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
         "limit_guard": "n_guards", "bounded_row": "n_guards", "blow_guard": "n_guards", "latch_guard": "n_guards",
-        # by row who decides whether it holds, and the number of the circle in which forces are shared (0: none)
-        "holder": "n", "circle": "n", "falls": "n_zones", "is_speed": "n", "struck": "n", "integral": "n",
+        # by row who decides whether it holds, the number of the circle in which forces are shared (0: none), and with
+        # which sign a force there would grow with the slip
+        "holder": "n", "circle": "n", "grows_with_slip": "n",
+        "falls": "n_zones", "is_speed": "n", "struck": "n", "integral": "n",
         "zones": "n_zones",
         "guard_machine": "n_guards",
     },

@@ -145,6 +145,14 @@ class System:
             made[row] = of_bodies[body]
         return made
 
+    @property
+    def grows_with_slip(self) -> Integers:
+        """By row: 1 or -1 for a contact of a circle, by the sign of the force that a spring in its place would have."""
+        made = np.zeros(self.numbering.n, dtype=np.int64)
+        for pair in self.numbering.circles:
+            made[self.numbering.own[pair.path, pair.unknown]] = 1 if pair.sense > 0 else -1
+        return made
+
     def zone_names(self, machine: int) -> Sequence[str]:
         """Names of the zones of one machine."""
         return self.machine_zones[machine]

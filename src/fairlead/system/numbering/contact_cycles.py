@@ -63,6 +63,19 @@ def numbers(circles: Sequence[HeldPair], bodies: Collection[int]) -> tuple[list[
     return [of_bodies[joined[0]] if joined else next(alone) for joined in through], of_bodies
 
 
+def moved_apart(circles: Sequence[HeldPair], bodies: Collection[int]) -> list[str]:
+    """Contacts of circles that join motions that are given and not the same, by path: these may contradict each other.
+
+    Bodies as in `numbers`. All that stands is one motion.
+    """
+    of_pairs, _ = numbers(circles, bodies)
+    given: dict[int, set[int]] = {}
+    for pair, number in zip(circles, of_pairs, strict=True):
+        given.setdefault(number, set()).update(index for index, _ in pair.ends if index not in bodies)
+    apart = (pair.path for pair, number in zip(circles, of_pairs, strict=True) if len(given[number]) > 1)
+    return list(dict.fromkeys(apart))
+
+
 def _standing(flat: FlatModel, structures: Mapping[str, Structure]) -> frozenset[int]:
     """Groups whose motion is given, by a law whose speed is nothing else than zero: fixed points."""
     found = set()

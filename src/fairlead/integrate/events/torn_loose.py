@@ -1,0 +1,134 @@
+"""Held contacts that contradict each other: the first to come to its limit lets go.
+
+A block is held by the ground and rubs on a belt that turns round. As the belt stands still both contacts are without
+slip, and then belt and ground move apart. Contacts of a circle share what contradicts them by the least sum of squares,
+as they share forces: the block moves at a mean of the motions, and every contact slips. If all were to let go of it,
+the belt might take it along, though the ground could have held it.
+
+A rigid contact is the limit of a stiff one. As equal springs the contacts would be stretched by just these slips v,
+and their forces would grow with them, F = F_0 + v s, in a time as short as one likes. The guard g of the limit of a
+force is a straight line on that way, and the first limit to be reached is that of the least
+
+    s = -g / (dg/ds)                of guards that rise
+
+It lets go, and those that tie with it; the others are asked again. With which forces F_0 one begins does not matter, as
+long as they balance: they differ by what the contacts of a ring can be braced against each other, which is how they
+grow. What has no limit never is the first. Rigid rows that contradict each other are the matter of given_apart.py.
+
+So after every pass of a settlement, before forces are judged, slips are looked at a little later.
+"""
+
+from __future__ import annotations
+
+from fairlead.integrate.events.fast_way import TIE
+from fairlead.integrate.events.guards import evaluate_guards
+from fairlead.integrate.events.limits import AT_LIMIT
+from fairlead.integrate.events.violators import RISE, distance_to_look, event_is_due, move_ahead
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, slip_at
+
+ROUNDING = 1e-6
+"""Share of the largest slip in a circle below which another is rounding."""
+DYING_OUT = 2e3
+"""Share of itself, by the second, that a slip left by rounding loses in a row that holds, twice over."""
+NEVER = 1e300
+"""How far what has no limit is from it."""
+
+
+@compiled
+def tear_first(m):
+    """True if held contacts of circles contradict each other; the first of each circle to let go is in `fired` then."""
+    problem, guards = m.problem, m.events.guards
+    if problem.call_drift == 0 or problem.has_circles == 0 or event_is_due(m.run, m.point):
+        return False
+    least = find_slips(m)
+    guards.n_fired, evaluated = 0, False
+    circle, slip = indices(problem.at_circle, problem.n), reals(m.point.at_v, problem.n)
+    largest = reals(m.point.at_b, problem.n)
+    for k in range(problem.n):
+        largest[k] = 0.0
+    for k in range(problem.n):
+        if circle[k] > 0:
+            largest[circle[k] - 1] = max(largest[circle[k] - 1], abs(slip[k]))
+    for c in range(problem.n):
+        if largest[c] > least and contradicts(m, c + 1, largest[c]):
+            if not evaluated:
+                evaluate_guards(problem, m.run, guards, m.point.t, m.point.at_y, guards.at_g)
+                evaluated = True
+            fire_first(m, c + 1, largest[c])
+    return guards.n_fired > 0
+
+
+@compiled
+def find_slips(m):
+    """Slips of held rows a little later, into v, zero where they only die out; what rounding of them comes to.
+
+    A slip that is at zero to rounding counts as none: it may be on either side. A larger one has yet to come to zero,
+    soon, in the zone that it is in.
+    """
+    problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
+    if settling.look == 0.0:
+        settling.look = max(distance_to_look(run, point), settling.least_look)
+    move_ahead(point, settling.look, settling.look)
+    slip_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_x))
+    slip_at(problem.call_drift, (problem.context, point.t + settling.look, point.at_y_probe, point.at_v))
+    now, slip = reals(point.at_x, problem.n), reals(point.at_v, problem.n)
+    holding, limit = indices(problem.at_may_hold, guards.n_guards), indices(guards.at_limit_guard, guards.n_guards)
+    least, none, tolerance = NEVER, 0.0, reals(guards.at_guard_tolerance, guards.n_guards)
+    for i in range(guards.n_guards):
+        if holding[i] > 0 and limit[i] == 0:
+            least, none = min(least, RISE * tolerance[i]), max(none, AT_LIMIT * tolerance[i])
+    for k in range(problem.n):
+        grows = abs(slip[k] - now[k]) > least + DYING_OUT * settling.look * abs(now[k])
+        of_now = 0.0 if abs(now[k]) <= none else now[k]
+        slip[k] = now[k] - slip[k] - of_now if grows else 0.0  # the callback gives -v_rel
+    return least
+
+
+@compiled
+def contradicts(m, c, largest):
+    """True if more than one row of circle c slips: one alone slips since the speed of what it follows has jumped."""
+    problem, count = m.problem, 0
+    circle, slip = indices(problem.at_circle, problem.n), reals(m.point.at_v, problem.n)
+    for k in range(problem.n):
+        if circle[k] == c and abs(slip[k]) > ROUNDING * largest:
+            count += 1
+    return count > 1
+
+
+@compiled
+def fire_first(m, c, largest):
+    """Add to `fired` the limits that the forces of circle c reach first as they grow with the slips."""
+    problem, point, guards = m.problem, m.point, m.events.guards
+    n, ng = problem.n, guards.n_guards
+    circle, slip = indices(problem.at_circle, n), reals(point.at_v, n)
+    grows, y, probe = indices(problem.at_grows_with_slip, n), reals(point.at_y, n), reals(point.at_y_probe, n)
+    weight, size = reals(point.at_weight, n), 0.0
+    for k in range(n):
+        if circle[k] == c and grows[k] != 0:
+            size = max(size, max(abs(y[k]), weight[k]))
+    copy(y, probe)
+    for k in range(n):
+        if circle[k] == c and abs(slip[k]) > ROUNDING * largest:
+            probe[k] += grows[k] * slip[k] / largest * size
+    evaluate_guards(problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
+    first, fired = NEVER, indices(guards.at_fired, ng)
+    for i in range(ng):
+        first = min(first, way_to_limit(problem, guards, i, c))
+    if first == NEVER:
+        return
+    for i in range(ng):
+        if way_to_limit(problem, guards, i, c) <= first + TIE:
+            fired[guards.n_fired] = i
+            guards.n_fired += 1
+
+
+@compiled
+def way_to_limit(problem, guards, i, c):
+    """How far on its way a force of circle c is when it comes to the limit of guard i; NEVER if it does not."""
+    row = indices(problem.at_bounded_row, guards.n_guards)[i]
+    if row < 0 or indices(problem.at_circle, problem.n)[row] != c:
+        return NEVER
+    here, there = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_probe, guards.n_guards)[i]
+    if not there - here > RISE * reals(guards.at_guard_tolerance, guards.n_guards)[i]:
+        return NEVER
+    return -here / (there - here)
