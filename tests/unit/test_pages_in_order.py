@@ -21,7 +21,7 @@ from fairlead.cli import app
 from tests.invariance.known import KNOWN
 from tests.unit.test_docs import DOCS, blocks, files
 
-QUICK = ["tutorial/first", "tutorial/parts", "howto/friction", "howto/start", "howto/drive"]
+QUICK = ["tutorial/first", "tutorial/parts", "howto/friction", "howto/start", "howto/drive", "modes"]
 LONG = ["start", "studies", "howto/accuracy", "howto/slow", "report"]
 LEFT_OUT = (
     "fairlead view", "--cluster", "fairlead fit", "sweep single_bend", "route_study", "guidance_route_ideal-sweep",
@@ -237,6 +237,21 @@ def test_positions_that_nobody_gave_meet_a_relation_each_by_its_slope_over_its_m
     result = simulate(LINKED, (library(ROCKER),))
     assert result["ma.x"][0] == pytest.approx(-0.03, abs=1e-9)
     assert result["mc.x"][0] == pytest.approx(0.01, abs=1e-9)
+
+
+def test_the_frequencies_of_a_pair_are_those_that_the_page_on_modes_works_out(
+    tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    files("modes", tmp_path)
+    told = re.findall(r"= ([\d.]+) Hz", read("modes"))
+    found = []
+    for zone in ("held", "sliding"):
+        said = play(f"fairlead modes pair.yaml --zones pad={zone} --json")
+        found += sorted(mode["frequency"] for mode in json.loads(said)["modes"] if mode["frequency"])
+    assert [f"{one:.2f}" for one in found] == told[:3]
+    exact = [math.sqrt(1300 / 4), math.sqrt(100), math.sqrt(400)]
+    assert found == pytest.approx([one / (2 * math.pi) for one in exact], rel=1e-9)
 
 
 def shown(page: str, name: str, folder: pathlib.Path) -> pathlib.Path:
