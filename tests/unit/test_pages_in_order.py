@@ -269,6 +269,31 @@ def test_a_lead_in_and_an_array_on_two_routes_need_the_force_of_one_bend(tmp_pat
     assert result["array.hose_node[0].x"][result.t < 20.4].min() > 0  # the array has no winch: it must not come to it
 
 
+WHEEL = (
+    "      - {name: wheel, type: Pulley, start: 6 m, angle: 45 deg, radius: 1 m, friction: 0.5, moment: 2.5 kg*m^2,\n"
+    "         bearing: {friction: 0.1, radius: 40 mm}}\n"
+)
+
+
+def test_a_pulley_on_both_routes_takes_the_friction_of_one_bearing(tmp_path: pathlib.Path) -> None:
+    """T_in - T_out = mu r/R 2 sin(22.5 deg) (T_in + T_out)/2, whichever line is on it."""
+    scene = shown("routes", "lead.yaml", tmp_path)
+    text = scene.read_text(encoding="utf-8")
+    bend = '      - {type: Bend, start: 3 m, angle: 90 deg, radius: 1 m, friction: "{mu}"}\n'
+    assert text.count(bend) == 2
+    text = text.replace(bend, bend + WHEEL)
+    scene.write_text(
+        text.replace("  - [lead.outboard", "  - [deck.wheel.shaft, same.wheel.shaft]\n  - [lead.outboard"),
+        encoding="utf-8",
+    )
+    result = fairlead.load(scene).run(out=None)
+    half = 0.1 * 0.04 * math.sin(math.radians(22.5))
+    pull = 400 * (1 + half) / (1 - half) * math.exp(0.3 * math.pi / 2)
+    for begin, end in [(4, 8), (18, 21)]:  # s: the lead-in is in both; the array is
+        mean = -result["drive.force"][(result.t > begin) & (result.t < end)].mean()
+        assert mean == pytest.approx(pull, rel=2e-3)
+
+
 def test_a_hydraulic_winch_on_a_route_hauls_at_its_speed_against_the_capstan(tmp_path: pathlib.Path) -> None:
     result = fairlead.load(shown("routes", "hydraulic_haul.yaml", tmp_path)).run(out=None)
     late = result.t > 3.5
