@@ -17,7 +17,8 @@ from machine import machine
 import fairlead
 from fairlead.analysis.margins.quasi_static import against_statics
 
-SCENES = {"guidance_route_ideal": (0.2, 0.35, 0.6), "guidance_route": (0.35, 0.6), "long_route": (0.2, 0.3, 0.6)}
+SCENES = {"single_bend": (0.2, 0.35, 0.6), "guidance_route_ideal": (0.2, 0.35, 0.6), "guidance_route": (0.35, 0.6),
+          "long_route": (0.2, 0.3, 0.6)}  # fmt: skip
 HEAD = ("scene", "mu", "hose in steady motion N", "statics N", "where", "lowest hose N", "statics N", "margin",
         "statics", "where")  # fmt: skip
 

@@ -30,6 +30,10 @@ NORMAL = 10.0  # N, for the figures
 CURVE = {"curve": "stribeck", "stiction": 0.5, "coulomb": 0.3, "velocity": 5e-3}
 COLOURS = 200  # of a figure; with a hundred, thin lines lose theirs
 MIRRORED = "The same the other way"
+LETTERS = (
+    "T is the friction, v the slip, N the normal force, mu(v) the curve, mu_s its value from rest, F_s = N mu_s the",
+    "largest friction of a contact that holds. af is the applied force, which the contact would have to take to hold.",
+)
 FLAT = ("bristle",)  # nothing to draw over slip speed: its friction does not depend on it
 
 
@@ -67,6 +71,7 @@ def page(word: str, member: Any, base: Any) -> Iterator[str]:
                 "[How do I choose a friction law?](../howto/friction.md) says when to take it.", "")  # fmt: skip
     equation, _, rest = (inspect.getdoc(member) or "").partition("\n\n")
     yield from (*block(equation), "")
+    yield from (*LETTERS, "")
     yield from flowing(rest, "../")
     if word not in FLAT:
         yield f"![Friction over slip speed](../figures/{word}.png)"

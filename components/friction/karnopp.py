@@ -19,8 +19,8 @@ class Karnopp(Rigid):
 
     When the slip enters the band, an impulse that conserves momentum sets it to zero, as Karnopp does with his
     velocity. The energy m band^2/2 is not accounted for. The contact holds without creep up to F_s. Compared with
-    exact hold it stops early, by about m band/T seconds. It leaves with F_s (not the curve) until the slip is out of
-    the band.
+    exact hold it stops early, by about m band/T seconds. It breaks away with F_s, and has that instead
+    of the curve until the slip is out of the band.
 
     Limits: the band must stay well below the slowest speed that matters, because everything slower is stuck. If
     nothing can stop the slip inside the band, as in a slider whose crank passes its dead centre, the run ends: take

@@ -15,7 +15,7 @@ TIED = (
 )
 
 KNOWN: dict[str, dict[str, str]] = {
-    INSTANCES: {"network 39": GRAZES, "network 18": TIED, "guidance_route_electric": GRAZES},
+    INSTANCES: {"network 39": GRAZES, "network 18": TIED},
     NETLIST: {"network 39": GRAZES, "network 18": TIED},
 }  # fmt: skip
 """The name of a change (see trials.py) -> the name of a scene -> why it differs."""

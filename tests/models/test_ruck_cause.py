@@ -63,7 +63,7 @@ def test_the_verdict_names_when_where_why_and_the_contact_that_changed_most(ruck
     named = [name for name, n in changes.items() if n == most and re.search(rf"it is {re.escape(name)}[ :]", said)]
     assert named
     assert said.index(f"{kind}[*]") < said.index(named[0])  # the kind first: one of sixty contacts tells little
-    assert "A zone change is a part that begins or ceases to stick, slide, touch or ruck." in said
+    assert "In a zone change a part begins or ceases to stick, slide, touch or ruck." in said
 
 
 def cause_of(rucking, **changes):

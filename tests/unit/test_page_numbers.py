@@ -11,7 +11,7 @@ states. Not replayed, for they take minutes to hours of processor time, or are t
 | friction.md | the published claim | `benchmarks/published_claim.py` |
 | friction_levels.md | the page | `benchmarks/friction_levels.py` |
 | routes.md | elements, line in the sea, idle line | `route_mesh.py`, `sea_forms.py`, `idle_line.py` of `benchmarks` |
-| routes.md | hose and core | `benchmarks/hose_estimates.py` |
+| routes.md | hose and core, but for `single_bend` | `benchmarks/hose_estimates.py` |
 | stability.md | the page | `make hard` |
 | studies.md | the study of the route; laws of the servo | `benchmarks/route_study.py`; `fairlead fit` |
 | bend_tables.md | independent engines, robustness list | `benchmarks/bend_table.py`, `benchmarks/bend_variants.py` |
@@ -33,6 +33,7 @@ from typer.testing import CliRunner
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))  # scripts that import each other by name
 
+import hose_estimates
 import single_bend
 
 import fairlead
@@ -134,6 +135,23 @@ def test_the_tables_of_the_page_on_routes_are_those_of_its_commands(
     shown = block + page("routes").partition(f"```\n{block}")[2].partition("```")[0]
     found = block + said.output.partition(block)[2]
     same_to_the_last_digit(numbers(shown), numbers(found))
+
+
+HOSES = {tuple(row[:2]): row for row in table("routes", "| scene | mu | hose in steady motion N |")}
+
+
+@pytest.mark.parametrize("mu", ["0.2", "0.35", "0.6"])
+def test_what_statics_misses_in_the_single_bend_is_what_the_page_on_routes_says(mu: str) -> None:
+    shown = HOSES["`single_bend`", mu]
+    found = hose_estimates.row("single_bend", float(mu))
+    assert [one for one in found if one == "-"] == [one for one in shown if one == "-"]
+    same_to_the_last_digit(numbers(" | ".join(shown)), numbers(" | ".join(found)))
+
+
+def test_the_page_on_routes_tells_by_how_much_statics_misses_the_compression_at_most() -> None:
+    (told,) = re.findall(r"`single_bend` has ([\d.]+) times", page("routes"))
+    shown = HOSES["`single_bend`", "0.6"]
+    assert float(shown[5]) / float(shown[6]) == pytest.approx(float(told), abs=0.05)
 
 
 @pytest.mark.parametrize("method", ["hold", "binding"])

@@ -1,14 +1,10 @@
-"""What README.md and docs/start.md show works as printed."""
+"""What README.md and docs/start.md show works as printed; `test_pages_in_order.py` plays the commands."""
 
 import pathlib
 import re
 import shlex
 
-import pytest
-from typer.testing import CliRunner
-
 import fairlead
-from fairlead.cli import app
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 README = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in ("README.md", "docs/start.md"))
@@ -47,15 +43,3 @@ def test_the_component_can_be_used_from_a_users_file(tmp_path: pathlib.Path) -> 
 def test_the_readme_shows_commands_of_every_verb() -> None:
     shown = {shlex.split(line)[1] for line in commands()}
     assert shown >= {"check", "run", "describe", "graph", "schema", "doctor"}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("line", [one for one in commands() if shlex.split(one)[1] != "view"])  # it ends at Ctrl-C
-def test_every_command_ends_well(line: str, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    words = shlex.split(line.partition(">")[0])[1:]
-    if words[0] in ("margins", "report"):  # which wants a run
-        model = pathlib.Path(words[1]).name
-        assert CliRunner().invoke(app, ["run", model, "--set", "run.stop=0.2 s"]).exit_code == 0
-    answer = CliRunner().invoke(app, words)
-    assert answer.exit_code == 0, answer.output

@@ -88,7 +88,7 @@ def _lasting(result: Result, found: dict[str, Any]) -> str:
     longest = max(stretches, key=lambda one: one[1] - one[0])
     until = "the end of the run" if longest[1] == end else f"{moment(longest[1])} s"
     others = len(stretches) - 1
-    shorter = f"; {others} time{'s' * (others > 1)} it was shorter" if others else ""
+    shorter = f", and in {others} shorter span{'s' * (others > 1)}" if others else ""
     return f" From {moment(longest[0])} s to {until} some element rucks without a pause{shorter}."
 
 

@@ -84,7 +84,7 @@ def slowest(result: Result) -> str:
     kind += "".join(f", then {name}{roles.get(name, '')} with {_percent(m, total)}" for name, m in others)
     steps = f" All together: {taken} steps." if taken else ""
     return (
-        f"{kind}.{_single(counts, zones, roles, first)} A zone change is a part that {_changes(zones)}. A step ends at "
+        f"{kind}.{_single(counts, zones, roles, first)} In a zone change a part {_changes(zones)}. A step ends at "
         f"each, and short ones follow.{steps}"
     )
 
