@@ -16,6 +16,7 @@ import enum
 import functools
 import os
 import pathlib
+import re
 import time
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -376,8 +377,13 @@ def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Itera
     """Mistakes; those in a value that was given from outside say which, for they stand where the netlist uses it."""
     for fault in faults:
         given = [f"It was given as {name} = {text}." for name, text in overrides.items()
-                 if f"= {text} " in f"{fault.what} " and name not in f"{fault.where} {fault.what}"]  # fmt: skip
+                 if f"= {text} " in f"{fault.what} " and not _named(name, fault)]  # fmt: skip
         yield replace(fault, way_out="\n".join([fault.way_out, *given])) if given else fault
+
+
+def _named(name: str, fault: Fault) -> bool:
+    """Whether a mistake names a setting, as a word of its own: `m` is none of `block.mass`."""
+    return re.search(rf"(?<!\w){re.escape(name)}(?!\w)", f"{fault.where} {fault.what}") is not None
 
 
 def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
