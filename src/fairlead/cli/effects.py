@@ -96,7 +96,8 @@ def _cells(row: "Row") -> list[str]:
     if row.change is None or row.saved is None:
         return [row.switch.label, *sizes, row.timed.status, *[""] * (len(COLUMNS) - 7)]
     return [
-        row.switch.label, *sizes, str(row.timed.switches), _time(row.timed.cpu), f"{100 * row.saved:.0f} %",
+        row.switch.label, *sizes, str(row.timed.switches), _time(row.timed.cpu),
+        f"{100 * row.saved:.0f} %" if row.measurable else "same",
         percent(row.change), row.worst.measure if row.worst is not None else "",
         row.most.name if row.most is not None else "",
         percent(row.worst_starting.value) if row.worst_starting is not None else "",
