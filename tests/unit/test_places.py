@@ -78,6 +78,17 @@ def test_a_fit_is_told_before_it_is_written(tmp_path, monkeypatch) -> None:
     assert "mistake in fairlead" not in answer.output
 
 
+@pytest.mark.parametrize("words", [["plot", "RUN", "signals"], ["report", "RUN"]])
+def test_a_folder_in_the_place_of_what_a_verb_writes_by_itself_is_a_sentence(words, run) -> None:
+    for name in ("signals.png", "report.html"):
+        (run / name).mkdir()
+        (run / name / "mine").touch()
+    answer = CliRunner().invoke(app, [str(run) if one == "RUN" else one for one in words])
+    assert answer.exit_code in (1, 2), answer.output
+    assert str(run) in answer.output.replace("\n", "")
+    assert "mistake in fairlead" not in answer.output
+
+
 def test_friction_writes_the_file_that_is_named(tmp_path) -> None:
     answer = CliRunner().invoke(app, ["friction", "0.4", "--out", str(tmp_path / "curve.png")])
     assert answer.exit_code == 0

@@ -48,5 +48,5 @@ def written_to(path: pathlib.Path) -> Iterator[None]:
 
 
 def told_of_disk(path: pathlib.Path, error: OSError) -> str:
-    """Why a file is not written."""
-    return f"{printable(str(path))} cannot be written: {error.strerror or error}.{_OTHER}"
+    """Why a file is not written, or not read."""
+    return f"{printable(str(path))} cannot be used: {error.strerror or error}.{_OTHER}"

@@ -133,13 +133,15 @@ def _as_json(error: FairleadError) -> str:
 
 
 def _of_disk(error: Exception, given: dict[str, Any]) -> FairleadError | None:
-    """The sentence about a disk that refuses a place that was named, or the default one; None for another mistake."""
+    """The sentence about a disk that refuses a place that was named, or the default one; None for other errors."""
     if not isinstance(error, OSError) or not isinstance(error.filename, str | bytes):
         return None
     from fairlead.cli.places import told_of_disk
 
     file = pathlib.Path(os.fsdecode(error.filename)).absolute()
-    named = [one for one in given.values() if isinstance(one, pathlib.Path)]
+    words = [one for each in given.values() for one in (each if isinstance(each, list) else [each])]
+    named = [one for one in words if isinstance(one, pathlib.Path)]
+    named += [pathlib.Path(one) for one in words if isinstance(one, str) and one and pathlib.Path(one).is_dir()]
     if any(one.absolute() in (file, *file.parents) for one in (*named, pathlib.Path("results"))):
         return FairleadError(told_of_disk(file, error))
     return None
