@@ -156,8 +156,8 @@ class Curves:
         gaps = np.diff(self.t[rows], axis=1)
         short, even, h = gaps[:, 0 if opening else 2], gaps[:, 2 if opening else 0], gaps[:, 1]
         fits &= (h > 0.0) & (np.abs(even - h) <= EVEN * h) & (short > 0.0) & (short <= (1.0 + EVEN) * h)
-        begin, end = (np.searchsorted(self.switches, self.t[rows[:, k]], how) for k, how in ((0, "right"), (3, "left")))
-        fits &= begin == end
+        begin = np.searchsorted(self.switches, self.t[rows[:, 0]], "right")
+        fits &= begin == np.searchsorted(self.switches, self.t[rows[:, 3]], "left")
         if not fits.any():
             return np.asarray(fits)
         width = np.where(gaps > 0.0, gaps, 1.0) / np.where(h > 0.0, h, 1.0)[:, None]
