@@ -7,9 +7,11 @@ varies fastest, and the sample faster than the grid.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
 
 from fairlead.cases.row import Value
 from fairlead.errors import UsageError, listing
@@ -97,21 +99,23 @@ class Design:
 
     def tries(self) -> Iterator[dict[str, Value]]:
         """A few cases from all over the design: in the middle, at both ends, and between."""
-        columns = self.sample.columns() if self.sample else {}
         named: dict[str, Sequence[Value]] = {name: _spread(values) for name, values in self.grid.items()}
-        named |= {name: _spread(_sorted(texts)) for name, texts in columns.items()}
+        if self.sample:
+            laws, columns = self.sample.over, self.sample.columns()
+            named |= {name: _spread(_sorted(laws[name], texts)) for name, texts in columns.items()}
         listed = _spread(self.listed)
         for k in range(max(map(len, [*named.values(), listed]))):
             case = {name: values[min(k, len(values) - 1)] for name, values in named.items()}
             yield {**case, **(listed[min(k, len(listed) - 1)] if listed else {})}
 
     def kinds(self) -> dict[str, dict[str, Value]]:
-        """Of each name one value of each kind: every word is a kind, and every dimension of numbers."""
-        columns = self.sample.columns() if self.sample else {}
-        listed = {name: [one[name] for one in self.listed if name in one] for name in self.names}
+        """Of each name of grid and sample one value of each kind: every word is one, and every dimension of numbers."""
+        named: dict[str, Iterable[Value]] = dict(self.grid)
+        if self.sample:  # all numbers of a law are of one kind
+            named |= {name: law.words or law.texts(np.array([0.5])) for name, law in self.sample.over.items()}
         found: dict[str, dict[str, Value]] = {}
-        for name in self.names:
-            for value in self.grid.get(name) or columns.get(name) or listed[name]:
+        for name, values in named.items():
+            for value in values:
                 found.setdefault(name, {}).setdefault(kind_of(value), value)
         return found
 
@@ -131,11 +135,9 @@ def kind_of(value: Value) -> str:
         return "number" if NUMBER.fullmatch(value) else value
 
 
-def _sorted(texts: Sequence[str]) -> list[Value]:
-    """Values of a sample from the lowest to the highest."""
-    from fairlead.studies.sweeps.ranges import column_of
-
-    return sorted(dict.fromkeys(texts), key=lambda one: (isinstance(column_of(one), str), column_of(one)))
+def _sorted(law: Distribution, texts: Sequence[str]) -> list[str]:
+    """Different values of a sample, numbers from the lowest to the highest."""
+    return [*law.words] if law.words else sorted(dict.fromkeys(texts), key=lambda one: float(one.partition(" ")[0]))
 
 
 def _spread(values: Sequence[Any]) -> list[Any]:
