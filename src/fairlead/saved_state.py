@@ -22,6 +22,7 @@ import numpy as np
 
 from fairlead.analysis.cost.kept_runs import code_digest
 from fairlead.component.dependencies import dependencies
+from fairlead.component.numbers import numbers
 from fairlead.errors import NoCopyError, UsageError, listing, shown
 from fairlead.integrate.parts import ScopeState
 from fairlead.integrate.prepare import planned
@@ -68,6 +69,16 @@ class Maker:
         known = {one.name: getattr(self.asked, one.name) for one in dataclasses.fields(self.asked)}
         told = {name: f"run.{name} = {value}" for name, value in known.items() if name not in FREE}
         return told | {"inputs": f"inputs {listing(self.inputs, 100) or 'none'}"}
+
+    def told(self) -> dict[str, str]:
+        """What the model is, as far as two can be told apart by it: parts and numbers by name, in words."""
+        netlist = self.of.flat.assembly.netlist
+        found = {"name": f"the model {shown(netlist.name)}"}
+        for name, entry in netlist.components.items():
+            found[f"{name}: "] = f"{shown(name)}: {shown(entry.type)}"
+        for name, (value, unit) in numbers(netlist, self.of.flat.assembly.entries).items():
+            found[name] = f"{shown(name)} = {value:.9g} {unit if unit != '1' else ''}".rstrip()
+        return found
 
     def digest(self) -> str:
         """Of the equations: laws, parts, numbers of the model."""
@@ -146,6 +157,7 @@ class Kept(NamedTuple):
     """The memory of a run as plain numbers, and what it fits."""
 
     settings: dict[str, str]
+    told: dict[str, str]
     model: str
     plan: str
     arena: Arena
@@ -168,8 +180,7 @@ def brought_back(state: Elsewhere, maker: Maker, take: OnBlock) -> State:
         _refuse(f"it was saved by {version}, in which a run has another memory", "Run the model again to that time.")
     kept: Kept = pickle.loads(state.kept)  # who unpickled the state has trusted it
     if maker.tunable is None or kept.model != maker.digest():
-        advice = "Load the netlist, values and libraries that it was saved with."
-        _refuse(f"it is of another model than this run, or of other values ({shown(state.name)})", advice)
+        _refuse(_other_model(kept.told, maker.told()), "Load the netlist, values and libraries that it was saved with.")
     _alike(kept.settings, maker.settings())
     now = maker.standing(kept.now, take)
     if kept.plan != _plan(now.going):
@@ -184,8 +195,22 @@ def brought_back(state: Elsewhere, maker: Maker, take: OnBlock) -> State:
 def fitting(state: State, maker: Maker) -> None:
     """Raise UsageError where a state of this process is of another model, or of a run with other settings."""
     if state.maker.of is not maker.of:
-        raise UsageError("restore: this state is not of a run of this model. Take what `save` of such a run gave.")
+        _refuse(_other_model(state.maker.told(), maker.told()), "Take what `save` of a run of this model gave.")
     _alike(state.maker.settings(), maker.settings())
+
+
+MOST_TOLD = 4
+"""Differences of two models that are told."""
+
+
+def _other_model(was: Mapping[str, str], here: Mapping[str, str]) -> str:
+    """In what the model of a state differs from that of this run."""
+    names = [name for name in {**was, **here} if was.get(name) != here.get(name)]
+    names = [name for name in names if f"{name.partition('.')[0]}: " not in names]  # a part that is another one
+    if not names:
+        return "it is of a model that was loaded apart from this one, or with other tables or libraries"
+    sides = [listing((side.get(name, f"no {name.rstrip(': ')}") for name in names), MOST_TOLD) for side in (was, here)]
+    return f"it was saved with {sides[0]}; this run has {sides[1]}"
 
 
 def _alike(was: Mapping[str, str], here: Mapping[str, str]) -> None:
@@ -209,7 +234,7 @@ def _elsewhere(state: State) -> Elsewhere:
     initial = now.going.problem.initial.copy()
     way = Way(maker.changed(now.tunable), initial, run.start, run.stop)
     kept = Kept(
-        maker.settings(), maker.digest(), _plan(now.going), scope.whole, scope.own, state.saved.status,
+        maker.settings(), maker.told(), maker.digest(), _plan(now.going), scope.whole, scope.own, state.saved.status,
         state.saved.replanned_at, tuple(_written(scope.remembered, now.going)), way, maker.changed(state.next.tunable),
         state.next.own is not now.own,
     )  # fmt: skip

@@ -114,7 +114,7 @@ def test_a_state_from_before_a_change_takes_the_former_value_back(tmp_path):
         run.advance(0.3)
         assert run.get("block.v") == pytest.approx(0.4, abs=1e-7)
     other = load(tmp_path, PUSHED).start()
-    with pytest.raises(UsageError, match="not of a run of this model"):
+    with pytest.raises(UsageError, match="loaded apart from this one"):
         other.restore(after)
 
 

@@ -132,6 +132,8 @@ SEEDED = [
     ("spring.tension:", "spring.tenson:", "scene.yaml:23:10: limits.spring.tenson: no signal has this name. Did you mean spring.tension?"),
     ("below: 50 N", "below: 50 m", "scene.yaml:23:34: limits.spring.tension.below = 50 m is a length, not a force."),
     ("{below: 50 N}", "50 N", "scene.yaml:23:26: limits.spring.tension = 50 N has no bound: a limit is above or below"),
+    ("{below: 50 N}", "-160 N", "Write it as {above: -160 N}, with above, below or both."),
+    ("{below: 50 N}", "160 N", "Write it as {below: 160 N}, with above, below or both."),
     ("{below: 50 N}", "{}", "scene.yaml:23:26: limits.spring.tension = an empty map has no bound"),
     ("{spring.tension: {", "{spring.*: {", "scene.yaml:23:10: limits.spring.* means signals of several units"),
     ("below:", "belw:", "scene.yaml:23:27: limits.spring.tension.belw: a limit is above or below. Did you mean below?"),

@@ -111,6 +111,28 @@ def test_the_advice_holds_when_it_is_followed(lagging, tmp_path):
     assert load(row.switch.settings).system.n == load({}).system.n - 1
 
 
+@pytest.mark.parametrize(
+    ("now", "then", "says"),
+    [("hold", "tanh", "the scene has hold."), ("on", "off", "the scene has it."),
+     ("off", "on", "the scene leaves it out.")],
+)  # fmt: skip
+def test_what_the_scene_has_is_told_by_its_name(now, then, says):
+    t = np.linspace(0, 1, 101)
+    (change,) = changes(["x"], ["1"], 1.5 * np.sin(OMEGA * t)[:, None], np.sin(OMEGA * t)[:, None])
+    row = Row(Switch("friction", now, then, {}), Timed("finished"), saved=0.0, changes=[change])
+    assert row.sentence.endswith(f"it matters, and {says}")
+
+
+def test_a_time_that_is_the_same_is_no_saving_in_the_table():
+    from fairlead.cli.effects import _cells
+
+    for saved, told in ((-0.53, "same"), (0.9, "90 %")):
+        timed = Timed("finished", scatter=0.6)
+        row = Row(Switch("lag", "on", "off", {}), timed, saved=saved)
+        assert told in _cells(row)
+        assert ("takes the same time" in row.sentence) == (told == "same")
+
+
 def test_an_effect_that_matters_is_not_advised_away(of_a_twentieth):
     assert "it matters" in the(of_a_twentieth, "lag off").sentence
 

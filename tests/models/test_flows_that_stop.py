@@ -104,7 +104,7 @@ def test_a_port_that_nothing_leads_away_from_wants_a_volume(scene: Scene, engine
 
 
 PILOTED = """
-    parameters: {{pilot: 2 MPa}}
+    parameters: {{pilot: 2e6}}
     components:
       tank: {{type: Tank}}
       wanted: {{type: SignalSource, value: {{step: {{from: 1e5, to: "{{pilot}}", at: 1 s}}}}}}

@@ -125,6 +125,21 @@ def test_one_side_can_be_interpolated_reindexed_and_looked_up(belt):
     assert belt.to_pandas("block.x", side="right").reindex(times, method="nearest").shape == (7, 1)
 
 
+@pytest.mark.parametrize("engine", ["h5netcdf", "scipy"])
+@pytest.mark.parametrize("folder", [False, True])
+def test_a_dataset_is_written_as_netcdf_and_read_again(scene, tmp_path, engine, folder):
+    import xarray
+
+    pytest.importorskip(engine)
+    result = scene(STICK_SLIP).run(out=tmp_path / "run" if folder else None)
+    data, file = result.to_xarray(side="right"), tmp_path / "belt.nc"
+    assert any(isinstance(one, bool) for one in result.run.values())
+    data.to_netcdf(file, engine=engine)
+    with xarray.open_dataset(file, engine=engine) as again:
+        assert again.equals(data)
+        assert dict(again.attrs) == data.attrs
+
+
 def test_another_side_is_refused(belt):
     for call in (belt.to_xarray, belt.to_pandas):
         with pytest.raises(UsageError, match="side = middle is none of left, right, both"):

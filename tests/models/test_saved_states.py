@@ -132,8 +132,8 @@ def test_what_cannot_be_pickled_of_a_controller_is_named(tmp_path):
 @pytest.mark.parametrize(
     ("text", "settings", "says"),
     [
-        (PUSHED.replace("2 kg", "3 kg"), {}, "it is of another model than this run, or of other values (pushed)"),
-        (PUSHED.replace("block", "body"), {}, "it is of another model"),
+        (PUSHED.replace("2 kg", "3 kg"), {}, "block.mass = 2 kg; this run has block.mass = 3 kg"),
+        (PUSHED.replace("block", "body"), {}, "saved with block: Mass, no body; this run has no block, body: Mass"),
         (PUSHED, {"accuracy": 1e-7}, "it was saved with run.accuracy = 0.0001; this run has run.accuracy = 1e-07"),
         (PUSHED, {"engine": "stepping"}, "it was saved with run.engine = rodas; this run has run.engine = stepping"),
         (PUSHED.replace("inputs: {pull: command.value}", ""), {}, "it was saved with inputs pull; this run has inputs"),

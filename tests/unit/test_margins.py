@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -99,6 +100,29 @@ def test_a_line_of_two_layers_has_the_margin_with_its_hose(tmp_path):
     margin = {quantity: bears for _, station, quantity, _, _, bears, *_ in rows if station == "line"}
     assert margin["hose"] == pytest.approx(50 / 25)
     assert margin["lowest"] is None
+
+
+def test_the_tension_of_both_layers_does_not_bear_the_name_of_one(tmp_path):
+    printed = CliRunner().invoke(app, ["margins", str(written(tmp_path))]).stdout
+    (peak,) = (line for line in printed.splitlines() if "peak tension" in line)
+    assert "peak tension, hose + core" in peak
+    assert "160 N" in peak  # -20 N in the hose, 180 N in the core
+    assert "line, element 1" in peak
+    assert "hose[" not in peak
+    (hose,) = (line for line in printed.splitlines() if "lowest hose tension" in line)
+    assert "line.hose[2]" in hose
+
+
+def test_tables_of_two_lines_bear_their_names(tmp_path, monkeypatch):
+    import fairlead.analysis.margins.margins as of_lines
+
+    made = of_lines.margins
+    monkeypatch.setattr(of_lines, "margins", lambda result: [
+        replace(one, line=name) for one in made(result) for name in ("upper", "lower")])  # fmt: skip
+    printed = CliRunner().invoke(app, ["margins", str(written(tmp_path))]).stdout.splitlines()
+    titles = [number for number, line in enumerate(printed) if line.strip() in ("upper", "lower")]
+    tables = [number for number, line in enumerate(printed) if "station" in line and "peak N" in line]
+    assert [number + 2 for number in titles] == tables
 
 
 def test_a_node_scuffs_while_it_is_in_the_device(tmp_path):

@@ -209,7 +209,9 @@ def left_by_a_killed_process(path: Path, **said: object) -> None:
 def test_a_killed_run_whose_process_number_was_given_again_counts_as_killed(tmp_path: Path) -> None:
     left_by_a_killed_process(tmp_path, process=os.getpid())  # the number of a process that is there: this one
     assert Result.open(tmp_path).status == "killed"
-    write(tmp_path, "new", 2.0, force=False)
+    with pytest.raises(UsageError, match="and killed"):
+        write(tmp_path, "new", 2.0, force=False)
+    write(tmp_path, "new", 2.0)
     assert contents(Result.open(tmp_path)) == NEW
 
 

@@ -34,7 +34,7 @@ def pretend_killed(path: Path) -> None:
     run_file.write(path, {**record, "status": "running"})
 
 
-@pytest.mark.parametrize("status", ["finished", "interrupted", "budget"])
+@pytest.mark.parametrize("status", ["finished", "interrupted", "budget", "failed"])
 def test_a_run_with_results_to_keep_is_not_overwritten(tmp_path: Path, status: str) -> None:
     finished(tmp_path / "run", status)
     with pytest.raises(UsageError, match="--force"):
@@ -51,16 +51,34 @@ def test_force_replaces_a_finished_run(tmp_path: Path) -> None:
     assert "steps" not in result.run
 
 
-def test_a_failed_run_is_replaced_without_force(tmp_path: Path) -> None:
-    finished(tmp_path / "run", "failed")
-    RunDirectory.create(tmp_path / "run", SIGNALS, {}).finish("finished", {})
-
-
-def test_a_killed_run_is_replaced_without_force(tmp_path: Path) -> None:
+def test_a_killed_run_is_not_replaced_without_force_once_it_has_rows(tmp_path: Path) -> None:
     finished(tmp_path / "run")
     pretend_killed(tmp_path / "run")
     assert Result.open(tmp_path / "run").status == "killed"
-    RunDirectory.create(tmp_path / "run", SIGNALS, {}).finish("finished", {})
+    with pytest.raises(UsageError, match=r"was begun at .* and killed\.\n.*--force"):
+        RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    again = RunDirectory.create(tmp_path / "run", SIGNALS, {}, force=True)
+    assert len(Result.open(tmp_path / "run" / "earlier")["block.v"]) == 1
+    again.finish("finished", {})
+
+
+@pytest.mark.parametrize("status", ["killed", "failed"])
+def test_a_run_that_broke_off_before_its_first_row_is_replaced(tmp_path: Path, status: str) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {"name": "first"})
+    if status == "failed":
+        run.finish("failed", {})
+        (tmp_path / "run" / "series.nc").unlink(missing_ok=True)
+    del run
+    RunDirectory.create(tmp_path / "run", SIGNALS, {"name": "second"}).finish("finished", {})
+    assert Result.open(tmp_path / "run").run["name"] == "second"
+
+
+def test_results_that_a_killed_run_was_to_replace_are_not_lost_without_force(tmp_path: Path) -> None:
+    finished(tmp_path / "run")
+    rerun(tmp_path / "run", "killed")
+    with pytest.raises(UsageError, match="--force"):
+        RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    assert Result.open(tmp_path / "run" / "earlier").run["name"] == "first"
 
 
 def test_a_run_that_goes_on_is_not_overwritten(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from fairlead.analysis.record.declared_signals import signals_of
+from fairlead.analysis.record.suggestion import inside, suggest
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.patterns import picked
 from fairlead.quantities import QuantityError, si
@@ -139,7 +140,9 @@ class _Known:
             raise _Wrong(f"{kind} of what? A signal is missing")
         names = picked(self.units, given[0])
         if not names:
-            raise _Wrong(f"no signal has the name {shown(given[0])}. {did_you_mean(given[0], self.units)}".rstrip())
+            near, way_out = suggest(given[0], [*self.units])
+            way_out = f"{inside(self.model.flat.assembly, given[0])} {way_out}".strip()
+            raise _Wrong(f"no signal has the name {shown(given[0])}. {near}".rstrip(), way_out or EXAMPLE)
         if kind in OF_ONE and len(names) > 1:
             raise _Wrong(
                 f"{shown(given[0])} stands for {len(names)} signals",

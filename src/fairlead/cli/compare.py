@@ -10,6 +10,7 @@ import typer
 import fairlead.cli.completion as completion
 from fairlead.cli.exit_codes import MODEL_ERROR
 from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import console, echo
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ def compare(
     from fairlead.report.compare_figure import draw
 
     folder = out or pathlib.Path("results") / f"{pathlib.Path(netlist).stem}-compare"
+    refuse_place("--out", folder, folder=True)
     found = run_all(
         lambda chosen: fairlead.load(netlist, set=chosen, libraries=libraries, allow_fmu=allow_fmu),
         parse_variations(vary),

@@ -8,6 +8,7 @@ import typer
 
 from fairlead.cli.exit_codes import INTERRUPTED
 from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import refuse_place
 from fairlead.cli.study import Budget, Fresh, Outputs, number, say, write_record
 from fairlead.cli.terminal import echo
 
@@ -50,6 +51,8 @@ def cost(
     from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
     from fairlead.report.cost_figure import draw
 
+    refuse_place("--out", out or pathlib.Path("results") / f"{pathlib.Path(netlist).stem}-cost", folder=True)
+    refuse_place("--write", write)
     fixed, aim = parse_settings(settings), number("--target", target, "1")
     study = study_cost(
         lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries, allow_fmu=allow_fmu),

@@ -8,6 +8,7 @@ import typer
 
 from fairlead.cli.exit_codes import INTERRUPTED
 from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import refuse_place
 from fairlead.cli.study import Budget, Fresh, Outputs, number, print_table, say, write_record
 from fairlead.cli.terminal import echo
 
@@ -48,6 +49,7 @@ def effects(
     from fairlead.analysis.cost.kept_runs import KeptRuns, default_folder
     from fairlead.analysis.effects.effects import effects as switch_all
 
+    refuse_place("--out", out or pathlib.Path("results") / f"{pathlib.Path(netlist).stem}-effects", folder=True)
     fixed = parse_settings(settings)
     found = switch_all(
         lambda more: fairlead.load(netlist, set={**fixed, **more}, libraries=libraries, allow_fmu=allow_fmu),
@@ -94,7 +96,8 @@ def _cells(row: "Row") -> list[str]:
     if row.change is None or row.saved is None:
         return [row.switch.label, *sizes, row.timed.status, *[""] * (len(COLUMNS) - 7)]
     return [
-        row.switch.label, *sizes, str(row.timed.switches), _time(row.timed.cpu), f"{100 * row.saved:.0f} %",
+        row.switch.label, *sizes, str(row.timed.switches), _time(row.timed.cpu),
+        f"{100 * row.saved:.0f} %" if row.measurable else "same",
         percent(row.change), row.worst.measure if row.worst is not None else "",
         row.most.name if row.most is not None else "",
         percent(row.worst_starting.value) if row.worst_starting is not None else "",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.options import AsJson, Quiet, Verbose
+from fairlead.cli.places import place, refuse_place
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ def fit(
     from fairlead.studies.fits.search import errors, prepared
     from fairlead.studies.fits.search import fit as search
 
+    refuse_place("--out", out or pathlib.Path("results") / "fit", folder=True)
     asked = read_fit(file)
     laws = laws_of_options(compare) if compare else () if no_laws else asked.laws
     told = None if quiet or as_json else lambda line: echo(line, err=True)
@@ -56,14 +58,16 @@ def fit(
     if law.name:
         lines.insert(0, f"law: {law.name}")
     of_laws = list(report.law_lines(judged)) if judged else []
-    page.write_page(folder / "fit.html", f"Fit of {records[0].cases.name}", lines, _rows(judged), of_laws[-2:], records,
-                    fitted.values)  # fmt: skip
-    (folder / "fit.json").write_text(json.dumps(record, indent=2), encoding="utf-8")
     if as_json:
         echo(json.dumps(record, indent=2))
     elif not quiet:
-        for line in [*of_laws, *lines, f"wrote {folder / 'fit.html'}"]:
+        for line in [*of_laws, *lines]:
             echo(line)
+    place(folder / "fit.json", json.dumps(record, indent=2))
+    page.write_page(folder / "fit.html", f"Fit of {records[0].cases.name}", lines, _rows(judged), of_laws[-2:], records,
+                    fitted.values)  # fmt: skip
+    if not (as_json or quiet):
+        echo(f"wrote {folder / 'fit.html'}")
 
 
 def _law(asked: "Asked", judged: "list[Judged]") -> Any:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
@@ -25,9 +26,11 @@ def friction(
     settings: Settings,
     libraries: Libraries,
     method: Annotated[str, typer.Option(help="For a curve: the treatment.", show_default="that of a new scene")] = "",
-    normal: Annotated[str, typer.Option(help="Normal force where the scene gives none.")] = "1 N",
+    normal: Annotated[str, typer.Option(help="Normal force where the scene gives none.", show_default="1 N")] = "",
     out: Annotated[
-        pathlib.Path, typer.Option("--out", "-o", metavar="DIR", help="Leave the figures here.")
+        pathlib.Path,
+        typer.Option("--out", "-o", metavar="PATH",
+                     help="Leave the figures in this folder; or the figure in this PNG, SVG or PDF."),
     ] = pathlib.Path("results"),
     as_json: AsJson = False,
     quiet: Quiet = False,
@@ -38,13 +41,20 @@ def friction(
     from fairlead.quantities import si
     from fairlead.report.friction_figure import draw
 
-    usual, records = si(normal, "N"), []
-    out.mkdir(parents=True, exist_ok=True)
+    is_file = out.suffix.lower() in (".png", ".svg", ".pdf") and not out.is_dir()
+    refuse_place("--out", out, folder=not is_file)
+    usual, records = si(normal or "1 N", "N"), []
     contacts, remarks = contacts_of(subject, settings, libraries, method)
+    if normal and all(pressed(values) is not None for values in contacts.values()):
+        raise typer.BadParameter(
+            f"--normal {normal}: every contact of {subject} has a normal force of its own. Change that with --set."
+        )
     for number, (names, values) in enumerate(contacts.items()):
         given = pressed(values)
         found = characteristic(values, usual if given is None else given)
-        figure = draw(found, out / f"friction{number or ''}.png", f"{names}: {found.label}")
+        file = out.with_stem(f"{out.stem}{number or ''}") if is_file else out / f"friction{number or ''}.png"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        figure = draw(found, file, f"{names}: {found.label}")
         rows = found.rows()
         records.append({"contacts": names, "method": found.label, "figure": str(figure), **dict(rows)})
         if not (as_json or quiet):
@@ -68,6 +78,11 @@ def contacts_of(
         return {subject: _of_curve(subject, libraries, method)}, []
     if subject in _treatments(libraries):
         raise typer.BadParameter(f"{subject} treats a curve: name that, and add --method {subject}.")
+    if method:
+        raise typer.BadParameter(
+            f"--method {method} is for a curve; contacts of a netlist have their own treatment. "
+            f"Set it there: --set friction.method={method}, or --set PART.method={method} where a part has one."
+        )
     import fairlead
     from fairlead.analysis.remarks.widths import too_wide
     from fairlead.analysis.treatments.treatments import contacts

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from fairlead.cli.options import Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import place, refuse_place
 from fairlead.cli.terminal import echo
 
 
@@ -38,13 +39,13 @@ def graph(
     """Draw which port meets which, as Mermaid, DOT or SVG."""
     import fairlead
 
+    refuse_place("--out", out)
     if kind is None:
         kind = SUFFIXES.get(out.suffix, Format.MERMAID) if out else Format.MERMAID
     text = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).graph(kind.value)
     if out is None:
         echo(text)
         return
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(text, encoding="utf-8")
+    place(out, text)
     if not quiet:
         echo(f"{kind.value} drawing in {out}")

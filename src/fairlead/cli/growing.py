@@ -13,6 +13,12 @@ if TYPE_CHECKING:
 
 EARLY = 0.05
 """Share of what is too large from which on it is told how large the whole will be."""
+FORESEEN = 0.1
+"""Share of the run from which on its rate tells of the rest: a start may chatter."""
+APART = 1e-3
+"""Share of the run between two looks that are remembered."""
+MUCH = 10.0
+"""Of what is too large: it is told at any time."""
 NUMBER = 8
 """Bytes of a number in the results."""
 
@@ -24,6 +30,7 @@ class Growing:
         """`large` is in bytes."""
         self.model, self.folder, self.large, self.progress = model, folder, large, progress
         self.told = False
+        self.seen: list[tuple[float, int]] = []
 
     def before(self) -> None:
         """Tell of it before the run, where `record.every` gives the rows."""
@@ -49,10 +56,21 @@ class Growing:
 
         files = (self.folder / name for name in (SERIES_FILE, TEMPORARY))
         size = max((file.stat().st_size for file in files if file.exists()), default=0)
-        if size > EARLY * self.large and size / fraction > self.large:
+        if not self.seen or fraction - self.seen[-1][0] > APART:
+            self.seen.append((fraction, size))
+        whole = self._whole(fraction, size)
+        if whole > self.large and size > EARLY * self.large:
             every = self.model.netlist.record.every
             less = "Give record.every a time" if every is None else f"Record less often (record.every is {every:g} s)"
-            self._tell(size / fraction, f" at this rate (t = {time:.4g} s)", f"{less}, or record fewer signals.")
+            now = f" at this rate (t = {time:.4g} s)" if fraction >= FORESEEN else f" and more (t = {time:.4g} s)"
+            self._tell(whole, now, f"{less}, or record fewer signals.")
+
+    def _whole(self, fraction: float, size: int) -> float:
+        """Bytes at the end, if it goes on as in the second half so far; 0 while that says little."""
+        if fraction < FORESEEN:
+            return size if size > MUCH * self.large else 0.0
+        begun = next((one for one in self.seen if fraction / 2 <= one[0] < fraction), (0.0, 0))
+        return size + (size - begun[1]) / (fraction - begun[0]) * (1 - fraction)
 
     def _tell(self, size: float, why: str, way_out: str) -> None:
         self.told = True

@@ -22,6 +22,8 @@ NAMES = {
     "side_wall": "side-wall load", "scuffed": "scuffed on a device", "inner_scuffed": "scuffed in the hose",
     "slipped": "slid on belts, wheels", "registration": "de-registration",
 }  # fmt: skip
+BOTH = ("peak", "lowest")
+"""Of all layers of a line together."""
 UNITS = {"side_wall": "N/m", "scuffed": "m", "inner_scuffed": "m", "slipped": "m", "registration": "m"}
 
 
@@ -62,6 +64,8 @@ def _print(result: "Result", lines: list["LineMargins"], limits: list["Judged"])
         console.print("No line on a route was in this run." if known else "This run keeps no route: it is of an "
                       "earlier version. Run it again.")  # fmt: skip
     for line in lines:
+        if len(lines) > 1:
+            console.print(line.line, style="bold", markup=False)
         if line.stations:
             console.print(_by_station(line))
         console.print(_worst(line))
@@ -104,9 +108,12 @@ def _worst(line: "LineMargins") -> Any:
         if one is None or (key == "hose" and line.of_hose != "hose"):
             continue
         place = "" if one.place is None else f", {one.place:.4g} m"
+        signal = one.signal
+        if key in BOTH and line.whole.core is not None:  # the sum, which is no signal of either
+            name, signal = f"{name}, hose + core", f"{line.line}, element {signal.rpartition('[')[2].rstrip(']')}"
         value = _length(one) if UNITS.get(key) == "m" else f"{one.value:.4g}"
         table.add_row(name, f"{value} {UNITS.get(key, 'N')}", times(margins.get(key)), f"{one.t:.4g}",
-                      f"{one.signal}{place}", station_of(line, key, one))  # fmt: skip
+                      f"{signal}{place}", station_of(line, key, one))  # fmt: skip
     return table
 
 

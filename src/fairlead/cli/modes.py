@@ -8,6 +8,7 @@ import typer
 
 import fairlead.cli.completion as completion
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import place, refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError, shown
 
@@ -46,6 +47,8 @@ def modes(
     from fairlead.studies.modes.modes import modes as study
     from fairlead.studies.modes.told import as_csv, record_of
 
+    refuse_place("--plot", plot)
+    refuse_place("--csv", csv)
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
     found = study(model, at or None, _zones(zones or []), acting=acting, out=out, frequencies=_range(frequencies),
                   change=change)  # fmt: skip
@@ -55,8 +58,7 @@ def modes(
 
         draw(found, plot)
     if csv is not None:
-        csv.parent.mkdir(parents=True, exist_ok=True)
-        csv.write_text(as_csv(found), encoding="utf-8")
+        place(csv, as_csv(found))
     if as_json:
         echo(json.dumps(finite(record_of(found)), indent=2))
     elif not quiet:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fairlead.cli.options import Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import did_you_mean, listing
 
@@ -69,7 +70,9 @@ def plot(
 
     what, named = _asked(words or [])
     signals = [*named, *(signals or ())]
-    if source and is_sweep(pathlib.Path(source)):
+    of_sweep = bool(source) and is_sweep(pathlib.Path(source))
+    refuse_place("--out", out, folder=paper or of_sweep)
+    if of_sweep:
         written = _of_sweep(pathlib.Path(source), figure, what, out)
     elif paper:
         written = _paper(out or pathlib.Path("results") / "paper")

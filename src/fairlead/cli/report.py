@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from fairlead.cli.options import Quiet, Verbose
+from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import echo
 
 
@@ -26,6 +27,7 @@ def report(
     from fairlead.report import page
     from fairlead.results import Result
 
+    refuse_place("--out", out)
     runs = [Result.open(each.parent if each.is_file() else each) for each in results]
     if out is not None:
         out.parent.mkdir(parents=True, exist_ok=True)

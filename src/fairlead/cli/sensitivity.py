@@ -8,6 +8,7 @@ import typer
 
 import fairlead.cli.completion as completion
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import place, refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError, shown
 
@@ -45,11 +46,11 @@ def sensitivity(
     from fairlead.studies.sensitivities.sensitivity import sensitivity as study
     from fairlead.studies.sensitivities.told import as_csv, record_of
 
+    refuse_place("--csv", csv)
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
     found = study(model, _figures(of or []), _parameters(to or []), max_steps=max_steps, told=None if quiet else say)
     if csv is not None:
-        csv.parent.mkdir(parents=True, exist_ok=True)
-        csv.write_text(as_csv(found), encoding="utf-8")
+        place(csv, as_csv(found))
     if as_json:
         echo(json.dumps(finite(record_of(found)), indent=2))
     elif not quiet:

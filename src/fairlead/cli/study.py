@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import fairlead.cli.completion as completion
+from fairlead.cli.places import place
 from fairlead.cli.terminal import console
 
 if TYPE_CHECKING:
@@ -50,9 +51,8 @@ def say(text: str) -> None:
 
 def write_record(folder: pathlib.Path, name: str, record: dict[str, Any]) -> pathlib.Path:
     """Write all of a study as JSON. Returns the file."""
-    folder.mkdir(parents=True, exist_ok=True)
     path = folder / name
-    path.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    place(path, json.dumps(record, indent=1) + "\n")
     return path
 
 

@@ -13,6 +13,7 @@ import typer
 import fairlead.cli.completion as completion
 from fairlead.cli.exit_codes import INTERRUPTED, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AllowFmu, AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import place, refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError
 
@@ -75,6 +76,9 @@ def sweep(
         pathlib.Path | None,
         typer.Option("--out", "-o", metavar="DIR", help="The table goes here. Default: results/NAME-sweep."),
     ] = None,
+    csv: Annotated[
+        pathlib.Path | None, typer.Option(metavar="FILE", help="Write the rows here as well, for a spreadsheet.")
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the table of another sweep.")] = False,
     allow_fmu: AllowFmu = False,
     as_json: AsJson = False,
@@ -88,6 +92,8 @@ def sweep(
     from fairlead.studies.sweeps.plan import is_sweep_file, plan_of_options, read_plan
     from fairlead.studies.sweeps.sweep import sweep as run_all
 
+    refuse_place("--out", out, folder=True)
+    refuse_place("--csv", csv)
     counts = {"lhs": lhs, "sobol": sobol, "monte_carlo": monte_carlo, "saltelli": saltelli, "morris": morris}
     sample = _one_sample(counts)
     if is_sweep_file(subject):
@@ -112,7 +118,10 @@ def sweep(
             raise typer.Exit(INTERRUPTED) from None
     frame = table.frame()
     kept = _keep(job, plan, words, frame, folder)
+    if csv is not None:
+        place(csv, frame.to_csv(index=False, lineterminator="\n"))
     record = _record(frame, plan, standing, folder, kept, limited=job.limited)
+    record |= {"others": table.others, "csv": None if csv is None else str(csv)}
     _print(record, standing, as_json=as_json, quiet=quiet)
     raise typer.Exit(_exit_code(record))
 
@@ -198,7 +207,7 @@ def _lines() -> "Watch":
 
 def _told(now: "Standing") -> str:
     failed = f", {now.failed} did not finish" if now.failed else ""
-    return f"{now.rate:.3g} in a second, {_duration(now.left)} to go{failed}"
+    return f"{now.rate:.3g} cases per second, {_duration(now.left)} to go{failed}"
 
 
 def _duration(seconds: float) -> str:
@@ -230,16 +239,16 @@ def _record(
     from fairlead.studies.sweeps.breach import breach
     from fairlead.studies.sweeps.table import FILE
 
-    mine = frame[frame["case"] >= 0]
-    sentences = mine[mine["status"] != "finished"].groupby(["status", "sentence"]).size().nlargest(5)
+    sentences = frame[frame["status"] != "finished"].groupby(["status", "sentence"]).size().nlargest(5)
     sample = plan.design.sample
     shares = sample is not None and sample.kind in SHARES and limited
-    likely = breach(mine) if shares else None
+    likely = breach(frame) if shares else None
     return {
-        "cases": {str(name): int(count) for name, count in mine["status"].value_counts().items()},
+        "cases": {str(name): int(count) for name, count in frame["status"].value_counts().items()},
         "reused": standing.reused, "computed": standing.done, "seconds": round(standing.seconds, 3),
         "table": str(folder / FILE), "kept": [str(one) for one in kept],
         "reasons": [{"status": s, "sentence": t, "cases": int(n)} for (s, t), n in sentences.items()],
+        "broken": int((frame["limits_broken"] > 0).sum()) if limited else None,
         "breach": None if likely is None else {**vars(likely), "sentence": str(likely)},
     }  # fmt: skip
 
@@ -254,12 +263,18 @@ def _print(record: dict[str, Any], standing: "Standing", *, as_json: bool, quiet
 def _print_sentences(record: dict[str, Any], standing: "Standing") -> None:
     counts = ", ".join(f"{count} {name}" for name, count in record["cases"].items())
     reused = f", {record['reused']} were there already" if record["reused"] else ""
-    took = f"{_duration(standing.seconds)} ({standing.rate:.3g} in a second)"
+    took = f"{_duration(standing.seconds)} ({standing.rate:.3g} cases per second)" if standing.done else "no time"
     echo(f"{counts}; {record['computed']} computed in {took}{reused}")
     for one in record["reasons"]:
         echo(f"{one['cases']} {one['status']}: {one['sentence'][:300]}")
     if record["breach"] is not None:
         echo(record["breach"]["sentence"])
-    for place in record["kept"]:
-        echo(f"kept {place}")
-    echo(f"wrote {record['table']}")
+    elif record["broken"]:
+        echo(f"limits are broken in {record['broken']} of {sum(record['cases'].values())} cases: see limits_broken")
+    for folder in record["kept"]:
+        echo(f"kept {folder}")
+    others = record["others"]
+    kept = f"; rows of other designs in it: {others} (case -1), which count nowhere" if others else ""
+    echo(f"wrote {record['table']}{kept}")
+    if record["csv"]:
+        echo(f"wrote {record['csv']}")

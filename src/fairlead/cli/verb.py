@@ -6,6 +6,8 @@ stage foresaw is a mistake of fairlead: the user gets a short text to send, and 
 
 import contextlib
 import json
+import os
+import pathlib
 import sys
 import traceback
 import warnings
@@ -104,6 +106,9 @@ class Verb(typer.core.TyperCommand):
         except Exception as error:
             if _belongs_to_typer(error):
                 raise
+            if told := _of_disk(error, ctx.params):
+                echo(_as_json(told) if as_json else str(told), err=not as_json)
+                raise typer.Exit(told.exit_code) from error
             echo(_report_text(error, verbose), err=True)
             raise typer.Exit(UNFORESEEN) from error
 
@@ -125,6 +130,21 @@ def _as_json(error: FairleadError) -> str:
     faults = [fault_record(fault) for fault in all_faults[:MOST_FAULTS_TOLD]]
     told = {"ok": False, "exit_code": error.exit_code, "error": str(error), "faults": faults, "warnings": []}
     return json.dumps(told, indent=2)
+
+
+def _of_disk(error: Exception, given: dict[str, Any]) -> FairleadError | None:
+    """The sentence about a disk that refuses a place that was named, or the default one; None for other errors."""
+    if not isinstance(error, OSError) or not isinstance(error.filename, str | bytes):
+        return None
+    from fairlead.cli.places import told_of_disk
+
+    file = pathlib.Path(os.fsdecode(error.filename)).absolute()
+    words = [one for each in given.values() for one in (each if isinstance(each, list) else [each])]
+    named = [one for one in words if isinstance(one, pathlib.Path)]
+    named += [pathlib.Path(one) for one in words if isinstance(one, str) and one and pathlib.Path(one).is_dir()]
+    if any(one.absolute() in (file, *file.parents) for one in (*named, pathlib.Path("results"))):
+        return FairleadError(told_of_disk(file, error))
+    return None
 
 
 def _belongs_to_typer(error: Exception) -> bool:

@@ -89,11 +89,17 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
         connections=tuple(ends for ends, _ in _connections(tree) if len(ends) > 1),
         run=run,
         record=record,
-        interface=document.interface if document else Interface(),
+        interface=document.interface if document else _interface(tree),
         **blocks,
         digest=digest,
         written={block: _block(tree, block) for block in ("run", "record", "interface")},
     )
+
+
+def _interface(tree: Value) -> Interface:
+    """The block `interface` of a tree in which something else is wrong; nothing if it is wrong itself."""
+    block = tree.entries.get("interface")
+    return (validate(Interface, block)[0] if block is not None else None) or Interface()
 
 
 def _components(tree: Value) -> dict[str, Entry]:

@@ -1,23 +1,28 @@
 """Overrides: `--set mu=0.6`, `--set pad.normal_force="12 N"`, `--set run.stop=5`, put into the tree.
 
-A name without a dot is a scene parameter. In a dotted path the first word is a component, or else a block of
-the netlist (`run`, `record`, `friction`, `effects`, `initial`, `nominal`, `limits`); further words lead into maps, and
-into lists by number or by the name of an item (item_names.py).
+A name without a dot is a scene parameter. A number for it without a unit is in SI, in the dimension that the netlist
+gives the parameter: where that has `m: 2 kg`, `--set m=3` is 3 kg. In a dotted path the first word is a component, or
+else a block of the netlist (`run`, `record`, `friction`, `effects`, `initial`, `nominal`, `limits`); further words lead
+into maps, and into lists by number or by the name of an item (item_names.py).
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import replace
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
+from fairlead.netlist.expressions import Scalar, has_expression
 from fairlead.netlist.files import UNPRINTABLE
 from fairlead.netlist.item_names import item_names
 from fairlead.netlist.limits import DEEPEST
 from fairlead.netlist.netlist import Value
+from fairlead.netlist.parameters import work_out
 from fairlead.netlist.settings import RecordSettings, RunSettings
 from fairlead.netlist.yaml12 import resolve
+from fairlead.quantities import QuantityError, quantity, unit_text
 
 BLOCKS = ("run", "record", "friction", "effects", "initial", "nominal", "limits")
 KEYS = {"run": RunSettings.model_fields, "record": RecordSettings.model_fields}
@@ -52,7 +57,8 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
     if whole := WHOLE.match(text):
         return _several(name, text, whole["key"])
     try:
-        new = Value(resolve(text.strip()), place, place)
+        resolved = resolve(text.strip())
+        new = Value(resolved, place, place)
     except ValueError as error:
         return Fault(PLACE, f"{shown(name)} = {shown(text)}: {error}")
     path = name.replace("[", ".").replace("]", "").split(".")
@@ -71,7 +77,23 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
         path = ["components", *path]
     elif path[0] not in (*BLOCKS, "parameters") or (path[0] == "parameters" and path[1] not in parameters):
         return _unknown(name, parameters, components)
+    if path[0] == "parameters" and len(path) == 2:
+        new = replace(new, content=_with_unit(resolved, path[1], parameters))
     return _placed(tree, path, new, name)
+
+
+def _with_unit(content: Scalar, name: str, parameters: Mapping[str, Value]) -> Scalar:
+    """A bare number with the unit in SI of the parameter that it replaces, if that is a quantity."""
+    if isinstance(content, bool) or not isinstance(content, int | float) or not math.isfinite(content):
+        return content
+    was: object = parameters[name].content
+    if isinstance(was, str) and has_expression(was):
+        was = work_out(parameters)[0].values.get(name)
+    try:
+        unit = unit_text(quantity(was).dimension) if isinstance(was, str) else ""
+    except QuantityError:
+        return content
+    return f"{content!r} {unit}" if unit else content
 
 
 def _several(name: str, text: str, key: str | None) -> Fault:

@@ -22,7 +22,8 @@ from fairlead.results.lock import LOCK_FILE, Held, Lock
 from fairlead.results.store import SERIES_FILE
 
 FINISHED = "finished"
-REPLACEABLE = (run_file.KILLED, "failed")
+BROKEN_OFF = (run_file.KILLED, "failed")
+"""They may have left no row, and then there is nothing to lose."""
 WAY_OUT = "Choose another directory (--out, in Python out=), or replace it (--force, in Python force=True)."
 END_IT = "End that process, or choose another directory (--out, in Python out=)."
 
@@ -84,7 +85,7 @@ def _worth_keeping(path: Path, *, ours: bool) -> bool:
     if record is None:
         return bool(kept.files_of_run(path))
     status = run_file.status(path, record, ours)
-    if status in (*REPLACEABLE, run_file.RUNNING) or not (path / SERIES_FILE).exists():
+    if status == run_file.RUNNING or record.get("status") == run_file.CLAIMED or not (path / SERIES_FILE).exists():
         return False
     return kept.earlier(path) is None or status == FINISHED
 
@@ -98,9 +99,8 @@ def _refuse_what_would_be_lost(path: Path, *, ours: bool) -> None:
     status = run_file.status(path, record, ours)
     if status == run_file.RUNNING:
         raise UsageError(_told_running(path, record))
-    if status not in REPLACEABLE:
-        when = shown(record.get("ended") or record.get("started") or "an unknown time")
-        raise UsageError(f"{path} holds a run that was {_told(status)} at {when}.\n    {WAY_OUT}")
+    if status not in BROKEN_OFF or (path / SERIES_FILE).exists() or kept.earlier(path) is not None:
+        raise UsageError(f"{path} holds a run that {_told(status, record)}.\n    {WAY_OUT}")
 
 
 def _told_running(path: Path, record: Mapping[str, Any]) -> str:
@@ -120,5 +120,10 @@ def _told_held(path: Path) -> str:
     )
 
 
-def _told(status: str) -> str:
-    return {"budget": "stopped by a budget"}.get(status, shown(status))
+def _told(status: str, record: Mapping[str, Any]) -> str:
+    """How it ended, and when; of a killed one that is not known."""
+    if status == run_file.KILLED:
+        return f"was begun at {shown(record.get('started') or 'an unknown time')} and killed"
+    when = shown(record.get("ended") or record.get("started") or "an unknown time")
+    known = {"budget": "was stopped by a budget", "failed": "failed"}
+    return f"{known.get(status, f'was {shown(status)}')} at {when}"

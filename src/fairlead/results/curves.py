@@ -4,7 +4,7 @@
    step, so that it is the dense output itself where a signal is an unknown, and close to it where it follows from some.
 2. A run on a grid (`record.every`) has no rows of steps. There the cubic through four neighbouring rows is taken where
    nothing switches between them and their third difference is small against their second ones; no further than the two
-   rows, where it does not turn between them.
+   rows, where it does not turn between them. Next to an event its row there is the last of the four, however near.
 3. Else a straight line, and never anything across the two rows of an event.
 """
 
@@ -84,10 +84,24 @@ class Curves:
         if self.switches is not None:
             last = len(values) - 1
             before, one, other, after = (values[np.clip(left + k, 0, last)] for k in (-1, 0, 1, 2))
-            straight = (one - before) * (after - other) >= 0.0
+            begin, end = self._slopes(left, before, one, other, after)
+            straight = begin * end >= 0.0
             low = np.where(straight, np.minimum(one, other), low)
             high = np.where(straight, np.maximum(one, other), high)
         return low, high
+
+    def _slopes(
+        self, left: Places, before: Floats, one: Floats, other: Floats, after: Floats
+    ) -> tuple[Floats, Floats]:
+        """How the signal goes into and out of the interval right of rows `left`; at an event, as it does inside."""
+        last = len(self.t) - 1
+        gaps = [self.t[np.clip(left + k + 1, 0, last)] - self.t[np.clip(left + k, 0, last)] for k in (-1, 0, 1)]
+        h0, h1, h2 = (np.where(gap > 0.0, gap, 1.0) for gap in gaps)
+        here, bent_before = (other - one) / h1, (other - one) / h1 - (one - before) / h0
+        bent_after = (after - other) / h2 - here
+        opens, closes = self.side[left] == 1, self.side[np.clip(left + 1, 0, last)] == -1
+        return (np.where(opens, here - bent_after * h1 / (h1 + h2), one - before),
+                np.where(closes, here + bent_before * h1 / (h0 + h1), after - other))  # fmt: skip
 
     def _curves(self, values: Floats, left: Places) -> list[tuple[Places, Places, int]]:
         """Which of the places right of rows `left` are on a curve, the first row of each, and how many rows it has."""
@@ -100,7 +114,10 @@ class Curves:
         if self.switches is not None:
             taken = np.zeros(len(left), dtype=bool)
             for back in (1, 0, 2):  # the four rows round it; where something switches there, those to one side
-                which = np.flatnonzero(~taken & self._smooth(values, left - back))
+                fits = self._smooth(values, left - back)
+                if back != 1:
+                    fits |= self._smooth_to_an_event(values, left - back, opening=back == 0)
+                which = np.flatnonzero(~taken & fits)
                 taken[which] = True
                 curves.append((which, left[which] - back, 4))
         return curves
@@ -123,6 +140,31 @@ class Curves:
         rows = np.where(inside, first, 1)[:, None] + np.arange(-1, 5)
         third, fourth = (np.abs(np.diff(values[rows], n=n, axis=1)).max(axis=1) for n in (3, 4))
         return np.asarray(inside & self._plain(rows) & (fourth <= SMOOTH * third))
+
+    def _smooth_to_an_event(self, values: Floats, first: Places, *, opening: bool) -> NDArray[np.bool_]:
+        """The same of four rows the first of which (`opening`), or the last, is one of an event, between two of a grid.
+
+        Differences are divided ones, in the width of the grid: 2 f[t1, t2, t3] h^2 and 6 f[t0, t1, t2, t3] h^3.
+        """
+        inside = (first >= 0) & (first + 4 <= len(self.t))
+        if self.switches is None or not inside.any():
+            return np.zeros(len(first), dtype=bool)
+        rows = np.where(inside, first, 0)[:, None] + np.arange(4)
+        event, sign = (0, 1) if opening else (3, -1)
+        on_grid = [k for k in range(4) if k != event]
+        fits = inside & (self.side[rows[:, event]] == sign) & (self.side[rows[:, on_grid]] == 0).all(axis=1)
+        gaps = np.diff(self.t[rows], axis=1)
+        short, even, h = gaps[:, 0 if opening else 2], gaps[:, 2 if opening else 0], gaps[:, 1]
+        fits &= (h > 0.0) & (np.abs(even - h) <= EVEN * h) & (short > 0.0) & (short <= (1.0 + EVEN) * h)
+        begin = np.searchsorted(self.switches, self.t[rows[:, 0]], "right")
+        fits &= begin == np.searchsorted(self.switches, self.t[rows[:, 3]], "left")
+        if not fits.any():
+            return np.asarray(fits)
+        width = np.where(gaps > 0.0, gaps, 1.0) / np.where(h > 0.0, h, 1.0)[:, None]
+        slopes = np.diff(values[rows], axis=1) / width
+        second = 2.0 * np.diff(slopes, axis=1) / (width[:, :-1] + width[:, 1:])
+        third = 3.0 * np.abs(np.diff(second, axis=1)[:, 0]) / width.sum(axis=1)
+        return np.asarray(fits & (third <= SMOOTH * np.abs(second).max(axis=1)))
 
     def _plain(self, rows: Places) -> NDArray[np.bool_]:
         """Whether rows are as far apart as the grid says, and nothing switches between them."""

@@ -96,7 +96,9 @@ def to_xarray(result: Record, names: Iterable[str] | None = None, side: Side = "
         SIDE: (TIME, result.side[rows], {"long_name": SIDE_SIGNAL.description}),
     }
     simple = {key: value for key, value in result.run.items() if isinstance(value, str | int | float)}
-    return xarray.Dataset(variables, coordinates, attrs=simple)
+    # NetCDF has no attribute that is true or false
+    plain = {key: str(value).lower() if isinstance(value, bool) else value for key, value in simple.items()}
+    return xarray.Dataset(variables, coordinates, attrs=plain)
 
 
 def to_pandas(result: Record, names: Iterable[str] | None = None, side: Side = "both") -> pandas.DataFrame:

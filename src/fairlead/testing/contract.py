@@ -6,18 +6,21 @@ import functools
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from fairlead.component.base import Composite, Declared
+from fairlead.component.base import Composite, Declared, Family
 from fairlead.component.bundled import bundled
 from fairlead.component.composition import expanded
-from fairlead.component.scene import Scene
+from fairlead.component.given import Part
+from fairlead.component.members import _libraries, show
+from fairlead.component.registry import known_types
+from fairlead.component.scene import Scene, is_head
 from fairlead.component.trace import TraceError
 from fairlead.errors import ModelError
 from fairlead.testing.properties import PROPERTIES
-from fairlead.testing.samples import SampleError, families, sample
+from fairlead.testing.samples import PartAsked, SampleError, families, sample
 from fairlead.testing.settled import Maker, Settled
 from fairlead.testing.world import ContractError, World
 
@@ -40,6 +43,9 @@ class Check:
             )
         if self.name in exempt or any(f"{self.name} {word}" in exempt for word in self.chosen.values()):
             return
+        for part in self.chosen.values():
+            if isinstance(part, PartAsked):
+                _bring_into_view(part.kind)
         rng = np.random.default_rng(zlib.crc32(str(self).encode()))
         for optional in (True, False):
             try:
@@ -60,22 +66,28 @@ class Check:
         return f"{self.kind.__name__}[{words}] {self.name}" if words else f"{self.kind.__name__} {self.name}"
 
 
-def checks(kind: type[Declared], **given: Any) -> list[Check]:
+def checks(kind: type[Declared], /, **given: Any) -> list[Check]:
     """All properties of a class, or of every member of a family with every part, as tests to be called.
 
-    `given` fixes parameters (SI) that random numbers do not suit. A composite has no law of its own.
+    `given` fixes parameters (SI) that random numbers do not suit. A composite has no law of its own. A part, such as a
+    friction curve, has none either: it is asked in the components that take it, as treated when nobody says.
     """
     if issubclass(kind, Composite):
         return []
     bundled()  # or a law would be asked with no curve at all
+    if _is_part(kind):
+        return [Check(name, host, chosen) for host, chosen in _hosts(kind, given) for name in PROPERTIES]
     kinds = [(member, {**words, **given}) for member, words in families(kind)]
     return [Check(name, member, chosen) for member, chosen in kinds for name in PROPERTIES]
 
 
-def contract(kind: type[Declared], **given: Any) -> None:
+def contract(kind: type[Declared], /, **given: Any) -> None:
     """Ask every property of a class. Raises ContractError with all that are broken, one sentence each."""
     broken = [*_unmade(kind, given)] if issubclass(kind, Composite) else []
-    for check in checks(kind, **given):
+    asked = checks(kind, **given)
+    if not asked and not broken and _is_part(kind):
+        raise ContractError(f"{kind.__name__} is no component, and no component with a law takes it: nothing is asked")
+    for check in asked:
         try:
             check()
         except ContractError as error:
@@ -83,6 +95,31 @@ def contract(kind: type[Declared], **given: Any) -> None:
                 broken.append(f"{check.name}: {error}")
     if broken:
         raise ContractError("\n".join(broken))
+
+
+def _is_part(kind: type[Declared]) -> bool:
+    """Whether it is a member of a family that stands in components, and no component itself."""
+    return issubclass(kind, Family) and not is_head(kind) and not kind.declaration.ports
+
+
+def _bring_into_view(part: type[Family]) -> None:
+    """Have the components that take a part of a library know it."""
+    if part.members.get(part.word) is not part:
+        for number, members in enumerate(_libraries):
+            if part in members:
+                show(number)
+
+
+def _hosts(kind: type[Declared], given: dict[str, Any]) -> Iterator[tuple[type[Declared], dict[str, Any]]]:
+    """Components that take a part, each with it; of a family of them the usual member."""
+    part = PartAsked(cast(type[Family], kind), given)
+    for head in known_types().values():
+        host = head.members.get(head.default_word) if is_head(head) else head
+        if host is None or issubclass(host, Composite):
+            continue
+        for name, declared in host.declaration.parameters.items():
+            if isinstance(declared, Part) and issubclass(kind, declared.family):
+                yield host, {name: part}
 
 
 def _odd(check: Check, error: Exception) -> str:

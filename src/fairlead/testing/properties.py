@@ -102,13 +102,15 @@ def as_written(make: Maker, rng: np.random.Generator) -> None:
 
 
 def balance(make: Maker, rng: np.random.Generator) -> None:
-    """What the two ports of a massless two-port take in sums to zero."""
+    """What the two ports of a massless two-port take in sums to zero, unless it holds speeds at a ratio, as a gear."""
     for world, at in _settled(make):
         ports = world.kind.declaration.ports
         if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or _massive(world) or world.prescribed:
             return
         if world.structure.positions:  # its ratio is no number, and its power is zero: see `energy`
             return
+        if _at_a_ratio(world, at):  # its housing takes the rest, and its power is zero: see `energy`
+            continue
         flows = {name: world.flows(at).get(f"port:{name}") for name in ports}
         (a, one), (b, two) = flows.items()
         if one is not None and two is not None and not _close(one.real, -two.real):
@@ -117,6 +119,16 @@ def balance(make: Maker, rng: np.random.Generator) -> None:
                 f"{world.where(at)}: what the two ports of a massless component take in must sum to zero; "
                 f"{a} takes in {one.real:.6g} {unit} and {b} {two.real:.6g} {unit}"
             )
+
+
+def _at_a_ratio(world: World, at: Instant) -> bool:
+    """Whether it holds a slip that changes when both ports move alike: that of a gear, not of a clutch."""
+    ports = world.kind.declaration.ports
+    for slip in world.held(at).values():
+        speeds = [float(np.real(slip.get(name, 0.0))) for name in ports]
+        if abs(sum(speeds)) > ROUNDING * max(map(abs, speeds)):
+            return True
+    return False
 
 
 def dissipates(make: Maker, rng: np.random.Generator) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
@@ -22,6 +23,17 @@ USUAL = {
 }  # fmt: skip
 TRIES = 300  # draws until the class's own `check` finds no contradiction
 POINTS = 5  # of a random table
+
+
+@dataclass(frozen=True)
+class PartAsked:
+    """A member of a family that is asked in the components that take it, with what is fixed of it."""
+
+    kind: type[Family]
+    given: Mapping[str, Any]
+
+    def __str__(self) -> str:
+        return self.kind.__name__
 
 
 class SampleError(ValueError):
@@ -51,7 +63,7 @@ def _members(part: Part) -> dict[str, type[Family]]:
 
 
 def sample(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, Any], optional: bool) -> Values:
-    """A random instance. `chosen` fixes parameters, parts by their word; `optional` gives those that may be absent.
+    """A random instance. `chosen` fixes parameters, parts by word or as asked; `optional` gives those that may lack.
 
     Raises SampleError when every draw contradicts the class's own `check`.
     """
@@ -72,7 +84,7 @@ def _draw(kind: type[Declared], rng: np.random.Generator, chosen: Mapping[str, A
     given: dict[str, Any] = {}
     chosen = {**kind.answers.asked_with, **chosen}
     for name, declared in kind.declaration.parameters.items():
-        if name in chosen and not (isinstance(declared, Part) and isinstance(chosen[name], str)):
+        if name in chosen and not (isinstance(declared, Part) and isinstance(chosen[name], str | PartAsked)):
             given[name] = chosen[name]
             continue
         value = _value(declared, rng, chosen.get(name), optional)
@@ -90,8 +102,9 @@ def _value(declared: Any, rng: np.random.Generator, word: Any, optional: bool) -
         return None if absent else number(declared, rng)
     if isinstance(declared, Part):
         members = _members(declared)
-        member = members[word or next(iter(members))]
-        return sample(member, rng, {}, optional)
+        if isinstance(word, PartAsked):
+            return sample(word.kind, rng, word.given, optional)
+        return sample(members[word or next(iter(members))], rng, {}, optional)
     if isinstance(declared, Block):
         if declared.default is None:  # no law sees it; it says something in other words
             return None

@@ -116,9 +116,8 @@ class Row:
         assert self.saved is not None
         settings = " ".join(f"--set {name}={value}" for name, value in self.switch.settings.items())
         if self.change > NOTICEABLE:
-            if self.switch.then == "on":
-                return "it matters, and the scene leaves it out."
-            return "it matters, and the scene has it."
+            has = {"on": "leaves it out", "off": "has it"}.get(self.switch.then, f"has {self.switch.now}")
+            return f"it matters, and the scene {has}."
         if self.saved <= WORTH or not self.measurable:
             return "not worth a change."
         if self._in_the_start():

@@ -120,7 +120,9 @@ def _unfit(
                      "Write an entry for each unit.")  # fmt: skip
     if not value.entries:
         given = "" if value.content is None else f" = {shown(value.plain())}"
-        way_out = f"Write it as {{below: {_sample(value, bounded[0].unit)}}}, with above, below or both."
+        sample = _sample(value, bounded[0].unit)
+        side = "above" if sample.startswith("-") else "below"  # a bound below zero is more often the least
+        way_out = f"Write it as {{{side}: {sample}}}, with above, below or both."
         return Fault(value.where, f"limits.{pattern}{given} has no bound: a limit is above or below", way_out)
     return None
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.analysis.record.gone_with_effects import gone
 from fairlead.analysis.record.limits import read_limits
-from fairlead.analysis.record.suggestion import suggest
+from fairlead.analysis.record.suggestion import inside, suggest
 from fairlead.component.instantiate import Assembly
 from fairlead.errors import Fault, ModelError
 from fairlead.netlist.limits import MOST_FAULTS
@@ -23,13 +24,16 @@ def unknown_signals(assembly: Assembly) -> list[Fault]:
     unknown = [(value, text) for value, text in recorded_names(assembly) if not picked(names, text)]
     left_out = set(gone(assembly, [*(text for _, text in unknown), *assembly.netlist.limits]))
     unknown = [(value, text) for value, text in unknown if text not in left_out]
-    faults = [_no_such(value, text, [*names]) for value, text in unknown[:MOST_FAULTS]]
+    faults = [_no_such(assembly, value, text, [*names]) for value, text in unknown[:MOST_FAULTS]]
     limits = assembly.netlist.limits.items()
     judged = {text: value for text, value in limits if not _excused(assembly, text) and text not in left_out}
     try:
         read_limits(judged, signals)
     except ModelError as error:
-        faults += error.faults
+        ways = {f"limits.{text}: no signal": way for text in judged if (way := inside(assembly, text))}
+        for one in error.faults:
+            way = next((way for begin, way in ways.items() if one.what.startswith(begin)), "")
+            faults.append(replace(one, way_out=f"{way} {one.way_out}".strip()))
     return faults
 
 
@@ -58,6 +62,7 @@ def _excused(assembly: Assembly, pattern: str) -> bool:
     return bool(assembly.broken) and (first in assembly.broken or any(c in first for c in "*?"))
 
 
-def _no_such(value: Value, pattern: str, names: list[str]) -> Fault:
+def _no_such(assembly: Assembly, value: Value, pattern: str, names: list[str]) -> Fault:
     near, way_out = suggest(pattern, names)
+    way_out = f"{inside(assembly, pattern)} {way_out}".strip()
     return Fault(value.where, f"record: no signal has the name {pattern}. {near}".rstrip(), way_out)

@@ -3,9 +3,32 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
+from fairlead.component.bundled import PACKAGE
 from fairlead.errors import did_you_mean, listing
+
+if TYPE_CHECKING:
+    from fairlead.component.instantiate import Assembly
+
+
+def inside(assembly: Assembly, pattern: str) -> str:
+    """What to do about the name of a state, an unknown or a parameter of a component, which are no signals; or ""."""
+    owner, _, last = pattern.rpartition(".")
+    values = assembly.entries.get(owner) or assembly.instances.get(owner)
+    if values is None:
+        return ""
+    declared, kind = values.type.declaration, values.type.__name__
+    sorts: dict[str, Mapping[str, object]] = {
+        "state": declared.states, "discrete variable": declared.discrete, "unknown": declared.unknowns,
+    }  # fmt: skip
+    for sort, names in sorts.items():
+        if last in names:
+            a = "an" if sort == "unknown" else "a"
+            own = "" if values.type.__module__.startswith(PACKAGE) else f": declare an Output in {kind}, and give it"
+            return f"{last} is {a} {sort} of {kind}, which is no signal{own}."
+    return f"{last} is a parameter of {kind}, which is no signal." if last in declared.parameters else ""
 
 
 def suggest(pattern: str, names: Sequence[str]) -> tuple[str, str]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from fairlead.cases.row import FINISHED
 from fairlead.errors import UsageError, did_you_mean, listing, shown
-from fairlead.studies.sweeps.table import read
+from fairlead.studies.sweeps.table import of_design, read
 
 if TYPE_CHECKING:
     import pandas
@@ -25,8 +25,7 @@ class Rows:
     def read(cls, place: Path) -> Rows:
         """Raises UsageError where there is no table, or none of its cases has finished."""
         table, heading = read(place)
-        frame = table.to_pandas()
-        frame = frame[frame["case"] >= 0].sort_values("case", kind="stable").reset_index(drop=True)
+        frame = of_design(table)
         if not (frame["status"] == FINISHED).any():
             raise UsageError(f"{shown(str(place))}: no case has finished, so there is nothing to draw.")
         return cls(frame, heading)

@@ -7,7 +7,7 @@ halving twice; the error of the derivative is what both differ by, and what nois
     corner   (f(h) - f0)/h and (f0 - f(-h))/h stay apart: the slopes on both sides are different
 
 Where f is smooth the first falls by 4, and so does the difference of both slopes, which is h f''. A jump at some
-distance is no fault of the derivative; it is told beside it, and the step stays short of it.
+distance is no fault of the derivative; it is told beside it, as a corner is, and the step stays short of it.
 """
 
 from __future__ import annotations
@@ -34,6 +34,8 @@ SHRINKS, FEW = 4.0, 4
 """Steps before a jump nearby: so many, each a quarter of the one before."""
 SUDDEN = 64.0
 """A figure that moves more than so much more, with a step four times as large, is no polynomial of degree three."""
+BISECTIONS = 8
+"""Runs that tell a jump at some distance from a corner."""
 SEEN = 0.1
 """A jump at some distance is told where it is as large as this share of what the slope makes until there."""
 DROWNED = "noise of {:.2g} in the figure drowns it; a smaller run.accuracy may help"
@@ -81,6 +83,8 @@ def derivative(
     """The derivative of a figure to the parameter of this index. `bounds`: of z, `noise`: of the figure."""
     varied, begun = runs.varied[index], runs.step(index, 0.0)
     at, asked, made = runs.at(begun).figure(figure), runs.figure(figure), _Side(runs, figure, index, bounds, noise)
+    if not made.sides():
+        return Derivative(figure, varied.name, UNTOLD, at, None, unit, None, None, None, sentence=made.no_value())
     step = step_of(asked, begun, index, bounds, noise)
     limit, beyond = made.nearest_jump(step)
     if step.size > limit:
@@ -108,11 +112,11 @@ class _Side:
     def verdict(self, step: Step, beyond: str) -> _Found:
         """Whether there is a derivative, and what is to be said; `beyond`: of what lies farther away."""
         done = self._done()
-        for side in self._sides():
+        for side in self.sides():
             if self._jumps(side, done):
                 return _Found(JUMP, self._jump(side, done[-1]))
         if not math.isfinite(step.deviation):
-            return _Found(UNTOLD, self._no_value())
+            return _Found(UNTOLD, self.no_value())
         if corner := self._corner(step, done):
             return corner
         if step.deviation > TRUSTED * abs(self.slope(step.size)) and not self._flat(step.size, done):
@@ -128,23 +132,36 @@ class _Side:
         """
         for size, smaller in reversed(list(itertools.pairwise(self._done()))):
             slope = self.slope(step.size) if smaller >= step.size and math.isfinite(step.deviation) else 0.0
-            for side in self._sides():
+            for side in self.sides():
                 ends = [self._end(side, one) for one in (smaller, size)]
                 near, far = (self._off(slope, end) for end in ends)
                 least = max(ABOVE_NOISE * self.noise, self.runs.accuracy * abs(self._figure(0.0)),
                             SEEN * abs(slope * ends[1]))  # fmt: skip
                 if far > max(SUDDEN * near, least):
-                    what = f"it jumps between {self._name(ends[0])} and {self._name(ends[1])}"
-                    if (said := self._with_switch(what, *ends)) != what:
-                        return smaller, said
+                    if not self._switch(*ends):
+                        continue
+                    (one, other), word = self._narrowed(slope, ends[0], ends[1])
+                    what = f"it {word} between {self._name(one)} and {self._name(other)}"
+                    return smaller, self._with_switch(what, one, other)
         return math.inf, ""
+
+    def _narrowed(self, slope: float, near: float, far: float) -> tuple[tuple[float, float], str]:
+        """Two changes between which the figure leaves its slope, and what it does there: a jump keeps its size."""
+        least, size = SUDDEN * self._off(slope, near), self._off(slope, far)
+        for _ in range(BISECTIONS):
+            middle = (near + far) / 2
+            near, far = (near, middle) if self._off(slope, middle) > least else (middle, far)
+            if self._off(slope, far) < LEAST_RATIO * size:
+                return (near, far), "has a corner"
+        return (near, far), "jumps"
 
     def slope(self, size: float) -> float:
         """The difference with a step."""
         high, low = (self._end(side, size) for side in (1.0, -1.0))
         return (self._figure(high) - self._figure(low)) / (high - low)
 
-    def _sides(self) -> list[float]:
+    def sides(self) -> list[float]:
+        """The sides, -1 and 1, on which the model has values of the parameter."""
         return [side for side in (-1.0, 1.0) if self._end(side, LADDER[0]) != 0]
 
     def _end(self, side: float, size: float) -> float:
@@ -191,7 +208,7 @@ class _Side:
 
     def _corner(self, step: Step, done: Sequence[float]) -> _Found | None:
         pairs = [(one, other) for one, other in itertools.pairwise(done) if one <= step.size]
-        if len(self._sides()) < 2 or not pairs:
+        if len(self.sides()) < 2 or not pairs:
             return None
         size, smaller = pairs[0]
         (below, above), near = self._slopes(size), self._slopes(smaller)
@@ -213,22 +230,28 @@ class _Side:
     def _flat(self, most: float, done: Sequence[float]) -> bool:
         """Whether the figure moves no more than its noise: then the derivative is 0 within its error."""
         near = [size for size in done if size <= most]
-        return all(self._apart(side, size) <= ABOVE_NOISE * self.noise for side in self._sides() for size in near)
+        return all(self._apart(side, size) <= ABOVE_NOISE * self.noise for side in self.sides() for size in near)
 
-    def _no_value(self) -> str:
-        point = next((p for size in LADDER for side in (-1.0, 1.0) if self._is_run(size)
-                      and not (p := self.runs.along(self.index, self._end(side, size))).row.ok), None)  # fmt: skip
+    def no_value(self) -> str:
+        """Why there is no difference to take."""
+        points = [point for z, point in self.runs.made.items()
+                  if not any(change for k, change in enumerate(z) if k != self.index)]  # fmt: skip
+        point = next((one for one in reversed(points) if not one.row.ok), None)
         if point is not None:
             values = ", ".join(f"{name} = {value:.6g}" for name, value in point.row.values.items())
             return f"the run with {values} is {point.row.status}: {point.row.sentence}"
-        return "the figure has no value there: what it asks for does not happen"
+        return "the figure has no value at some of the values tried: what it asks for does not happen there"
 
     def _name(self, change: float) -> str:
         varied = self.runs.varied[self.index]
         return f"{varied.name} = {varied.at(change):.8g}"
 
     def _with_switch(self, what: str, one: float, other: float) -> str:
+        switch = self._switch(one, other)
+        return f"{what}; {switch}" if switch else what
+
+    def _switch(self, one: float, other: float) -> str:
+        """The zone change in which the runs at two changes differ, "" where none does."""
         first, second = self.runs.along(self.index, one), self.runs.along(self.index, other)
         names = f"{self.runs.varied[self.index].at(one):.8g}", f"{self.runs.varied[self.index].at(other):.8g}"
-        switch = parting(first.events, second.events, names)
-        return f"{what}; {switch}" if switch else what
+        return parting(first.events, second.events, names)

@@ -7,8 +7,11 @@ varies fastest, and the sample faster than the grid.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
 
 from fairlead.cases.row import Value
 from fairlead.errors import UsageError, listing
@@ -94,19 +97,55 @@ class Design:
             listed = self.listed[rest] if self.listed else {}
             yield {**{name: of_grid[name] for name in self.grid}, **listed, **of_sample}
 
-    def corners(self) -> Iterator[dict[str, Value]]:
-        """Few cases in which every end and every word occurs once: what is wrong in a range is wrong in one of them."""
-        columns = self.sample.columns() if self.sample else {}
-        named: dict[str, list[Value]] = {name: _ends(values) for name, values in self.grid.items()}
-        named |= {name: _ends(sorted(set(texts))) for name, texts in columns.items()}
-        first = {name: values[0] for name, values in named.items()}
-        for k in range(max(map(len, named.values()), default=1)):
+    def tries(self) -> Iterator[dict[str, Value]]:
+        """A few cases from all over the design: in the middle, at both ends, and between."""
+        named: dict[str, Sequence[Value]] = {name: _spread(values) for name, values in self.grid.items()}
+        if self.sample:
+            laws, columns = self.sample.over, self.sample.columns()
+            named |= {name: _spread(_sorted(laws[name], texts)) for name, texts in columns.items()}
+        listed = _spread(self.listed)
+        for k in range(max(map(len, [*named.values(), listed]))):
             case = {name: values[min(k, len(values) - 1)] for name, values in named.items()}
-            yield {**first, **case, **(self.listed[min(k, len(self.listed) - 1)] if self.listed else {})}
+            yield {**case, **(listed[min(k, len(listed) - 1)] if listed else {})}
+
+    def kinds(self) -> dict[str, dict[str, Value]]:
+        """Of each name of grid and sample one value of each kind: every word is one, and every dimension of numbers."""
+        named: dict[str, Iterable[Value]] = dict(self.grid)
+        if self.sample:  # all numbers of a law are of one kind
+            named |= {name: law.words or law.texts(np.array([0.5])) for name, law in self.sample.over.items()}
+        found: dict[str, dict[str, Value]] = {}
+        for name, values in named.items():
+            for value in values:
+                found.setdefault(name, {}).setdefault(kind_of(value), value)
+        return found
 
 
-MOST_ENDS = 12
+MOST_TRIES = 12
 
 
-def _ends(values: Sequence[Value]) -> list[Value]:
-    return [*values] if len(values) <= MOST_ENDS else [values[0], values[-1]]
+def kind_of(value: Value) -> str:
+    """What sort of value it is: its unit in SI where it is a quantity, "number" without a unit, else the word."""
+    from fairlead.quantities import NUMBER, QuantityError, quantity, unit_text
+
+    if not isinstance(value, str):
+        return str(value) if isinstance(value, bool) else "number"
+    try:
+        return unit_text(quantity(value).dimension) or "number"
+    except QuantityError:
+        return "number" if NUMBER.fullmatch(value) else value
+
+
+def _sorted(law: Distribution, texts: Sequence[str]) -> list[str]:
+    """Different values of a sample, numbers from the lowest to the highest."""
+    return [*law.words] if law.words else sorted(dict.fromkeys(texts), key=lambda one: float(one.partition(" ")[0]))
+
+
+def _spread(values: Sequence[Any]) -> list[Any]:
+    """Some of the values, MOST_TRIES at most: that in the middle first, then both ends, then others."""
+    count = len(values)
+    if count <= MOST_TRIES:
+        order = dict.fromkeys([count // 2, 0, count - 1, *range(count)]) if count else {}
+    else:
+        even = [round(k * (count - 1) / (MOST_TRIES - 2)) for k in range(MOST_TRIES - 1)]
+        order = dict.fromkeys([count // 2, 0, count - 1, *even])
+    return [values[at] for at in order]

@@ -11,8 +11,8 @@ from typing import Any, Protocol
 
 from fairlead.cases.cases import PLACE as OF_CASE
 from fairlead.cases.row import FINISHED, Row, Value
-from fairlead.errors import Location, ModelError
-from fairlead.studies.sweeps.design import Design
+from fairlead.errors import Location, ModelError, shown
+from fairlead.studies.sweeps.design import Design, kind_of
 from fairlead.studies.sweeps.farm import Case, Farm, Here
 from fairlead.studies.sweeps.job import Job
 from fairlead.studies.sweeps.table import Heading, SweepTable, texts_among
@@ -63,18 +63,22 @@ def sweep(job: Job, design: Design, folder: Path, *, computers: Callable[[Job], 
 
     With `processes=0` this process computes, which a debugger needs; a case that kills it ends all.
 
-    Raises ModelError or UsageError before anything runs if a case at an end of the design is refused, UsageError for a
-    folder with another sweep. After KeyboardInterrupt, or a disk that is full, the table has all rows it could write.
+    Raises ModelError before anything runs for a name, a word or a dimension that the model does not take, and if none
+    of a few cases from all over the design is possible; a number beyond its range costs its row. Raises UsageError for
+    a folder with another sweep. After KeyboardInterrupt, or a disk that is full, the table has all rows it could write.
+    Rows of an earlier design stay in it, with no number; `frame` of the table has those of the design.
     """
     design.refuse()
-    for case in design.corners():
-        _check(job, case)
+    _refuse_what_no_case_can_have(job, design)
     table = SweepTable(folder, heading_of(job, design), force=force)
-    known = {key for key, _ in table.rows_by_key()}
-    numbers = {(key, number) for key, number in table.rows_by_key()}
-    standing = Standing(design.count)
+    known, standing = table.keys(), Standing(design.count)
+    if known:
+        of_design = ((number, job.key(values)) for number, values in enumerate(design.cases()))
+        there = [(number, key) for number, key in of_design if key in known]
+        table.number(there)
+        standing.reused = len(there)
     twins: list[tuple[int, str]] = []
-    cases = _missing(job, design, known, numbers, twins, standing)
+    cases = _missing(job, design, known, twins, standing)
     make = computers or (Here if processes == 0 else lambda one: Farm(one, processes or cores()))
     try:
         with make(job) as crew:
@@ -92,12 +96,40 @@ def sweep(job: Job, design: Design, folder: Path, *, computers: Callable[[Job], 
     return table, standing
 
 
-def _check(job: Job, values: Mapping[str, Value]) -> None:
-    """Raise ModelError for values of a case that the model has not; they are told as those of the sweep."""
-    try:
-        job.check(values)
-    except ModelError as error:
-        raise ModelError([replace(one, where=PLACE) if one.where == OF_CASE else one for one in error.faults]) from None
+def _refuse_what_no_case_can_have(job: Job, design: Design) -> None:
+    """Raise ModelError where all tries are refused, or a kind of value beside those of a case that is not."""
+    sound, refused = None, list[ModelError]()
+    for case in design.tries():
+        try:
+            job.check(case)
+        except ModelError as error:
+            refused.append(_of_case(error, case))
+        else:
+            sound = case
+            break
+    if sound is None:
+        raise refused[0]
+    if design.listed:
+        return  # their values come together, so that no other case is made of them
+    for name, kinds in design.kinds().items():
+        for kind, value in kinds.items():
+            if kind != kind_of(sound[name]):
+                case = {**sound, name: value}
+                try:
+                    job.check(case)
+                except ModelError as error:
+                    raise _of_case(error, case) from None
+
+
+def _of_case(error: ModelError, case: Mapping[str, Value]) -> ModelError:
+    """The mistakes of a case, told as those of the sweep, with the values of the case."""
+    values = ", ".join(f"{name} = {shown(value)}" for name, value in case.items())
+    faults = [replace(one, where=PLACE) if one.where == OF_CASE else one for one in error.faults]
+    *others, last = faults
+    if values in f"{last.what} {last.way_out}":  # it says so itself
+        return ModelError(faults)
+    way_out = "\n".join(filter(None, [last.way_out, f"This is in the case {values}."]))
+    return ModelError([*others, replace(last, way_out=way_out)])
 
 
 def cores() -> int:
@@ -128,15 +160,15 @@ def heading_of(job: Job, design: Design) -> Heading:
     return Heading(job.name, job.scene, design.count, tuple(design.names), texts_among(seen), job.units, told)
 
 
-def _missing(job: Job, design: Design, known: set[str], numbers: set[tuple[str, int]], twins: list[tuple[int, str]],
+def _missing(job: Job, design: Design, known: set[str], twins: list[tuple[int, str]],
              standing: Standing) -> Iterator[tuple[int, Mapping[str, Value]]]:  # fmt: skip
     """Cases that no row is there for. One that stands twice in the design is computed once."""
+    given: set[str] = set()
     for number, values in enumerate(design.cases()):
         key = job.key(values)
-        if key not in known:
-            known.add(key)
-            yield number, values
-        else:
+        if key in given:
             standing.reused += 1
-            if (key, number) not in numbers:
-                twins.append((number, key))
+            twins.append((number, key))
+        elif key not in known:
+            given.add(key)
+            yield number, values

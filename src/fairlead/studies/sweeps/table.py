@@ -1,15 +1,15 @@
 """The table of a sweep: one Parquet file, replaced as a whole every few seconds, so that it can be read at any time.
 
-A row for each case: `case` (its number in the design), `key`, the values, `status`, `sentence`, the figures, counters,
-`broken`, seconds and host. Units and what the columns are stand in the metadata of the file, under `fairlead`. Writing
-takes at most a twentieth of the time.
+A row for each case: `case` (its number in the design, -1 in rows of other designs), `key`, the values, `status`,
+`sentence`, the figures, counters, `broken`, seconds and host. Units and what the columns are stand in the metadata of
+the file, under `fairlead`. Writing takes at most a twentieth of the time.
 """
 
 from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,6 +28,8 @@ TOLD = ("key", "case", "status", "sentence")
 COST = ("seconds", "loop", "host")
 OWN = (*TOLD, *COUNTED, "limits_broken", *COST)
 """Columns that every table has; no parameter and no figure may have their names."""
+NO_CASE = -1
+"""Number of a row that is of no case of the design: an earlier one in the same folder had it."""
 TEXTS = ("key", "status", "sentence", "host")
 MISSING = "The table of a sweep is a Parquet file, which needs pyarrow.\n    Install it: pip install 'fairlead[sweep]'"
 
@@ -83,10 +85,27 @@ class SweepTable:
         with _disk(folder):
             folder.mkdir(parents=True, exist_ok=True)
 
-    def rows_by_key(self) -> Iterator[tuple[str, int]]:
-        """Key and number of the case of every row."""
-        for part in self._parts:
-            yield from zip(part["key"].to_pylist(), part["case"].to_pylist(), strict=True)
+    def keys(self) -> set[str]:
+        """Keys of all rows that are there, of whatever design."""
+        return {key for part in self._parts for key in part["key"].to_pylist()}
+
+    def number(self, cases: Iterable[tuple[int, str]]) -> None:
+        """Give rows the numbers that their cases have in the design: (number, key) of those that are there.
+
+        The same row stands once for each of its cases. A row that is of none of them stands once, as NO_CASE.
+        """
+        table = self._arrow.concat_tables(self._parts or [self._schema.empty_table()])
+        first: dict[str, int] = {}
+        for at, key in enumerate(table["key"].to_pylist()):
+            first.setdefault(key, at)
+        wanted = [(number, first[key]) for number, key in cases]
+        used = {at for _, at in wanted}
+        wanted += [(NO_CASE, at) for at in first.values() if at not in used]
+        found = table.take(self._arrow.array([at for _, at in wanted], self._arrow.int64()))
+        numbers = self._arrow.array([number for number, _ in wanted], self._arrow.int64())
+        made = found.set_column(found.schema.get_field_index("case"), self._schema.field("case"), numbers)
+        self._whole = self._whole and made.equals(table)
+        self._parts = [made]
 
     def add(self, number: int, row: Row) -> None:
         """Take a row; it reaches the disk when it is time."""
@@ -131,10 +150,14 @@ class SweepTable:
         self._pause = max(PERIOD, (self._written - begun) / SHARE)
 
     def frame(self) -> pandas.DataFrame:
-        """All rows, in the order of the design."""
+        """The rows of the design, in its order."""
         self._gather()
-        table = self._arrow.concat_tables(self._parts or [self._schema.empty_table()])
-        return table.to_pandas().sort_values("case", kind="stable").reset_index(drop=True)
+        return of_design(self._arrow.concat_tables(self._parts or [self._schema.empty_table()]))
+
+    @property
+    def others(self) -> int:
+        """How many rows are of other designs."""
+        return sum(part["case"].to_pylist().count(NO_CASE) for part in self._parts)
 
     def _gather(self) -> None:
         if self._rows:
@@ -169,7 +192,18 @@ class SweepTable:
         if table.schema.names != self._schema.names:
             had = listing([*heading["parameters"]])
             raise UsageError(f"{self.folder / FILE} has cases of other parameters: {had}.\n    {way_out}")
-        return table.cast(self._schema).replace_schema_metadata(self._schema.metadata)
+        try:
+            return table.cast(self._schema).replace_schema_metadata(self._schema.metadata)
+        except self._arrow.ArrowInvalid:
+            words = listing([name for name in heading["texts"] if name not in self.heading.texts])
+            what = f"has words for {words}, where this sweep has numbers"
+            raise UsageError(f"{self.folder / FILE} {what}.\n    {way_out}") from None
+
+
+def of_design(table: Any) -> pandas.DataFrame:
+    """The rows of a table that are of its design, in the order of that."""
+    frame = table.to_pandas()
+    return frame[frame["case"] != NO_CASE].sort_values("case", kind="stable").reset_index(drop=True)
 
 
 def read(place: Path) -> tuple[Any, dict[str, Any]]:
