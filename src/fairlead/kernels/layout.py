@@ -131,7 +131,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     CIRCLE_AT,  # where among the partial derivatives their factors begin, then those of the bodies
     CIRCLE_PAIRS,  # int64 (circles, CIRCLE)
     CIRCLE_COEF,  # float64 (circles, CIRCLE_COEFS)  coefficients of a and b, sense, factor g
-    CIRCLE_ZONES,  # int64 (., CIRCLE_ZONE)  by zone: whether it holds, the guard on the slip that ends it (or -1)
+    CIRCLE_ZONES,  # int64 (., CIRCLE_ZONE)  by zone: whether it holds, guard on the slip that ends it (or -1), direction
     CIRCLE_SEEN,  # int64 (circles,)     zone for which the rest was found
     CIRCLE_STILL,  # int64 (circles,)    1 for a contact that slides in name only
     CIRCLE_BODIES,  # int64 (bodies, BODY)
@@ -223,7 +223,7 @@ PART_SIGN, PART_MASS, PART_COEFS = range(3)  # of PARTS_COEF
 # Of CIRCLE_PAIRS: force, nodes a and b, where in z their shares lie, machine or -1, its first row in CIRCLE_ZONES.
 CIRCLE_FORCE, CIRCLE_A, CIRCLE_B, CIRCLE_SHARE_A, CIRCLE_SHARE_B, CIRCLE_MACHINE, CIRCLE_FIRST, CIRCLE = range(8)
 COEF_A, COEF_B, COEF_SENSE, COEF_FACTOR, CIRCLE_COEFS = range(5)  # of CIRCLE_COEF
-CIRCLE_HOLDS, CIRCLE_GUARD, CIRCLE_ZONE = range(3)  # of CIRCLE_ZONES
+CIRCLE_HOLDS, CIRCLE_GUARD, CIRCLE_DIRECTION, CIRCLE_ZONE = range(4)  # of CIRCLE_ZONES
 BODY_NODE, BODY_SHARE, BODY = range(3)  # of CIRCLE_BODIES
 NODE_HANGS_ON, NODE_ABOVE, NODE_UNION_HANGS_ON, NODE_SIZE, NODE = range(5)  # of CIRCLE_NODES
 RATED_ROW, RATED_RATE, RATED_JUMPS, RATED_NODE = range(4)  # of RATED

@@ -69,7 +69,7 @@ def sharing(
     place = {i.path: (b, s, k) for b, s in zip(blocks, shares, strict=True) for k, i in enumerate(b.instances)}
     nodes = {index: k for k, index in enumerate(dict.fromkeys(g for p in numbering.circles for g, _ in p.ends))}
     pairs, coefs = [], []
-    zones: list[tuple[int, int]] = []
+    zones: list[tuple[int, int, int]] = []
     for pair in numbering.circles:
         block, share, i = place[pair.path]
         (a, coef_a), (b, coef_b) = pair.ends
@@ -108,13 +108,16 @@ def _hangs_on(flat: FlatModel, index: int) -> int:
     return FREE if flat.groups[index].free else DRIVEN
 
 
-def _zones(block: Block, share: Share, i: int, unknown: str) -> list[tuple[int, int]]:
-    """By zone: 1 if it holds, and the first guard on the slip that leads from it to one that does (or -1)."""
-    s = block.kernel.structure
+def _zones(block: Block, share: Share, i: int, unknown: str) -> list[tuple[int, int, int]]:
+    """By zone: 1 if it holds, the first guard on the slip that leads from it to one that does (or -1), its direction."""
+    s, kind = block.kernel.structure, block.kernel.variant.type.declaration.zones
     holding = s.holds[unknown]
     stop = stops(block, holding)
     guard = share.guards + i * s.slots
-    return [(int(zone in holding), guard + stop[zone][0] if stop.get(zone) else -1) for zone in s.zones]
+    return [
+        (int(zone in holding), guard + stop[zone][0] if stop.get(zone) else -1, kind.direction(zone))
+        for zone in s.zones
+    ]
 
 
 def stops(block: Block, holding: Sequence[str]) -> Stops:

@@ -115,7 +115,10 @@ def add_shares(ctx, t, y):
 
 
 def guard_shares(ctx, t, y, g):
-    """The guards that end sliding in name: the slip speed that what is missing to the limit would build up in tau."""
+    """The guards that end sliding in name: the slip speed that what is missing to the limit would build up in tau.
+
+    A zone tells which way its friction acts; the force in y may still be that of the zone before, under an impulse.
+    """
     regroup(ctx, t, y)
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     z, seen, still, tau = f8(ctx[Z]), i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_STILL]), f8(ctx[TAU])
@@ -125,5 +128,8 @@ def guard_shares(ctx, t, y, g):
             force = coef[own + COEF_SENSE] * y[pairs[row + CIRCLE_FORCE]]
             a, b = pairs[row + CIRCLE_SHARE_A], pairs[row + CIRCLE_SHARE_B]
             share = coef[own + COEF_A] * z[a] + coef[own + COEF_B] * z[b]
-            guard = table[CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j]) + CIRCLE_GUARD]
-            g[guard] = tau[0] * coef[own + COEF_FACTOR] * (abs(force) - sign(force) * share)
+            zone = CIRCLE_ZONE * (pairs[row + CIRCLE_FIRST] + seen[j])
+            way = sign(force)
+            if table[zone + CIRCLE_DIRECTION] != 0:
+                way = table[zone + CIRCLE_DIRECTION] * abs(way)
+            g[table[zone + CIRCLE_GUARD]] = tau[0] * coef[own + COEF_FACTOR] * (abs(force) - way * share)
