@@ -53,6 +53,8 @@ if TYPE_CHECKING:
 
 NO_GRID = 1e300
 """A grid of rows with nothing but its first point: rows are read by `get`."""
+NEAR_END = 1e-9
+"""Share of the end of the span, or of the span, that no goal may be nearer to: a run lands on its end a little early."""
 
 
 class Change(NamedTuple):
@@ -203,7 +205,8 @@ class Stepping:
             self._take_over()
             return goal
         number = self._memory.number
-        if goal >= number["stop"]:  # the span is a scale of times, and its end no event
+        if goal >= number["stop"] - NEAR_END * max(abs(number["stop"]), number["stop"] - number["start"]):
+            # the span is a scale of times, and its end no event
             number["stop"] = number["start"] + 2.0 * (goal - number["start"])
         self._values = None
         self._take_over()

@@ -1,4 +1,4 @@
-"""An impact on a body with two contacts side by side, one of which carries its limit: as with one contact in their place.
+"""An impact on a body with two contacts side by side, one of them at its limit: as with one contact in their place.
 
 The body is preloaded against the blow, so that the weaker contact already carries its sliding friction without moving.
 Under the impulse both have to slide the other way.

@@ -131,7 +131,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     CIRCLE_AT,  # where among the partial derivatives their factors begin, then those of the bodies
     CIRCLE_PAIRS,  # int64 (circles, CIRCLE)
     CIRCLE_COEF,  # float64 (circles, CIRCLE_COEFS)  coefficients of a and b, sense, factor g
-    CIRCLE_ZONES,  # int64 (., CIRCLE_ZONE)  by zone: whether it holds, guard on the slip that ends it (or -1), direction
+    CIRCLE_ZONES,  # int64 (., CIRCLE_ZONE)  by zone: whether it holds, its guard on the slip (or -1), its direction
     CIRCLE_SEEN,  # int64 (circles,)     zone for which the rest was found
     CIRCLE_STILL,  # int64 (circles,)    1 for a contact that slides in name only
     CIRCLE_BODIES,  # int64 (bodies, BODY)

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { MESSAGE = 1024, LINE = 64 };
+static const double NEAR_END = 1e-9; /* share of the span's end that no goal may be nearer to */
 
 struct Run {
     unsigned char *memory, *room;
@@ -288,7 +289,9 @@ int run_advance(Run *run, double goal, int until_change, int *changed) {
     *changed = 0;
     if (run_begin(run) || go_over(run)) return -1;
     if (goal == run_time(run)) return run_settle(run);
-    if (goal >= *real(run, AT_STOP)) /* the span is a scale of times, and its end no event */
+    double stop = *real(run, AT_STOP);
+    /* the span is a scale of times, and its end no event */
+    if (goal >= stop - NEAR_END * fmax(fabs(stop), stop - *real(run, AT_START)))
         *real(run, AT_STOP) = *real(run, AT_START) + 2.0 * (goal - *real(run, AT_START));
     if (run_settle(run)) return -1;
     run->changes = 0;

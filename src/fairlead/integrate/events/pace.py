@@ -31,6 +31,8 @@ def over_budget(run, recorder):
 def propose(run, point):
     """The next step size: what control wants, clipped to land on the next time event or the stop."""
     run.t_land = min(run.stop, min(run.t_next, run.t_release))
+    if run.stop - run.t_land <= INSTANT * max(abs(run.stop), run.stop - run.start):
+        run.t_land = run.stop  # no step could cover what would be left
     rest = run.t_land - point.t
     h = shorten_for_growth(run, point, min(run.h_next, run.max_step))
     run.h_wanted = h

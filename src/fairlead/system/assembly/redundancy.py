@@ -109,7 +109,7 @@ def _hangs_on(flat: FlatModel, index: int) -> int:
 
 
 def _zones(block: Block, share: Share, i: int, unknown: str) -> list[tuple[int, int, int]]:
-    """By zone: 1 if it holds, the first guard on the slip that leads from it to one that does (or -1), its direction."""
+    """By zone: 1 if it holds, the first guard on the slip that leads to one that does (or -1), its direction."""
     s, kind = block.kernel.structure, block.kernel.variant.type.declaration.zones
     holding = s.holds[unknown]
     stop = stops(block, holding)
