@@ -65,7 +65,7 @@ class Facts(Protocol):
 
     @property
     def met_guard(self) -> Integers:
-        """Guards of places at which a stop is met that takes any impulse: known to rounding (settling.py)."""
+        """Guards of places at which a stop is met that takes any impulse: known to rounding (violators.py)."""
 
     @property
     def takes_impulse(self) -> Integers:
@@ -106,7 +106,7 @@ class Facts(Protocol):
 
     @property
     def ledger(self) -> tuple[int, int]:
-        """Unknowns in which what is dissipated and what is supplied adds up, -1 for none (impulse.py)."""
+        """Unknowns in which what is dissipated and what is supplied adds up, -1 for none (impulse_changes.py)."""
 
     @property
     def linear(self) -> bool:

@@ -3,8 +3,8 @@
     START    point = (start, y0); at_time; settle it (staged)
     while point.t < stop:
         TRY      method.attempt: h = propose(point)        # clipped to land on time events
-                 trial = step(point, h)                    # the minor step: M and J frozen, and zones unless
-                                                           # the method finds those of the end
+                 trial = step(point, h)                    # the minor step: zones frozen, and M and J with them;
+                                                           # not so where `stepping` finds the zones of the end
                  rejected: shrink h; TRY again
                  given up: SETTLE at the point
                  accepted: up to the first crossing, or to the end

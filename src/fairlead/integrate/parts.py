@@ -1,6 +1,6 @@
 """What the loop works on: the whole problem, or the part of it that moves.
 
-A problem that can say what is at rest (`narrowing`, see problem.py) is cut down to what moves, with a margin, when
+A problem that can say what is at rest (`narrowing`, see facts.py) is cut down to what moves, with a margin, when
 that is much less; and woken when a contact at the rim of the part lets go. Steps, switches and error control are
 those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so that two
 runs do the same.

@@ -181,7 +181,11 @@ class Instance(Problem, Narrowed, Protocol):
 
     @property
     def guard_tolerance(self) -> Floats:
-        """[ng]; at an accepted point no guard may be above this."""
+        """[ng]; at an accepted point no guard may be above this.
+
+        Of a step with switches inside that is judged before its end is moved by the error of its rule
+        (docs/stepping.md).
+        """
 
     @property
     def n_outputs(self) -> int:

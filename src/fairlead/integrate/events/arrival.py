@@ -71,7 +71,8 @@ def start(problem, run, point, events):
 def arrive(m, located):
     """Move to the end of the piece; settle there if guards fired or a time event changed anything.
 
-    `located`: crossings are places on the interpolant of the step.
+    `located`: at a crossing forces are those of the equations, in place of the interpolated ones (`judge_again`). Not
+    so of `stepping`, also where it locates crossings: its settlement there makes forces consistent.
     """
     problem, run, point, linear, events, guards = m.problem, m.run, m.point, m.linear, m.events, m.events.guards
     recorder = m.recorder

@@ -36,7 +36,7 @@ CLOSEST = 4 * float(np.finfo(float).eps)
 WARNINGS = "SUNLOGGER_WARNING_FILENAME"
 """Where the logger of SUNDIALS writes warnings; empty for nowhere."""
 FACTORISED, SINGULAR = 0, 1
-"""What `prepare` returns, as in linear.py; anything else asks for other pivots."""
+"""What `prepare` returns, as in linear/systems.py; anything else asks for other pivots."""
 
 
 class Refused(Exception):

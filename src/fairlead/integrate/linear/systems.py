@@ -3,10 +3,10 @@
     step              W = s M - J, s = 1/(h gamma)
     consistent point  C = the columns of M where y_i is differential, of -J where it is algebraic
 
-Both live in `matrix`, along one fixed pattern. Below DENSE_LIMIT unknowns it is a full matrix, by
-columns, factored here with partial pivoting; above, the core of it (condensing.py) along a plan, see
-sparse.py. Unknowns are scaled by their error weight before rows are compared, so that the choice of
-pivots does not depend on units.
+Both live in `matrix`, along one fixed pattern. With up to ordering.DENSE_LIMIT unknowns, and with more where that takes
+less operations (ordering.plan), it is a full matrix, by columns, factored here with partial pivoting; else the core of
+it (condensing.py) along a plan, see sparse.py. Unknowns are scaled by their error weight before rows are compared, so
+that the choice of pivots does not depend on units.
 """
 
 from __future__ import annotations

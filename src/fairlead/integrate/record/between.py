@@ -22,7 +22,7 @@ from fairlead.integrate.point.stiff import FURTHEST, OF_BALANCES
 
 MOST_MOVES = 12
 """Moves behind the first, at most. Where laws are linear one is enough; a flow through orifices that turns round, whose
-slope changes many times on the way, took no more than this on either engine (test_shown_in_balance.py)."""
+slope changes many times on the way, took no more than this on `rodas` and `stepping` (test_shown_in_balance.py)."""
 MOST_FURTHER = 6
 """Moves that each go FURTHEST times as far as the one before, at most: a law a millionth as stiff is none."""
 LAST_MOVE = 1e-6

@@ -2,7 +2,7 @@
 
 A machine is what has zones: a contact, a stop, a rope, a table, a relay. A zone is one set of laws of it, and a guard
 tells when it changes to another. Up to 40 machines (`Run.most_located`) a step ends at every switch instead, and zones
-are frozen inside a step.
+are frozen inside a step; not so with a fixed step, or with a theta above 1/2 (engine.py, `rule.locates`).
 
 docs/stepping.md is the page on its error. In the order of a step:
 

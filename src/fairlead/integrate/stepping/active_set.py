@@ -23,7 +23,9 @@ HANDED_ON, RUNS_ON = 0.8, 0.7
 one, contacts are let go that must be caught again, and catching takes with it some that had to go."""
 LONGEST_FRONT = 64
 MET = 1
-"""What `met` says of a machine that lets go; 0 of others."""
+"""What `met` says of a machine that lets go. It is 0 of others, and the place in `fired` + 2 of one that was handed a
+load in the round that is going on (`hand_on_from`). Between two passes all are 0, and jump_inside.py marks there which
+laws have jumped."""
 
 
 @compiled
@@ -137,7 +139,7 @@ def fire_violators_of_step(guards):
 
 @compiled
 def follow_guards(m, h, cascade):
-    """Switch on `fired`, all or the first; True if the switch changes unknowns (a rebound)."""
+    """Switch on `fired`, all, those half as wrong as the worst, or one; True if that changes unknowns (a rebound)."""
     problem, run, point, events, guards = m.problem, m.run, m.point, m.events, m.events.guards
     settling, contacts = m.events.settling, m.stepping.contacts
     if settling.passes >= run.max_passes:

@@ -1,4 +1,4 @@
-"""All that has a step of `stepping` taken again, and with which length; or settled at its start; or with other pivots.
+"""What has a step of `stepping` taken again, and with which length; or settled at its start; or with other pivots.
 
     an error above one              shorter, by the error                         `reject_error`
     not solved, or zones cycle      half of it, or the same without predictions   `halve_unsolved`
@@ -8,7 +8,9 @@
     a switch whose impulse counts   up to the switch                              `find_switch_passed`, `end_at_switch`
 
 All but the pivots and the settlement end in `take_again` (events/given_up.py), which alone sets the length of what
-follows; `repeat` gives back the zones of the start before.
+follows; `repeat` gives back the zones of the start before. Not here is what steps that end at every switch share with
+`rodas`: the piece up to a switch as a step of its own (one_step.take_piece), and the companion rule
+(given_up.mend_start).
 """
 
 from __future__ import annotations

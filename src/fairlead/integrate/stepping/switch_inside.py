@@ -13,7 +13,8 @@ at the switch misses nothing, so where the error counts the step is taken again 
                     at the start of the step.
 
 Laws that jump are in jump_at_end.py and jump_inside.py, what has risen and fallen again by the end of a step in
-passed_over.py. A function `find_...` leaves what it finds: the place in `t_cut`, the unknown in `worst`.
+passed_over.py. `find_missed_impulse` leaves the place in `t_cut`, and that of a kink in `t_kink`; what it asks returns
+a share of the step, 1 where nothing is found. The unknown that is due to it goes to `worst`.
 """
 
 from __future__ import annotations

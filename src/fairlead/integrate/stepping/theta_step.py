@@ -5,18 +5,18 @@
     held contacts                  0 = slip(t0 + h, y1)
 
 y are the differential unknowns, a the algebraic ones: forces of contacts, means over the step. theta = 1/2 is the
-implicit midpoint rule, of order two, which third_order.py makes one of order three that damps what is stiff;
-theta above 1/2, of order one, is taken where zones cycle. A guard reads what its
-law reads: slips at the end of the step, forces and their limits at the point u. So a contact that holds and one
-that slides are the two branches of |force| <= limit, slip at the end = 0 or against the force: a complementarity
-problem. It is solved by an active set (active_set.py): solve with the zones frozen, switch those whose guards are
-violated, solve again. Smooth nonlinearity is taken up by the same iteration, which ends when no guard is violated and
-the residual passes. Where f is linear as long as the zones are frozen one solve is exact, and the residual
-is looked at once per factorisation. Where every switch is landed on (`rule.locates`), the zones are those of the start
-of the step, and only the smooth iteration is left.
+implicit midpoint rule, of order two, which third_order.py makes one of order three that damps what is stiff; theta
+above 1/2, of order one, is taken where zones cycle (repeated.py), over the kink of a table (trial.step_over_kink), and
+where a run asks for it (`Run.theta`). A guard reads what its law reads: slips at the end of the step, forces and their
+limits at the point u. So a contact that holds and one that slides are the two branches of |force| <= limit, slip at the
+end = 0 or against the force: a complementarity problem. It is solved by an active set (active_set.py): solve with the
+zones frozen, switch those whose guards are violated, solve again. Smooth nonlinearity is taken up by the same
+iteration, which ends when no guard is violated and the residual passes. Where f is linear as long as the zones are
+frozen one solve is exact, and the residual is looked at once per factorisation. Where every switch is landed on
+(`rule.locates`), the zones are those of the start of the step, and only the smooth iteration is left.
 
-The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of
-pivots serves both engines; the row of a held contact is M/(h theta), and its share of other forces where it closes a
+The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of pivots serves
+`rodas` and `stepping`; the row of a held contact is M/(h theta), and its share of other forces where it closes a
 circle. The speed of a node without mass is algebraic, a mean over the step like a force: a contact on such a node holds
 that, its slip is zero at the point u.
 """

@@ -15,11 +15,13 @@ is not in the formula, and h^2 times the second derivative of such a motion is n
     W (e/2) = f1 - f0 + 4 c            W (d/2) = q/3 - J e/12 - 2 c/3
 
 f is linear enough for that inside a step, whose zones are frozen; q tells what depends on time or is curved. Contacts
-that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12:
-never by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away,
-where the midpoint rule leaves it ringing for ever; a wave of h omega = 0.3 gets out of phase by 7e-5 in a step for
-2e-3. (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of
-the step in place of differences over several steps, so that it survives a switch: of our own.)
+that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12: never
+by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away, where the
+midpoint rule leaves it ringing for ever; a wave of h omega = 0.3 gets out of phase by 7e-5 in a step for 2e-3. Where
+friction falls and switches are inside steps (`damps`), a third solve (`damp_end`) adds w^4/48 with w = z/(1 - z/2): the
+factor is then zero where z is large (jump_inside.py). (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra,
+Numer. Math. 8:376, 1966. With the matrix of the step in place of differences over several steps, so that it survives a
+switch: of our own.)
 """
 
 from __future__ import annotations

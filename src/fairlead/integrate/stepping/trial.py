@@ -10,14 +10,15 @@ A step is repeated, in the order in which these are looked for,
 
     in the zones of its end (`finish_inside`)         in the zones of its start (`finish_located`)
     a matrix without good pivots                      a matrix without good pivots
-    a law that jumps at a limit the step reaches      an error above one
-    zones, or an end, that are not found              a guard that fires at the start
-    an error above one                                a switch inside, at which the end is too rough
-    a switch inside, whose impulse would be missed
+    a law that jumps at a limit the step reaches      an end that is not found (by `finish_inside`)
+    zones, or an end, that are not found              contacts that hold and slip at the start: that is settled
+    an error above one                                an error above one
+    a switch inside, whose impulse would be missed    a guard that was above zero from the start: that is settled
+                                                      a switch inside, at which the interpolant is too rough
 
-repeated.py does that. Three things are not repeated: the loop finds other pivots; it takes the step
-with the whole problem where a machine changes that is shared with what rests (a rim); the start is settled where a law
-jumps there, or where contacts that hold still slip.
+repeated.py does that; the last two on the right are as of `rodas` (events/given_up.py, one_step.py). In three cases it
+is no shorter step that follows: the loop finds other pivots; it takes the step with the whole problem where a machine
+changes that is shared with what rests (a rim); the start is settled, also where a law jumps there.
 """
 
 from __future__ import annotations
@@ -156,7 +157,10 @@ def finish_located(m, h):
 
 @compiled
 def end_located(m, h):
-    """Move the end of a step by the error of its rule, and to where laws balance; the size of its error."""
+    """Move the end of a step by the error of its rule, and to where laws balance; the size of its error.
+
+    theta is 1/2 here: in the zones of the start none cycle, and no kink is stepped over.
+    """
     problem, point, linear, exchange = m.problem, m.point, m.linear, m.stepping.exchange
     refine_end(problem, point, linear, m.stepping, h)
     error = find_error(m, h)
