@@ -132,10 +132,6 @@ class Facts(Protocol):
         """Machines whose switch changes more rows of J and M than the one they hold: these are evaluated then."""
 
     @property
-    def share_rows(self) -> Integers:
-        """Rows, none of them a contact's, that say how contacts in circles share what they hold."""
-
-    @property
     def circle(self) -> Integers:
         """[n]: the circles of contacts that share what they hold have numbers from 1; that of the row, 0 for none."""
 
@@ -282,11 +278,6 @@ class Plain:
 
     @property
     def beyond_row(self) -> Integers:
-        """None."""
-        return np.zeros(0, dtype=np.int64)
-
-    @property
-    def share_rows(self) -> Integers:
         """None."""
         return np.zeros(0, dtype=np.int64)
 

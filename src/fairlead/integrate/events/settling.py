@@ -112,7 +112,7 @@ def begin_settling(problem, run, point, events):
     settling, loads = events.settling, events.loads
     settling.passes = 0
     loads.levels, loads.level_due, loads.ordered = 0, 0, 0
-    settling.one_by_one, settling.without_answer = 0, 0
+    settling.without_answer = 0
     settling.stage, settling.stage_from, settling.fewest, settling.waited = ALL, 0, settling.n_guards + 1, 0
     settling.look = 0.0
     settling.nearness = 1.0
