@@ -9,10 +9,11 @@ what is predicted by the polynomial through earlier points, less y1, in the shar
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import DONE, factorise_step, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_step, solve, solve_watched
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals
 from fairlead.integrate.one_step import OneStep, trial_of

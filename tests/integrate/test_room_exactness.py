@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear import ordering
 from tests.integrate.rooms import entry, fields
 from tests.integrate.test_linear import NOTHING_KEPT, memory_for, pattern_of
@@ -26,7 +27,7 @@ def refined():
     @compiled
     def refine(m, h):
         assemble_step(m.linear, 2.0 / h)
-        if factorise_dense(m.linear.factors) == 0:
+        if factorise_dense(m.linear.factors) == DONE:
             refine_end(m.problem, m.point, m.linear, m.stepping, h)
 
     return entry(refine, ("",), "d")
@@ -41,7 +42,7 @@ def metered():
 
     @compiled
     def meter(m, h):
-        if factorise_step(m.linear, 2.0 / h) == 0:
+        if factorise_step(m.linear, 2.0 / h) == DONE:
             meter_piece(m, h)
 
     return entry(meter, ("",), "d")

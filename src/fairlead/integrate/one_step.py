@@ -14,7 +14,7 @@ from collections.abc import Callable
 from math import inf, isfinite
 from typing import Any, NamedTuple
 
-from fairlead.integrate.codes import GO_ON, NOT_FINITE, REPLAN, SINGULAR_MATRIX, STEP_FLOOR
+from fairlead.integrate.codes import GO_ON, INACCURATE, NOT_FINITE, REPLAN, SINGULAR, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import dwell_here
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
@@ -30,7 +30,6 @@ from fairlead.integrate.events.pace import (
     smallest_step,
 )
 from fairlead.integrate.events.position import way_back
-from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import find_defect, find_midpoint_defect

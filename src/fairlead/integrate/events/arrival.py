@@ -4,36 +4,41 @@ from __future__ import annotations
 
 from fairlead.integrate.codes import (
     AFTER,
+    APART,
     BEFORE,
     BUFFER_FULL,
     CHATTER,
     GIVEN_APART,
     GO_ON,
+    INACCURATE,
     INCONSISTENT,
+    NO_ROOM,
+    NOT_CONSISTENT,
+    NOT_SETTLED,
     ORDINARY,
     PASSED,
     REBOUND_RUBS,
     REPLAN,
+    RUBBED,
     SAMPLE_DUE,
     SETTLE,
     SETTLING_FOR_IT,
+    SINGULAR,
     SINGULAR_MATRIX,
+    TOO_MANY_PASSES,
     TRY,
-    UNSETTLED,
 )
-from fairlead.integrate.events.consistent import NOT_CONSISTENT, correct_forces, keep_positions
+from fairlead.integrate.events.consistent import correct_forces, keep_positions
 from fairlead.integrate.events.first_sample import settle_for_sample, take_first_sample
-from fairlead.integrate.events.given_apart import APART, moves_apart
+from fairlead.integrate.events.given_apart import moves_apart
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.events.impulse import RUBBED
 from fairlead.integrate.events.limits import AT_LIMIT, goes_no_further
 from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
 from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
+from fairlead.integrate.events.settling import begin_settling, settle
 from fairlead.integrate.events.violators import distance_to_look, event_is_due, move_ahead
-from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.point.controller import restart, weigh, weighted_norm
 from fairlead.integrate.point.curvature import curvature_beyond_rounding
@@ -285,8 +290,8 @@ def settle_here(m):
         return not_finite_here(problem, run, point, SINGULAR_MATRIX)
     if status == NOT_CONSISTENT:
         return not_finite_here(problem, run, point, INCONSISTENT)
-    if status == NOT_SETTLED:
-        return UNSETTLED
+    if status == TOO_MANY_PASSES:
+        return NOT_SETTLED
     if status == RUBBED:
         return REBOUND_RUBS
     if status == APART:

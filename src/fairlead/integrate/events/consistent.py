@@ -15,21 +15,15 @@ from __future__ import annotations
 
 from math import isfinite
 
+from fairlead.integrate.codes import DONE, NOT_CONSISTENT, SINGULAR
 from fairlead.integrate.events.balance import ROUNDS, close_balance
 from fairlead.integrate.events.impulse import NO_IMPACT, find_change_of_speed, resolve_impact
 from fairlead.integrate.events.position import in_units_of_light, project_positions
 from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
-from fairlead.integrate.linear.systems import (
-    DONE,
-    SINGULAR,
-    factorise_consistent,
-    solve,
-    solve_watched,
-)
+from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
-NOT_CONSISTENT = 3
 OF_POSITIONS = 3
 """What a row takes that keeps a relation of positions: any impulse, see `Facts.takes_impulse`."""
 SLIP_LEFT = 1e-6

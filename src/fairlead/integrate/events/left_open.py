@@ -17,9 +17,9 @@ run ends and names what is open.
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import SINGULAR
 from fairlead.integrate.events.consistent import prepare_consistent
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.linear.systems import SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, mass_at, reals, switch_at
 
 NOT_IN_FORCE = -1.0

@@ -9,9 +9,8 @@ Those above zero change their zones. What is wrong by forces then shows as soon 
 
 from __future__ import annotations
 
-from fairlead.integrate.events.consistent import NOT_CONSISTENT
+from fairlead.integrate.codes import NOT_CONSISTENT, RELEASED
 from fairlead.integrate.events.guards import evaluate_guards, latches_wait
-from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.right_root import find_consistent
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 

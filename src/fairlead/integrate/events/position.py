@@ -15,7 +15,8 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.linear.systems import DONE, solve, solve_watched
+from fairlead.integrate.codes import DONE
+from fairlead.integrate.linear.systems import solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 

@@ -32,7 +32,7 @@ At the start of a run nothing was before: forces that hold are built up from zer
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import LEVELS
+from fairlead.integrate.codes import DONE, LEVELS
 from fairlead.integrate.events.consistent import find_residual, prepare_consistent
 from fairlead.integrate.events.fast_way import (
     NOT_REACHED,
@@ -47,7 +47,7 @@ from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.patterns import remember_pattern
 from fairlead.integrate.events.violators import RISE
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import DONE, solve_watched
+from fairlead.integrate.linear.systems import solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
 from fairlead.integrate.point.controller import weigh
 

@@ -27,15 +27,9 @@ off-diagonal elements and positive principal minors, Czechoslovak Mathematical J
 
 from __future__ import annotations
 
-from fairlead.integrate.events.consistent import (
-    NOT_CONSISTENT,
-    give_back,
-    keep,
-    make_consistent,
-    newton,
-    prepare_consistent,
-)
-from fairlead.integrate.linear.systems import DONE, INACCURATE, solve
+from fairlead.integrate.codes import DONE, INACCURATE, NOT_CONSISTENT
+from fairlead.integrate.events.consistent import give_back, keep, make_consistent, newton, prepare_consistent
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
 MOST = 6

@@ -17,21 +17,18 @@ all that must break, as many as the least index).
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import SETTLING_FOR_IT
+from fairlead.integrate.codes import DONE, NO_ROOM, RELEASED, SETTLING_FOR_IT, SINGULAR, TOO_MANY_PASSES
 from fairlead.integrate.events.balance import MOST_JUMPS, jump_to_balance
 from fairlead.integrate.events.chatter import watch_chatter, watch_progress
-from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.no_answer import find_answer
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
 from fairlead.integrate.events.violators import fire_violators, look_ahead, looked_ahead
-from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.record.rows import there_is_room, write_event
 
-NOT_SETTLED, NO_ROOM = 4, 5
 NEARER, LOOKS = 0.1, 3
 """How much less far guards are looked ahead for when single switches go in a circle, and how often. Nearer still no
 guard would be seen to rise, and laws that contradict each other would pass for settled."""
@@ -53,7 +50,7 @@ def settle(m, iterations):
     while moves <= MOST_JUMPS:
         if guards.n_fired > 0:
             if settling.passes >= run.max_passes:
-                return NOT_SETTLED
+                return TOO_MANY_PASSES
             if not there_is_room(problem, m.recorder):
                 return NO_ROOM
             if problem.falling == 1 and settling.passes == 0:

@@ -6,6 +6,7 @@ anew: a contact that switches changes a few. The factors of the others are what 
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear.condensing import FROM_JACOBIAN, FROM_MASS
 from fairlead.integrate.linear.perturbed_pivots import factorise_columns, substitute
 from fairlead.integrate.linear.sparse import backward_error, mark_users, scale_rows
@@ -17,7 +18,7 @@ REFILL = 0.3
 
 @compiled
 def factorise_core(linear, scale, consistent):
-    """Factorise s M - J, or the matrix of the consistent point; 0 done, 2 a pivot is not to be trusted."""
+    """Factorise s M - J, or the matrix of the consistent point; DONE, or INACCURATE: a pivot is not to be trusted."""
     matrices, core, factors = linear.matrices, linear.core, linear.factors
     n = core.n_core
     kind = 1 if consistent else 0
@@ -42,7 +43,7 @@ def factorise_core(linear, scale, consistent):
     else:
         mark_users(factors, changed)
     status = factorise_columns(factors)
-    core.core_valid = 1 if status == 0 else 0
+    core.core_valid = 1 if status == DONE else 0
     return status
 
 
@@ -87,7 +88,7 @@ def factorise_marked(linear, count):
         assemble_column(linear, waiting[e])
     mark_users(factors, count)
     status = factorise_columns(factors)
-    core.core_valid = 1 if status == 0 else 0
+    core.core_valid = 1 if status == DONE else 0
     return status
 
 

@@ -11,10 +11,10 @@ that the choice of pivots does not depend on units.
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.linear.condensed import factorise_core, solve_core
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-DONE, SINGULAR, INACCURATE = 0, 1, 2
 VANISHES = 1e-15
 """Share of the largest entry of its column below which a pivot of a full matrix is rounding. In a step of 1e-14 s all
 that a force of 1 N does to the speed of a tonne is 1e-17 m/s: a small column is no singular one."""

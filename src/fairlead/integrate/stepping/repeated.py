@@ -17,17 +17,16 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import GO_ON, REPLAN, SINGULAR_MATRIX, STEP_FLOOR, UNSETTLED
+from fairlead.integrate.codes import CYCLES, GO_ON, NOT_SETTLED, REPLAN, SINGULAR, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import still_for
 from fairlead.integrate.events.given_up import TOO_LONG, settle_at_start, take_again
 from fairlead.integrate.events.pace import not_finite_here, smallest_step
-from fairlead.integrate.linear.systems import SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices
 from fairlead.integrate.point.controller import step_after_rejection
 from fairlead.integrate.stepping.history import note_rejection
 from fairlead.integrate.stepping.passed_over import find_passed_guard
 from fairlead.integrate.stepping.switch_inside import find_missed_impulse
-from fairlead.integrate.stepping.theta_step import CYCLES, give_back_zones
+from fairlead.integrate.stepping.theta_step import give_back_zones
 
 HALVINGS = 3
 """Halvings of a step whose iteration met a matrix without good pivots, before others are asked for: mostly it had
@@ -91,7 +90,7 @@ def halve_unsolved(m, h, status):
     if run.h_next >= smallest_step(run, point):
         return GO_ON
     if status == CYCLES:
-        return UNSETTLED
+        return NOT_SETTLED
     return not_finite_here(m.problem, run, point, SINGULAR_MATRIX if status == SINGULAR else STEP_FLOOR)
 
 

@@ -13,7 +13,7 @@ violated: the residual of the whole decides, and where it does not pass, J and M
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import KNOWN_ZONES
+from fairlead.integrate.codes import DONE, KNOWN_ZONES
 from fairlead.integrate.linear.condensed import factorise_marked, mark
 from fairlead.integrate.linear.perturbed_pivots import substitute
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
@@ -220,7 +220,7 @@ def exchange_rows(problem, linear, stepping, factorised):
         holds[own[z]] = now
         if factorised:
             count = use_row(linear, exchange, z, count)
-    return not factorised or factorise_marked(linear, count) == 0
+    return not factorised or factorise_marked(linear, count) == DONE
 
 
 @compiled

@@ -25,9 +25,9 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import MIDDLE
+from fairlead.integrate.codes import AFRESH, CYCLES, DIVERGES, DONE, INACCURATE, JUMPS, MIDDLE, ONCE_MORE
 from fairlead.integrate.events.guards import evaluate_guards, latches_wait
-from fairlead.integrate.linear.systems import DONE, INACCURATE, factorise_step, solve
+from fairlead.integrate.linear.systems import factorise_step, solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals
 from fairlead.integrate.stepping.active_set import (
     begin_set,
@@ -68,7 +68,6 @@ from fairlead.integrate.stepping.row_cache import (
 )
 from fairlead.integrate.stepping.switch_inside import forget_switches, note_switches
 
-CYCLES, DIVERGES, JUMPS, ONCE_MORE, AFRESH = 6, 7, 8, 9, 10
 SLOW = 0.01
 """A residual that shrinks by less than this in an iteration asks for a new Jacobian."""
 LOOK_AT_LIMITS = 8

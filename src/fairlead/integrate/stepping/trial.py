@@ -25,14 +25,13 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import BUFFER_FULL, GO_ON, MIDDLE, TRY, WIDEN
+from fairlead.integrate.codes import BUFFER_FULL, DONE, GO_ON, INACCURATE, JUMPS, MIDDLE, TRY, WIDEN
 from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
 from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, mend_start, settle_at_start
 from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose, smallest_step
 from fairlead.integrate.events.settling import log_changes
-from fairlead.integrate.linear.systems import DONE, INACCURATE
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import piece_is_rough, take_piece
@@ -56,7 +55,7 @@ from fairlead.integrate.stepping.repeated import (
     settle_jump,
 )
 from fairlead.integrate.stepping.step_error import find_error, keep_larger
-from fairlead.integrate.stepping.theta_step import JUMPS, give_back_zones, take_theta_step
+from fairlead.integrate.stepping.theta_step import give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
 
 
