@@ -110,7 +110,7 @@ class Contacts:
             starts[name] = np.concatenate([[0], np.cumsum([len(one) for one in own])])
             found[name] = np.concatenate(own)
             number[f"n_own_{name}s" if name == "slope" else "n_own_masses"] = len(found[name])
-        number["n_zones"], number["n_known"] = contacts, KNOWN_ZONES * contacts
+        number["n_machines"], number["n_known"] = contacts, KNOWN_ZONES * contacts
         given = {
             "own_row": self.rows, "own_slope_starts": starts["slope"], "own_slopes": found["slope"],
             "own_slope_columns": columns_of(problem.pattern)[found["slope"]], "own_mass_starts": starts["mass"],
@@ -241,7 +241,7 @@ H, MASS, OF_PLACE, OF_SPEED, OF_FORCE = 0.02, 3.0, 1e-5, 1e-3, 1e-2
 def one_body(stiffness=0.0, inertia=MASS, weights=(OF_PLACE, OF_SPEED, OF_FORCE), **given):
     """Place, speed and the force of a contact that holds the body; v' = -k x/m + ..."""
     return memory(
-        {"n": 3, "n_zones": 1, "n_guards": 1, "n_body_speed": 1, "n_jacobian": 2, **given.pop("numbers", {})},
+        {"n": 3, "n_machines": 1, "n_guards": 1, "n_body_speed": 1, "n_jacobian": 2, **given.pop("numbers", {})},
         weight=weights, held_inertia=[inertia], body_starts=[0, 1], body_position=[0], body_speed=[1], hold_row=[2],
         jacobian_starts=[0, 1, 2, 2], jacobian_rows=[1, 0], jacobian=[-stiffness, 1.0], **given,
     )  # fmt: skip

@@ -64,10 +64,10 @@ def project(problem, point, linear):
     taken_away = reals(point.at_b, n)
     taken_away[:] = 0.0
     slip_at(problem.call_slip, (problem.context, point.t, point.at_y, point.at_b))
-    at_rest = True
+    all_rest = True
     for k in range(n):
-        at_rest = at_rest and taken_away[k] == 0.0
-    if at_rest:
+        all_rest = all_rest and taken_away[k] == 0.0
+    if all_rest:
         return
     if problem.n_accelerated > 0:
         copy(taken_away, reals(point.at_v, n))

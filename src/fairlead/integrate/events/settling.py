@@ -121,7 +121,7 @@ def begin_settling(problem, run, point, events):
 def change_zones(m):
     """Switch on the guards in `fired`, log what changed, see whether the pattern of zones recurs."""
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
-    nz = problem.n_zones
+    nz = problem.n_machines
     zones, before = indices(problem.at_zones, nz), indices(settling.at_zones_before, nz)
     copy(zones, before)
     switch_at(problem.call_switch, (problem.context, point.t, point.at_y, guards.at_fired, guards.n_fired))
@@ -228,7 +228,7 @@ def log_changes(m):
     run, point, guards, settling, recorder = m.run, m.point, m.events.guards, m.events.settling, m.recorder
     if run.first_sample == SETTLING_FOR_IT:
         return
-    nz, ng = settling.n_zones, guards.n_guards
+    nz, ng = settling.n_machines, guards.n_guards
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     machine, fired = indices(guards.at_guard_machine, ng), indices(guards.at_fired, ng)
     by_machine, rim = indices(settling.at_switches_by_machine, nz), indices(settling.at_rim, nz)

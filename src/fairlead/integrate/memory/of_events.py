@@ -21,7 +21,7 @@ GUARDS = Struct(
         "g_since": "n_guards",  # the place s from which on they count
         "guard_tolerance": "n_guards",
         "guard_inertia": "n_guards",  # of slips of contacts that may hold: what resists their force; 0 of others
-        "blocked_until": "n_zones",  # the time until which a machine keeps its zone (chatter.py)
+        "blocked_until": "n_machines",  # the time until which a machine keeps its zone (chatter.py)
         # guards whose tops are looked for (bumps.py): by the number of the search, two places with a top in between,
         "bump_left": "n_guards", "bump_left_g": "n_guards", "bump_top": "n_guards", "bump_top_g": "n_guards",
         "bump_right": "n_guards", "bump_right_g": "n_guards",
@@ -39,7 +39,7 @@ Scratch holds nothing from one trial step or pass to the next, but `g_late` from
 """
 
 SETTLING = Struct(
-    copies=("n_guards", "n_zones", "guard_machine", "zones",),
+    copies=("n_guards", "n_machines", "guard_machine", "zones",),
     integers=(
         "passes",  # of this settlement; of a step of `stepping` how often its zones were switched
         "one_by_one",  # in a step of `stepping`: 0 all violators switch, 1 those half as wrong as the worst, 2 one
@@ -59,17 +59,17 @@ SETTLING = Struct(
     ),
     reals={
         "wrong": "n_guards",  # by how much guards are violated; scratch of impulse_zones.py and the order of release
-        "last_toggle": "n_zones",  # when a machine switched last
-        "held_for": "n_zones",  # [s] for how long it was last kept in its zone
-        "rank": "n_zones",  # the order of the least index (least_index.py)
+        "last_toggle": "n_machines",  # when a machine switched last
+        "held_for": "n_machines",  # [s] for how long it was last kept in its zone
+        "rank": "n_machines",  # the order of the least index (least_index.py)
         "patterns_met": "passes",  # a number for the zones after each pass
     },
     indices={
-        "rim": "n_zones",  # of a part: 1 for machines whose change sets more in motion
-        "zones_before": "n_zones", "zones_given": "n_zones",  # before the pass; at the start of the run
+        "rim": "n_machines",  # of a part: 1 for machines whose change sets more in motion
+        "zones_before": "n_machines", "zones_given": "n_machines",  # before the pass; at the start of the run
         "zones_history": "passes_zones",  # after each pass
-        "streak": "n_zones", "chatters": "n_zones",  # toggles in a row within a dwell; how often that was too many
-        "switches_by_machine": "n_zones",
+        "streak": "n_machines", "chatters": "n_machines",  # toggles in a row within a dwell; how often too many
+        "switches_by_machine": "n_machines",
     },
 )  # fmt: skip
 """A settlement: which violators change, since which pass, who chatters."""
@@ -93,7 +93,7 @@ LOADS = Struct(
     indices={
         "born": "n_guards",  # the level in which a slip began
         "came_back": "n_guards",  # 1 for guards that it has brought back to zero
-        "zones_just_before": "n_zones",
+        "zones_just_before": "n_machines",
         "circle_changed": "n",  # by circle: 1 if one of its contacts has changed its zone since the last level
     },
 )  # fmt: skip

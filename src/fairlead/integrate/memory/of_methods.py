@@ -71,7 +71,7 @@ RULE = Struct(
 """`stepping`: the theta rule and its steps."""
 
 EXCHANGE = Struct(
-    copies=("n", "n_zones", "zones",),
+    copies=("n", "n_machines", "zones",),
     integers=(
         "driven",  # a contact holds on a surface whose speed varies
         "massless",  # a contact has held a node without mass: once 1, it stays, and only costs evaluations
@@ -102,13 +102,13 @@ EXCHANGE = Struct(
         "hold_slope": "n_hold_slope", "hold_slope_row": "n_hold_slope",
         "hold_share": "n_hold_share", "hold_share_row": "n_hold_share", "hold_share_column": "n_hold_share",
         # by machine: the one row that it holds, -1 where it holds none or several; entries of J and of M in that row
-        "own_row": "n_zones",
-        "own_slope_starts": "n_zones_plus_1", "own_slopes": "n_own_slopes", "own_slope_columns": "n_own_slopes",
-        "own_mass_columns": "n_own_masses", "own_mass_starts": "n_zones_plus_1", "own_masses": "n_own_masses",
+        "own_row": "n_machines",
+        "own_slope_starts": "n_machines_plus_1", "own_slopes": "n_own_slopes", "own_slope_columns": "n_own_slopes",
+        "own_mass_columns": "n_own_masses", "own_mass_starts": "n_machines_plus_1", "own_masses": "n_own_masses",
         "known": "machines_by_zone",  # by zone and machine: what the cache has, 0, row_cache.ROW or CONSTANT
-        "zones_linearised": "n_zones",  # the zones of J and M
+        "zones_linearised": "n_machines",  # the zones of J and M
         "known_of_kind": "machines_by_zone",  # by zone and kind: a machine whose row is known, + 1; 0: none
-        "exchanged_machines": "n_zones",  # machines whose rows were exchanged, or all that were evaluated
+        "exchanged_machines": "n_machines",  # machines whose rows were exchanged, or all that were evaluated
     },
 )  # fmt: skip
 """`stepping`: rows of J and M that are known for a zone and exchanged without a factorisation (row_cache.py).
@@ -117,7 +117,7 @@ EXCHANGE = Struct(
 """
 
 CONTACTS = Struct(
-    copies=("n", "n_guards", "n_zones", "guard_machine", "limit_guard", "zones",),
+    copies=("n", "n_guards", "n_machines", "guard_machine", "limit_guard", "zones",),
     integers=(
         "expecting",  # contacts were let go in this step because fronts are expected to run on
         "has_limits",  # the problem says which guards are limits of held forces
@@ -128,31 +128,31 @@ CONTACTS = Struct(
         "n_free_guards",  # guards of machines that hold nothing
     ),
     reals={
-        "switched_after": "n_zones",  # the share of the step after which a machine left its zone; 0: it did not
-        "jump_at": "n_zones",  # where between two middles a limit was reached: jump_inside.STAYED, NO_LIMIT or a share
-        "held_inertia": "n_zones",  # the inertia that resists the force of a machine; 0: not known
+        "switched_after": "n_machines",  # the share of the step after which a machine left its zone; 0: it did not
+        "jump_at": "n_machines",  # where between two middles a limit was reached; jump_inside.STAYED, NO_LIMIT
+        "held_inertia": "n_machines",  # the inertia that resists the force of a machine; 0: not known
         "g_before": "n_guards",  # guards where the step before began
     },
     indices={
         "rested": "n",  # through how many steps a row has held
-        "zones_at_start": "n_zones",
-        "body_starts": "n_zones_plus_1",  # by machine: the bodies that it holds, their speeds and positions (-1: none)
-        "body_speed": "n_body_speed", "body_position": "n_body_speed",
+        "zones_at_start": "n_machines",
+        # by machine: the bodies that it holds, their speeds and positions (-1: none)
+        "body_starts": "n_machines_plus_1", "body_speed": "n_body_speed", "body_position": "n_body_speed",
         "continuous": "n_guards",  # the zone, + 1, in which the law was found not to jump at a guard; 0: not known
         "may_jump": "n_guards",  # 1 for guards at which laws are asked whether they jump
         "is_mean": "n_guards",  # 1 for guards that are read in the middle of a step (jump_at_end.py)
         "suspects": "n_guards",  # scratch: guards that fired, while `fired` is used for others
-        "kind_is_smooth": "n_zones",  # by kind: 0, jump_at_end.SMOOTH, JUMPS_SOMEWHERE
-        "zones_probed": "n_zones",  # scratch: zones while laws are asked in others; from note_fired on those before the
-        #                             switch, which `switch_zones` puts back
-        "first_guard": "n_zones",
-        "met": "n_zones",  # scratch, 0 between passes: of fronts (active_set.MET), of laws that jump (jump_inside.py)
-        "hold_row": "n_zones",  # the first row that a machine is known to hold; -1: none
-        "released": "n_zones", "released_by": "n_zones",  # the step in which a contact let go last, and by which guard
-        "switched": "n_zones",  # machines that left their zone in the step, with a place for it
-        "neighbour_starts": "n_zones_plus_1", "neighbours": "n_neighbours",  # by machine: who is handed its load
-        "own_kind": "n_zones",  # machines of one number have the same laws and rows alike
-        "only_kinks": "n_zones",  # 1 for machines that are but pieces of continuous tables
+        "kind_is_smooth": "n_machines",  # by kind: 0, jump_at_end.SMOOTH, JUMPS_SOMEWHERE
+        # scratch: zones while laws are asked in others; from note_fired on those before the switch, put back at a jump
+        "zones_probed": "n_machines",
+        "first_guard": "n_machines",
+        "met": "n_machines",  # scratch, 0 between passes: fronts (active_set.MET), laws that jump (jump_inside.py)
+        "hold_row": "n_machines",  # the first row that a machine is known to hold; -1: none
+        "released": "n_machines", "released_by": "n_machines",  # the last step a contact let go in, by which guard
+        "switched": "n_machines",  # machines that left their zone in the step, with a place for it
+        "neighbour_starts": "n_machines_plus_1", "neighbours": "n_neighbours",  # by machine: who is handed its load
+        "own_kind": "n_machines",  # machines of one number have the same laws and rows alike
+        "only_kinks": "n_machines",  # 1 for machines that are but pieces of continuous tables
     },
 )  # fmt: skip
 """`stepping`: who holds what and hands its load to whom (active_set.py), what a step may have missed."""

@@ -11,8 +11,8 @@ PROBLEM = Struct(
         "call_ahead", "call_swings",
     ),
     integers=(
-        # sizes; n_zones is how many machines there are, each with one zone in force (`zones`)
-        "n", "n_algebraic", "n_guards", "n_zones", "n_outputs",
+        # sizes; every machine has one zone in force (`zones`)
+        "n", "n_algebraic", "n_guards", "n_machines", "n_outputs",
         # whether guards have inertias
         "weighs_guards",
         # impacts: whether any row takes impulses, and any such is in a circle; unknowns of the energy ledger (-1: none)
@@ -63,8 +63,8 @@ PROBLEM = Struct(
         "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
         "limit_guard": "n_guards", "bounded_row": "n_guards", "blow_guard": "n_guards", "latch_guard": "n_guards",
         # by row who decides whether it holds, and the number of the circle in which forces are shared (0: none)
-        "holder": "n", "circle": "n", "falls": "n_zones", "is_speed": "n", "struck": "n", "integral": "n",
-        "zones": "n_zones",
+        "holder": "n", "circle": "n", "falls": "n_machines", "is_speed": "n", "struck": "n", "integral": "n",
+        "zones": "n_machines",
         "guard_machine": "n_guards",
     },
 )  # fmt: skip

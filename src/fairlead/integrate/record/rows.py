@@ -42,7 +42,7 @@ def write_event(point, settling, recorder, machine, before, after, guard):
 @compiled
 def there_is_room(problem, recorder):
     """True if the next pass of a settlement fits whatever happens in it, and the rows around it."""
-    events = recorder.events + problem.n_zones + problem.n_guards
+    events = recorder.events + problem.n_machines + problem.n_guards
     return recorder.rows + 4 <= recorder.row_capacity and events <= recorder.event_capacity
 
 

@@ -26,7 +26,7 @@ SMOOTH, JUMPS_SOMEWHERE = 1, 2
 def all_continuous(guards, contacts):
     """True if every guard in `fired` was found continuous in the zone its machine is in."""
     fired, known = indices(guards.at_fired, guards.n_guards), indices(contacts.at_continuous, guards.n_guards)
-    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_zones)
+    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_machines)
     may_jump = indices(contacts.at_may_jump, guards.n_guards)
     for k in range(guards.n_fired):
         i = fired[k]
@@ -67,14 +67,14 @@ def find_jumping_law(m, h):
     """
     guards, contacts = m.events.guards, m.stepping.contacts
     fired, known = indices(guards.at_fired, guards.n_guards), indices(contacts.at_continuous, guards.n_guards)
-    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_zones)
+    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_machines)
     may_jump = indices(contacts.at_may_jump, guards.n_guards)
     copy(fired, indices(contacts.at_suspects, guards.n_guards))
     suspects, count = indices(contacts.at_suspects, guards.n_guards), guards.n_fired
     found = False
     for k in range(count):
         i = suspects[k]
-        if holds_row(contacts, machine[i]):
+        if has_hold_row(contacts, machine[i]):
             continue  # jump_inside.py
         if may_jump[i] == 1 and (machine[i] < 0 or known[i] != zones[machine[i]] + 1):
             jumps = jumps_at_guard(m, h, i)
@@ -86,17 +86,17 @@ def find_jumping_law(m, h):
 
 
 @compiled
-def holds_row(contacts, z):
+def has_hold_row(contacts, z):
     """True if machine z is known to hold a row: its jumps are put right inside the step (jump_inside.py)."""
-    return z >= 0 and indices(contacts.at_hold_row, contacts.n_zones)[z] >= 0
+    return z >= 0 and indices(contacts.at_hold_row, contacts.n_machines)[z] >= 0
 
 
 @compiled
 def note_kind(contacts, z, jumps):
     """Remember of the kind of machine z whether its laws are continuous where seen; one that jumps speaks for all."""
     if z >= 0:
-        smooth = indices(contacts.at_kind_is_smooth, contacts.n_zones)
-        kind = indices(contacts.at_own_kind, contacts.n_zones)[z]
+        smooth = indices(contacts.at_kind_is_smooth, contacts.n_machines)
+        kind = indices(contacts.at_own_kind, contacts.n_machines)[z]
         if jumps:
             smooth[kind] = JUMPS_SOMEWHERE
         elif smooth[kind] != JUMPS_SOMEWHERE:
@@ -113,8 +113,8 @@ def jumps_at_guard(m, h, i):
     s = locate_guard(problem, m.run, point, guards, h, i)
     t = point.t + s * h
     field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_x))
-    zones = indices(problem.at_zones, problem.n_zones)
-    kept = indices(m.stepping.contacts.at_zones_probed, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_machines)
+    kept = indices(m.stepping.contacts.at_zones_probed, problem.n_machines)
     fired = indices(guards.at_fired, problem.n_guards)
     copy(zones, kept)
     copy(reals(point.at_y_probe, n), reals(point.at_u, n))
@@ -208,7 +208,7 @@ def find_due_jump(m, h):
     to_end = 0.5 * h / (rule.gap + 0.5 * h)
     guards.n_fired = 0
     for i in range(guards.n_guards):
-        if may_jump[i] == 0 or holds_row(contacts, machine[i]):
+        if may_jump[i] == 0 or has_hold_row(contacts, machine[i]):
             continue
         if may_cross(guards, i) and g_end[i] > g[i] and g_end[i] + to_end * (g_end[i] - g[i]) > 0.0:
             fired[guards.n_fired] = i
@@ -246,7 +246,8 @@ def next_law_jumps(m, h):
     field_at(problem.call_rhs, (problem.context, point.t, point.at_y, point.at_f))
     field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_v))
     problem.rhs += 3
-    copy(indices(m.stepping.contacts.at_zones_at_start, problem.n_zones), indices(problem.at_zones, problem.n_zones))
+    nz = problem.n_machines
+    copy(indices(m.stepping.contacts.at_zones_at_start, nz), indices(problem.at_zones, nz))
     f_new_start, f_new_end, f_old = reals(point.at_f, n), reals(point.at_v, n), reals(point.at_x, n)
     differential, weight = indices(problem.at_differential, n), reals(m.linear.factors.at_column_scale, n)
     fired = indices(guards.at_fired, problem.n_guards)
@@ -254,8 +255,8 @@ def next_law_jumps(m, h):
         if differential[i] == 0 and f_old[i] != f_new_end[i]:
             least = 1e300
             for k in range(guards.n_fired):
-                at_zero = f_new_start[i] + zero_of_guard(guards, fired[k]) * (f_new_end[i] - f_new_start[i])
-                least = min(least, abs(at_zero))
+                row_at_zero = f_new_start[i] + zero_of_guard(guards, fired[k]) * (f_new_end[i] - f_new_start[i])
+                least = min(least, abs(row_at_zero))
             if least > weight[i]:
                 return True
     return False

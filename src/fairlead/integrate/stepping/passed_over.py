@@ -102,7 +102,7 @@ def impulse_counts(m, s, h, found, lasting):
     """True if what the first of `fired` would do meanwhile, at its most two thirds of the time, is above a weight."""
     problem, point, contacts, matrices = m.problem, m.point, m.stepping.contacts, m.linear.matrices
     t = point.t + s * h
-    zones, kept = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones)
+    zones, kept = indices(problem.at_zones, problem.n_machines), indices(contacts.at_zones_probed, problem.n_machines)
     copy(zones, kept)
     field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_f))
     switch_at(problem.call_switch, (problem.context, t, point.at_y_probe, m.events.guards.at_fired, found))
@@ -125,7 +125,7 @@ def impulse_counts(m, s, h, found, lasting):
 def is_free(m, i):
     """True if guard i is of a machine that holds nothing."""
     machine = indices(m.events.guards.at_guard_machine, m.events.guards.n_guards)
-    return machine[i] >= 0 and indices(m.stepping.contacts.at_hold_row, m.events.settling.n_zones)[machine[i]] < 0
+    return machine[i] >= 0 and indices(m.stepping.contacts.at_hold_row, m.events.settling.n_machines)[machine[i]] < 0
 
 
 @compiled
@@ -135,7 +135,7 @@ def find_touch_while_idle(m, h):
     y, y_end, probe = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_y_probe, point.n)
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     machine = indices(guards.at_guard_machine, guards.n_guards)
-    hold_row = indices(contacts.at_hold_row, settling.n_zones)
+    hold_row = indices(contacts.at_hold_row, settling.n_machines)
     for part in range(1, PARTS):
         s = part / PARTS
         for k in range(point.n):

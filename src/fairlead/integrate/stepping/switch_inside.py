@@ -39,8 +39,8 @@ as 10 kN; at a millionth as 10 N."""
 @compiled
 def forget_switches(contacts):
     """Before a step: nothing has switched in it."""
-    switched = indices(contacts.at_switched, contacts.n_zones)
-    after = reals(contacts.at_switched_after, contacts.n_zones)
+    switched = indices(contacts.at_switched, contacts.n_machines)
+    after = reals(contacts.at_switched_after, contacts.n_machines)
     for k in range(contacts.n_switched):
         after[switched[k]] = 0.0
     contacts.n_switched = 0
@@ -52,14 +52,14 @@ def note_switches(guards, stepping):
     exchange, contacts = stepping.exchange, stepping.contacts
     fired, machine, hold_row = (
         indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards),
-        indices(contacts.at_hold_row, exchange.n_zones),
+        indices(contacts.at_hold_row, exchange.n_machines),
     )  # fmt: skip
     zones, before, holds = (
-        indices(exchange.at_zones, exchange.n_zones), indices(contacts.at_zones_at_start, exchange.n_zones),
+        indices(exchange.at_zones, exchange.n_machines), indices(contacts.at_zones_at_start, exchange.n_machines),
         indices(exchange.at_holds, exchange.n),
     )  # fmt: skip
-    switched = indices(contacts.at_switched, exchange.n_zones)
-    after = reals(contacts.at_switched_after, exchange.n_zones)
+    switched = indices(contacts.at_switched, exchange.n_machines)
+    after = reals(contacts.at_switched_after, exchange.n_machines)
     for k in range(guards.n_fired):
         i, z = fired[k], machine[fired[k]]
         if z < 0 or after[z] > 0.0 or zones[z] != before[z] or (hold_row[z] >= 0 and holds[hold_row[z]] == 1):
@@ -90,10 +90,10 @@ def find_missed_impulse(problem, point, matrices, stepping, h):
 @compiled
 def find_turn(point, matrices, contacts, h):
     """The share of the step after which a slip turned round, of the first whose error counts; 1 without one."""
-    switched = indices(contacts.at_switched, contacts.n_zones)
-    after = reals(contacts.at_switched_after, contacts.n_zones)
-    hold_row = indices(contacts.at_hold_row, contacts.n_zones)
-    inertia = reals(contacts.at_held_inertia, contacts.n_zones)
+    switched = indices(contacts.at_switched, contacts.n_machines)
+    after = reals(contacts.at_switched_after, contacts.n_machines)
+    hold_row = indices(contacts.at_hold_row, contacts.n_machines)
+    inertia = reals(contacts.at_held_inertia, contacts.n_machines)
     y, y_end = reals(point.at_y, point.n), reals(point.at_y_end, point.n)
     first = 1.0
     for k in range(contacts.n_switched):
@@ -116,9 +116,10 @@ def find_kink(stepping):
     A step that goes over a kink on purpose (trial.step_over_kink) has none, for it is implicit.
     """
     contacts = stepping.contacts
-    switched = indices(contacts.at_switched, contacts.n_zones)
-    after = reals(contacts.at_switched_after, contacts.n_zones)
-    hold_row, kinks = indices(contacts.at_hold_row, contacts.n_zones), indices(contacts.at_only_kinks, contacts.n_zones)
+    switched = indices(contacts.at_switched, contacts.n_machines)
+    after = reals(contacts.at_switched_after, contacts.n_machines)
+    hold_row = indices(contacts.at_hold_row, contacts.n_machines)
+    kinks = indices(contacts.at_only_kinks, contacts.n_machines)
     first = 1.0
     for k in range(contacts.n_switched):
         z = switched[k]
@@ -131,8 +132,9 @@ def find_kink(stepping):
 def find_other_force(problem, point, matrices, stepping, h):
     """The share of the step after which a law without a force of its own first switched, if the error counts; or 1."""
     contacts = stepping.contacts
-    switched, after = indices(contacts.at_switched, problem.n_zones), reals(contacts.at_switched_after, problem.n_zones)
-    hold_row, first, last = indices(contacts.at_hold_row, problem.n_zones), find_kink(stepping), 0.0
+    switched = indices(contacts.at_switched, problem.n_machines)
+    after = reals(contacts.at_switched_after, problem.n_machines)
+    hold_row, first, last = indices(contacts.at_hold_row, problem.n_machines), find_kink(stepping), 0.0
     if first < 1.0:
         last = first
     for k in range(contacts.n_switched):
@@ -142,8 +144,8 @@ def find_other_force(problem, point, matrices, stepping, h):
     if first == 1.0:
         return 1.0
     zones, kept, before = (
-        indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones),
-        indices(contacts.at_zones_at_start, problem.n_zones),
+        indices(problem.at_zones, problem.n_machines), indices(contacts.at_zones_probed, problem.n_machines),
+        indices(contacts.at_zones_at_start, problem.n_machines),
     )  # fmt: skip
     field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
     copy(zones, kept)

@@ -183,7 +183,7 @@ def switch_zones(m, h):
         return JUMPS
     note_fired(guards, contacts)
     if follow_guards(m, h, known):
-        copy(indices(contacts.at_zones_probed, contacts.n_zones), indices(contacts.at_zones, contacts.n_zones))
+        copy(indices(contacts.at_zones_probed, contacts.n_machines), indices(contacts.at_zones, contacts.n_machines))
         find_means(m, h)
         place_jump(point, guards, contacts, rule, h)
         if settling.passes > 1:
@@ -340,23 +340,23 @@ def evaluate_guards_of_step(m, h):
     read_on_chord(problem, point, rule.theta_now, h)
     evaluate_guards(problem, run, guards, point.t + rule.theta_now * h, point.at_u, guards.at_g_probe)
     read_at_instant(problem)
-    g, at_theta, is_limit = (
+    g, g_at_theta, is_limit = (
         reals(guards.at_g_end, problem.n_guards), reals(guards.at_g_probe, problem.n_guards),
         indices(contacts.at_limit_guard, problem.n_guards),
     )  # fmt: skip
     tolerance = reals(guards.at_guard_tolerance, problem.n_guards)
     for i in range(problem.n_guards):
         if is_limit[i] == 1:
-            if abs(g[i] - at_theta[i]) > tolerance[i]:
+            if abs(g[i] - g_at_theta[i]) > tolerance[i]:
                 contacts.limits_vary = 1
-            g[i] = at_theta[i]
+            g[i] = g_at_theta[i]
     if exchange.massless == 1:
         machine = indices(problem.at_guard_machine, problem.n_guards)
-        hold_row = indices(contacts.at_hold_row, problem.n_zones)
+        hold_row = indices(contacts.at_hold_row, problem.n_machines)
         of_massless = indices(exchange.at_of_massless, problem.n)
         for i in range(problem.n_guards):
             if machine[i] >= 0 and hold_row[machine[i]] >= 0 and of_massless[hold_row[machine[i]]] == 1:
-                g[i] = at_theta[i]
+                g[i] = g_at_theta[i]
 
 
 @compiled
@@ -385,6 +385,7 @@ def move_quadratures(point, h):
 def give_back_zones(guards, stepping):
     """The zones of the start of the step; M and J are then not theirs."""
     exchange = stepping.exchange
-    copy(indices(stepping.contacts.at_zones_at_start, exchange.n_zones), indices(exchange.at_zones, exchange.n_zones))
+    nz = exchange.n_machines
+    copy(indices(stepping.contacts.at_zones_at_start, nz), indices(exchange.at_zones, nz))
     exchange.zones_differ = 1
     guards.n_fired = 0

@@ -218,9 +218,10 @@ def solve_in_zones(m, h):
 @compiled
 def rim_changed(settling, contacts):
     """True if the step changed a machine that keeps the rest of the problem at rest."""
-    zones, before = indices(settling.at_zones, settling.n_zones), indices(contacts.at_zones_at_start, settling.n_zones)
-    rim, found = indices(settling.at_rim, settling.n_zones), False
-    for z in range(settling.n_zones):
+    zones = indices(settling.at_zones, settling.n_machines)
+    before = indices(contacts.at_zones_at_start, settling.n_machines)
+    rim, found = indices(settling.at_rim, settling.n_machines), False
+    for z in range(settling.n_machines):
         found = found or (rim[z] == 1 and zones[z] != before[z])
     return found
 
@@ -234,8 +235,8 @@ def arrive_with_zones(m):
     switched = settling.passes > 0
     if switched:
         start, m.point.t = m.point.t, run.t_piece
-        at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_zones)
-        copy(at_start, indices(settling.at_zones_before, problem.n_zones))
+        zones_at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_machines)
+        copy(zones_at_start, indices(settling.at_zones_before, problem.n_machines))
         guards.n_fired = 0
         settling.passes = 0
         log_changes(m)
