@@ -53,7 +53,18 @@ def solve(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
     else:
-        solve_core(linear, at_b, 0.0)
+        solve_core(linear, at_b, True, 0.0)
+
+
+@compiled
+def solve_motion(linear, at_b):
+    """As solve, but for the quadratures: for iterations, which nothing of them enters."""
+    factors = linear.factors
+    factors.solves += 1
+    if factors.dense == 1:
+        solve_dense(factors, at_b)
+    else:
+        solve_core(linear, at_b, False, 0.0)
 
 
 @compiled
@@ -68,7 +79,7 @@ def solve_watched(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
         return DONE
-    if solve_core(linear, at_b, REFINE_ABOVE) <= DISTRUST_ABOVE:
+    if solve_core(linear, at_b, True, REFINE_ABOVE) <= DISTRUST_ABOVE:
         return DONE
     factors.culprit = -1
     return INACCURATE

@@ -16,7 +16,7 @@ whole step at its end (stepping/dense_output.py), else it is done in every row.
 from __future__ import annotations
 
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import solve
+from fairlead.integrate.linear.systems import solve, solve_motion
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.stiff import FURTHEST, OF_BALANCES
 
@@ -102,7 +102,7 @@ def balance_stiff(m, t, s, at_y):
     How far to go along the move that the factors of the step give follows from the residuals before and after it. What
     has no inertia is moved together, and further (`balance_on`).
     """
-    problem, point, core = m.problem, m.point, m.linear.core
+    problem, point = m.problem, m.point
     n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
     start, end, D, y = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n), reals(at_y, n)
     f, minus_rate, move, inert, before = (
@@ -121,9 +121,7 @@ def balance_stiff(m, t, s, at_y):
     for k in range(n):
         move[k] = f[k] + inert[k] if stiff[k] == 1 else 0.0
     copy(move, before)
-    core.skip_meters = 1
-    solve(m.linear, point.at_b)
-    core.skip_meters = 0
+    solve_motion(m.linear, point.at_b)
     for k in range(n):
         inert[k] = 0.0
         if stiff[k] == 1:
@@ -231,9 +229,7 @@ def balance_on(m, t, at_y):
             problem.rhs += 1
         for k in range(n):
             move[k] = f[k] if stiff[k] == 1 and differential[k] == 0 else 0.0
-        m.linear.core.skip_meters = 1
-        solve(m.linear, point.at_b)
-        m.linear.core.skip_meters = 0
+        solve_motion(m.linear, point.at_b)
         size, product, square, done = 0.0, 0.0, 0.0, True
         for k in range(n):
             if stiff[k] == 1 and differential[k] == 0:

@@ -127,18 +127,6 @@ def next_in_line(contacts, z, before):
 
 
 @compiled
-def fire_violators_of_step(guards):
-    """Fill `fired` with the guards above their tolerance at the end of the step."""
-    g, tolerance = reals(guards.at_g_end, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    fired = indices(guards.at_fired, guards.n_guards)
-    guards.n_fired = 0
-    for i in range(guards.n_guards):
-        if g[i] > tolerance[i]:
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
-
-
-@compiled
 def follow_guards(m, h, cascade):
     """Switch on `fired`, all, those half as wrong as the worst, or one; True if that changes unknowns (a rebound)."""
     problem, run, point, events, guards = m.problem, m.run, m.point, m.events, m.events.guards

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import AT_LIMIT
-from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.stepping.other_zones import forces_if_switched, switch_back, switch_for_now
 
 LOCATING = 6
 """Evaluations spent on the place where a guard comes to zero. The Illinois rule is of order 1.44 an evaluation (Dowell
@@ -111,20 +112,12 @@ def jumps_at_guard(m, h, i):
     if not (may_cross(guards, i) and reals(guards.at_g_end, problem.n_guards)[i] > 0.0):
         return False
     s = locate_guard(problem, m.run, point, guards, h, i)
-    t = point.t + s * h
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_x))
-    zones = indices(problem.at_zones, problem.n_machines)
-    kept = indices(m.stepping.contacts.at_zones_probed, problem.n_machines)
     fired = indices(guards.at_fired, problem.n_guards)
-    copy(zones, kept)
     copy(reals(point.at_y_probe, n), reals(point.at_u, n))
     first = fired[0]
     fired[0] = i
-    switch_at(problem.call_switch, (problem.context, t, point.at_u, guards.at_fired, 1))
+    forces_if_switched(problem, point, guards, m.stepping.contacts, point.t + s * h, point.at_y_probe, point.at_u, 1)
     fired[0] = first
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_f))
-    problem.rhs += 2
-    copy(kept, zones)
     f_old, f_new = reals(point.at_x, n), reals(point.at_f, n)
     differential, weight = indices(problem.at_differential, n), reals(m.linear.factors.at_column_scale, n)
     found = False
@@ -238,16 +231,15 @@ def keep_means(m, h):
 @compiled
 def next_law_jumps(m, h):
     """True if a row of the next zone, on the line from the start of the step through its end, is not zero there."""
-    problem, point, guards = m.problem, m.point, m.events.guards
+    problem, point, guards, contacts = m.problem, m.point, m.events.guards, m.stepping.contacts
     n = problem.n
     field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_x))
     copy(reals(point.at_y_end, n), reals(point.at_y_probe, n))
-    switch_at(problem.call_switch, (problem.context, point.t + h, point.at_y_probe, guards.at_fired, guards.n_fired))
+    switch_for_now(problem, guards, contacts, point.t + h, point.at_y_probe, guards.n_fired)
     field_at(problem.call_rhs, (problem.context, point.t, point.at_y, point.at_f))
     field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_v))
     problem.rhs += 3
-    nz = problem.n_machines
-    copy(indices(m.stepping.contacts.at_zones_at_start, nz), indices(problem.at_zones, nz))
+    switch_back(problem, contacts)
     f_new_start, f_new_end, f_old = reals(point.at_f, n), reals(point.at_v, n), reals(point.at_x, n)
     differential, weight = indices(problem.at_differential, n), reals(m.linear.factors.at_column_scale, n)
     fired = indices(guards.at_fired, problem.n_guards)

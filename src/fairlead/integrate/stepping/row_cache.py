@@ -303,12 +303,24 @@ def solve_exchanged(problem, point, linear, stepping, h):
 
 
 @compiled
+def forget_jacobian(rule):
+    """Have J and M evaluated anew before the next solve. Another h or theta does not need it: only W is factorised.
+
+    It is forgotten after a settlement (history.py); where a residual falls too slowly, or a step took more than two
+    solves (theta_step.judge_residual); in a line search (residual.py); where rows of the cache were wrong (here); and
+    where the rows of a zone are in no cache, or W is a full matrix (linearise.py). A part that is cut out or given back
+    begins with none (parts.py).
+    """
+    rule.linearised = 0
+
+
+@compiled
 def invalidate_assumed(stepping):
     """The laws say otherwise than the rows of before: evaluate all, and rely on those no more."""
     exchange = stepping.exchange
     exchange.invalidated |= exchange.assumed
     exchange.assumed = 0
-    stepping.rule.linearised = 0
+    forget_jacobian(stepping.rule)
     forget_rows(exchange)
 
 

@@ -19,10 +19,10 @@ a share of the step, 1 where nothing is found. The unknown that is due to it goe
 
 from __future__ import annotations
 
-from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.point.meters import inertia_of
+from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.stepping.jump_at_end import zero_of_guard
-from fairlead.integrate.stepping.response import error_of_speed, response_of
+from fairlead.integrate.stepping.other_zones import forces_in_zones, speed_off
+from fairlead.integrate.stepping.response import error_of_speed
 
 AT_ONCE = 1e-2
 """A switch within this share s of a step happens at its start. A turn misses (a - b) s h, a hundredth of what one
@@ -76,11 +76,10 @@ def find_missed_impulse(problem, point, matrices, stepping, h):
     """True if a switch inside the step makes an error that counts; where the step should end, in `t_cut`."""
     rule = stepping.rule
     turn = find_turn(point, matrices, stepping.contacts, h)
-    other = find_other_force(problem, point, matrices, stepping, h)
+    other, kink = find_other_force(problem, point, matrices, stepping, h)
     first = min(turn, other)
     rule.t_cut = point.t + first * h
-    kink = find_kink(stepping)
-    if other == first and other == (1.0 - SHORT_OF) * kink and kink < 1.0:
+    if other <= turn and kink < 1.0:
         rule.t_kink = point.t + kink * h
         if kink < AT_ONCE:
             rule.t_cut = point.t + 2.0 * kink * h
@@ -130,40 +129,24 @@ def find_kink(stepping):
 
 @compiled
 def find_other_force(problem, point, matrices, stepping, h):
-    """The share of the step after which a law without a force of its own first switched, if the error counts; or 1."""
+    """The share of the step after which a law without a force of its own first switched, if the error counts; or 1.
+
+    And the place of that switch if it is the kink of a table, else 1.
+    """
     contacts = stepping.contacts
     switched = indices(contacts.at_switched, problem.n_machines)
     after = reals(contacts.at_switched_after, problem.n_machines)
-    hold_row, first, last = indices(contacts.at_hold_row, problem.n_machines), find_kink(stepping), 0.0
-    if first < 1.0:
-        last = first
+    hold_row, kink = indices(contacts.at_hold_row, problem.n_machines), find_kink(stepping)
+    first, last = kink, kink if kink < 1.0 else 0.0
     for k in range(contacts.n_switched):
         s = after[switched[k]]
         if hold_row[switched[k]] < 0 and s >= AT_ONCE:
             first, last = min(first, s), max(last, s)
     if first == 1.0:
-        return 1.0
-    zones, kept, before = (
-        indices(problem.at_zones, problem.n_machines), indices(contacts.at_zones_probed, problem.n_machines),
-        indices(contacts.at_zones_at_start, problem.n_machines),
-    )  # fmt: skip
-    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
-    copy(zones, kept)
-    copy(before, zones)
-    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_f))
-    copy(kept, zones)
-    problem.rhs += 2
-    f_new, f_old = reals(point.at_x, problem.n), reals(point.at_f, problem.n)
-    weight = reals(point.at_weight, problem.n)
-    position = indices(problem.at_position_of, problem.n)
-    for v in range(problem.n):
-        x = position[v]
-        if x < 0 or f_old[v] == f_new[v]:
-            continue
-        inertia = inertia_of(matrices, v)
-        if inertia > 0.0:
-            error = 0.5 * last * h * abs(f_old[v] - f_new[v]) / inertia
-            if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
-                point.worst = v
-                return (1.0 - SHORT_OF) * first
-    return 1.0
+        return 1.0, 1.0
+    forces_in_zones(problem, point, contacts, point.t, point.at_y, contacts.at_zones_at_start)
+    off = speed_off(problem, point, matrices, last * h, 2.0)
+    if off < 0:
+        return 1.0, 1.0
+    point.worst = off
+    return (1.0 - SHORT_OF) * first, kink if first == kink else 1.0

@@ -27,7 +27,7 @@ switch: of our own.)
 from __future__ import annotations
 
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
-from fairlead.integrate.linear.systems import solve
+from fairlead.integrate.linear.systems import solve_motion
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.stepping.residual import differs, read_at_instant, read_on_chord, weigh_ends
 
@@ -36,7 +36,6 @@ from fairlead.integrate.stepping.residual import differs, read_at_instant, read_
 def refine_end(problem, point, linear, stepping, h):
     """Move the end of a step of the midpoint rule by its error; forces stay the means over the step they are."""
     move_by_error(problem, point, linear, stepping, h)
-    linear.core.skip_meters = 0
     if problem.n_quadratures > 0:
         meter_step(problem, point, h)
 
@@ -44,7 +43,7 @@ def refine_end(problem, point, linear, stepping, h):
 @compiled
 def move_by_error(problem, point, linear, stepping, h):
     """Move the end of a step by its error, in all unknowns but the quadratures."""
-    matrices, core, exchange = linear.matrices, linear.core, stepping.exchange
+    matrices, exchange = linear.matrices, stepping.exchange
     n = problem.n
     kick, first, second = (
         reals(stepping.rule.at_kick, n), reals(stepping.rule.at_kick_first, n), reals(stepping.rule.at_kick_second, n),
@@ -55,12 +54,11 @@ def move_by_error(problem, point, linear, stepping, h):
     moving, chord_defect = indices(problem.at_differential, n), reals(point.at_error_vector, n)
     find_chord_defect(problem, point, h)
     find_forces_at_ends(problem, point, stepping.rule, h)
-    core.skip_meters = 1
     for k in range(n):
         b[k] = f1[k] - f0[k] + 4.0 * chord_defect[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
     if exchange.driven == 1:
         follow_surfaces(problem, point, exchange, h)
-    solve(linear, point.at_b)
+    solve_motion(linear, point.at_b)
     for k in range(n):
         moves = moving[k] == 1 and quadrature[k] == 0
         twelfth[k] = b[k] / 6.0 if moves else 0.0
@@ -71,7 +69,7 @@ def move_by_error(problem, point, linear, stepping, h):
     for k in range(n):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
-    solve(linear, point.at_b)
+    solve_motion(linear, point.at_b)
     if stepping.rule.damps == 1:
         damp_end(problem, point, linear, stepping)
     for k in range(n):
@@ -94,7 +92,7 @@ def damp_end(problem, point, linear, stepping):
     for k in range(n):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
-    solve(linear, point.at_b)
+    solve_motion(linear, point.at_b)
     for k in range(n):
         b[k] += half_moved[k]
 

@@ -62,7 +62,7 @@ from fairlead.integrate.stepping.third_order import refine_end
 @compiled
 def attempt_stepping(m):
     """One trial step: repeated with a shorter one, or accepted to its end."""
-    run, point, core, rule = m.run, m.point, m.linear.core, m.stepping.rule
+    run, point, rule = m.run, m.point, m.stepping.rule
     spent = over_budget(run, m.recorder)
     if spent != GO_ON:
         return spent
@@ -74,13 +74,11 @@ def attempt_stepping(m):
         arrive_at_instant(run, point, m.events.guards)
         m.events.settling.passes, rule.instant = 0, 1
         return GO_ON
-    core.skip_meters = 1
     rule.theta_now = min(rule.least_theta + rule.theta_raise, 1.0)
     if point.t < rule.t_kink < point.t + h:
         h = step_over_kink(run, point, rule, h)
     run.h = h
     status = take_theta_step(m, h)
-    core.skip_meters = 0
     if status == INACCURATE:
         return find_pivots(m, h)
     rule.replanned = 0
@@ -121,7 +119,10 @@ def finish_inside(m, h, status):
         return end_at_switch(m, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
     if exchange.massless == 1:
         end_massless(problem, point, linear, exchange, h)
-    accept_step(m, h)
+    accept_step(m, h, False)
+    show_inside(m)
+    if rule.localising > 0:
+        settle_at_end(m)
     return GO_ON
 
 
@@ -143,12 +144,8 @@ def finish_located(m, h):
         return mend_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and piece_is_rough(m, h):
         return take_piece(m, h)
-    recorder.any_stiff = mark_stiff(problem, m.linear.matrices, recorder, h)
-    rule.failed = max(rule.failed - 1, 0)
     recorder.meters_off = 1 if problem.n_quadratures > 0 else 0
-    repeated = run.retried > 0
-    accept(m, h, found == CROSSING)
-    choose_next_step(run, rule, h, repeated)
+    accept_step(m, h, found == CROSSING)
     remember_middle(point, rule, h)
     show_inside(m)
     return GO_ON
@@ -188,30 +185,33 @@ def step_over_kink(run, point, rule, h):
 
 
 @compiled
-def accept_step(m, h):
-    """To the end of the step; how long the next is."""
+def accept_step(m, h, crossed):
+    """Accept the step up to its crossing or its end; how long the next is to be."""
     run, recorder, rule = m.run, m.recorder, m.stepping.rule
     recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > 1e-3 else 0.0
     repeated = run.retried > 0
-    accept(m, h, False)
+    accept(m, h, crossed)
     if run.adaptive == 1:
         choose_next_step(run, rule, h, repeated)
-    show_inside(m)
-    if rule.localising > 0:
-        run.crossed = 1
-        m.events.guards.n_fired = 0
-        rule.localising = 0
+
+
+@compiled
+def settle_at_end(m):
+    """Have the end of an accepted step settled, at which a law jumps."""
+    m.run.crossed = 1
+    m.events.guards.n_fired = 0
+    m.stepping.rule.localising = 0
 
 
 @compiled
 def solve_in_zones(m, h):
     """Take the step that ends at a jump once more, in the zones of its start: it was given up there, not yet solved."""
-    core, rule = m.linear.core, m.stepping.rule
-    core.skip_meters, rule.frozen = 1, 1
+    rule = m.stepping.rule
+    rule.frozen = 1
     status = take_theta_step(m, h)
-    core.skip_meters, rule.frozen = 0, 0
+    rule.frozen = 0
     return status
 
 
