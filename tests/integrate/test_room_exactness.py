@@ -35,15 +35,15 @@ def refined():
 
 @functools.cache
 def metered():
-    """call(memory, h): `meter_piece` with the factors of 2M/h - J."""
+    """call(memory, h): `integrate_quadratures` with the factors of 2M/h - J."""
     from fairlead.integrate.linear.systems import factorise_step
     from fairlead.integrate.memory.foreign import compiled
-    from fairlead.integrate.point.meters import meter_piece
+    from fairlead.integrate.point.quadratures import integrate_quadratures
 
     @compiled
     def meter(m, h):
         if factorise_step(m.linear, 2.0 / h) == DONE:
-            meter_piece(m, h)
+            integrate_quadratures(m, h)
 
     return entry(meter, ("",), "d")
 

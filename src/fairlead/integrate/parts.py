@@ -39,7 +39,7 @@ FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
 BLOCKED = 1e300
 
 CARRIED = (
-    "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
+    "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "quadratures_off", "grid_next", "stalls",
     "total_events", "stop_asked", "failed", "localising", "locates", "damps", "driven", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",

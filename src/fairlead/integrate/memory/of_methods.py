@@ -143,7 +143,7 @@ CONTACTS = Struct(
         "is_mean": "n_guards",  # 1 for guards that are read in the middle of a step (jump_at_end.py)
         "suspects": "n_guards",  # scratch: guards that fired, while `fired` is used for others
         "kind_is_smooth": "n_machines",  # by kind: 0, jump_at_end.SMOOTH, JUMPS_SOMEWHERE
-        # scratch: zones while laws are asked in others; from note_fired on those before the switch, put back at a jump
+        # scratch: zones while laws are asked in others; from remember_before_switch on those that a jump puts back
         "zones_probed": "n_machines",
         "first_guard": "n_machines",
         "met": "n_machines",  # scratch, 0 between passes: fronts (active_set.MET), laws that jump (jump_inside.py)

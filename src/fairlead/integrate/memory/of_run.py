@@ -96,7 +96,7 @@ Whoever uses one gives it a local name that says what it holds there. Any room m
     u            the theta point while `stepping` solves; else what a norm is wanted of, as a change of speed
     v            what M is multiplied by, mostly -y'
     minus_slip   what the callback `drift` gives: minus the slip of rows that hold
-    asked        how far a solve said before that unknowns are off (meters.py)
+    asked        how far a solve said before that unknowns are off (quadratures.py)
 
 `error_vector` is scratch too until the error of a step is estimated.
 """
@@ -107,7 +107,7 @@ RECORDER = Struct(
         "on_grid",  # rows are on a grid; else at the ends of steps
         "between",  # rows inside steps are handed over as well
         "most_inside",  # rows inside a step at most: codes.PARABOLA, QUARTIC
-        "meters_off",  # quadratures of the step are to be integrated again (meters.py)
+        "quadratures_off",  # quadratures of the step are to be integrated again (quadratures.py)
         "rows", "events",  # how many are in the buffers
         "total_events",
         "grid_next",  # number of the next point of the grid

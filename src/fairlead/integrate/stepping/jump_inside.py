@@ -56,7 +56,7 @@ def forget_jumps(rule):
 
 
 @compiled
-def note_fired(guards, contacts):
+def remember_before_switch(guards, contacts):
     """Before the zones switch: the guards in `fired`, and all zones."""
     copy(indices(guards.at_fired, guards.n_guards), indices(contacts.at_suspects, guards.n_guards))
     copy(indices(contacts.at_zones, contacts.n_machines), indices(contacts.at_zones_probed, contacts.n_machines))

@@ -7,7 +7,7 @@ are judged on the dense output as `rodas` judges them (crossing.py), and what fi
     forces     means over the step, so those of its middle; at its end the line through this middle and the one
                before says what they are, and between its ends a straight line
     error      the third difference of all differential unknowns, speeds among them; of a force that holds the second
-    energy     from the states at the nodes of Gauss (meters.py)
+    energy     from the states at the nodes of Gauss (quadratures.py)
 """
 
 from __future__ import annotations

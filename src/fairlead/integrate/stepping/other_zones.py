@@ -5,8 +5,8 @@ The zones in force are kept in `zones_probed` meanwhile, and are the same afterw
 
 from __future__ import annotations
 
+from fairlead.integrate.linear.products import inertia_of
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
-from fairlead.integrate.point.meters import inertia_of
 from fairlead.integrate.stepping.response import response_of
 
 

@@ -2,7 +2,7 @@
 
     an error above one              shorter, by the error                         `reject_error`
     not solved, or zones cycle      half of it, or the same without predictions   `halve_unsolved`
-    no good pivots                  half of it, or with other pivots              `find_pivots`
+    no good pivots                  half of it, or with other pivots              `halve_or_replan`
     a law that jumps                up to the jump, by event localisation         `localise_jump`, `end_at_switch`
                                     a settlement where it jumps at the start      `settle_jump`
     a switch whose impulse counts   up to the switch                              `find_switch_passed`, `end_at_switch`
@@ -106,7 +106,7 @@ def count_unsolved(run, status):
 
 
 @compiled
-def find_pivots(m, h):
+def halve_or_replan(m, h):
     """After a matrix without good pivots: a shorter step if it was met midway, else, or in vain, other pivots."""
     rule = m.stepping.rule
     if rule.midway == 1 and (rule.replanned == 1 or m.run.retried < HALVINGS):

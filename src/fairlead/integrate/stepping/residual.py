@@ -22,9 +22,8 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import MIDDLE
-from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.products import add_mass_times, inertia_of
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.point.meters import inertia_of
 from fairlead.integrate.stepping.row_cache import forget_jacobian
 
 SOLVED = 1e-3

@@ -26,7 +26,7 @@ What steers it, where that is set and read; it is in `rule` (R), `exchange` (E),
     solves           solves since zones switched last      the loop                   judge_residual, the residual
     solved           one in this step at all               the loop                   solve_once
     size             the residual before the last move     approach_laws              judge_residual, search_line
-    R midway         the matrix is met on the way          solve_once                 find_pivots, underway.py
+    R midway         the matrix is met on the way          solve_once                 halve_or_replan, underway.py
     R searched       moves were taken back, or in vain     search_line                judge_residual
     R linearised     J and M are evaluated                 forget_jacobian            linearise_step
     R locates        zones never change in a step          engine.py                  find_violators
@@ -52,7 +52,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 from fairlead.integrate.stepping.active_set import begin_set, expect_fronts, follow_guards, learn_from_neighbours
 from fairlead.integrate.stepping.guards_of_step import find_violators
 from fairlead.integrate.stepping.jump_at_end import all_continuous, find_jumping_law, find_means, place_jump
-from fairlead.integrate.stepping.jump_inside import forget_jumps, note_fired, put_jumps_right
+from fairlead.integrate.stepping.jump_inside import forget_jumps, put_jumps_right, remember_before_switch
 from fairlead.integrate.stepping.linearise import linearise_step
 from fairlead.integrate.stepping.residual import (
     GIVEN_UP,
@@ -198,7 +198,7 @@ def switch_zones(m, h):
         find_means(m, h)
         place_jump(point, guards, contacts, rule, h)
         return JUMPS
-    note_fired(guards, contacts)
+    remember_before_switch(guards, contacts)
     if follow_guards(m, h, known):
         copy(indices(contacts.at_zones_probed, contacts.n_machines), indices(contacts.at_zones, contacts.n_machines))
         find_means(m, h)

@@ -37,7 +37,7 @@ def refine_end(problem, point, linear, stepping, h):
     """Move the end of a step of the midpoint rule by its error; forces stay the means over the step they are."""
     move_by_error(problem, point, linear, stepping, h)
     if problem.n_quadratures > 0:
-        meter_step(problem, point, h)
+        add_rise_of_quadratures(problem, point, h)
 
 
 @compiled
@@ -156,7 +156,7 @@ def find_forces_at_ends(problem, point, rule, h):
 
 
 @compiled
-def meter_step(problem, point, h):
+def add_rise_of_quadratures(problem, point, h):
     """The rise of the quadratures, from the rates at the mean of the way taken, (y0 + y1)/2 - e/12.
 
     The mean of a motion that is given is a sixth of what it is at the ends and two thirds of what it is in the middle.

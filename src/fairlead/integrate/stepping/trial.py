@@ -46,8 +46,8 @@ from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
     blame,
     end_at_switch,
-    find_pivots,
     find_switch_passed,
+    halve_or_replan,
     halve_unsolved,
     jump_at_start,
     localise_jump,
@@ -80,7 +80,7 @@ def attempt_stepping(m):
     run.h = h
     status = take_theta_step(m, h)
     if status == INACCURATE:
-        return find_pivots(m, h)
+        return halve_or_replan(m, h)
     rule.replanned = 0
     return finish_located(m, h) if status == DONE and rule.locates == 1 else finish_inside(m, h, status)
 
@@ -101,7 +101,7 @@ def finish_inside(m, h, status):
         if status == JUMPS:
             status = solve_in_zones(m, h)
             if status == INACCURATE:
-                return find_pivots(m, h)
+                return halve_or_replan(m, h)
     if status != DONE:
         return halve_unsolved(m, h, status)
     if run.narrowed == 1 and settling.passes > 0 and rim_changed(settling, m.stepping.contacts):
@@ -144,7 +144,7 @@ def finish_located(m, h):
         return mend_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and piece_is_rough(m, h):
         return take_piece(m, h)
-    recorder.meters_off = 1 if problem.n_quadratures > 0 else 0
+    recorder.quadratures_off = 1 if problem.n_quadratures > 0 else 0
     accept_step(m, h, found == CROSSING)
     remember_middle(point, rule, h)
     show_inside(m)
