@@ -87,6 +87,13 @@ def turned():
 
 
 @functools.cache
+def speed_off():
+    from fairlead.integrate.stepping import other_zones
+
+    return entry(other_zones.speed_off, ("problem", "point", "linear.matrices"), "dd", "i")
+
+
+@functools.cache
 def kept():
     from fairlead.integrate.stepping.history import choose_next_step
 
@@ -254,6 +261,22 @@ def test_a_peak_of_force_moves_the_body_for_the_step_or_until_a_spring_takes_it_
     assert peak(one_body(stiffness=1.0), H, 0, force) == pytest.approx(force * H**2 / MASS / OF_PLACE)
     assert peak(one_body(stiffness=1e7), H, 0, force) == pytest.approx(force / 1e7 / OF_PLACE)
     assert peak(one_body(inertia=0.0), H, 0, force) == pytest.approx(force / OF_FORCE)
+
+
+@pytest.mark.parametrize("per_mean", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize("stiffness", [0.0, 1e6])
+def test_forces_of_other_zones_count_where_the_speed_and_the_place_they_lead_to_are_off(stiffness, per_mean):
+    """dv = F T/(p m) with the mean F/p; a spring turns that into a way of dv sqrt(m/k), and the lesser error counts."""
+    lasting, of_speed = 0.3 * H, OF_PLACE / 1e-4
+    weight = of_speed if stiffness == 0.0 else max(of_speed, OF_PLACE / (MASS / stiffness) ** 0.5)
+    just = weight * per_mean * MASS / lasting  # the force that is off by one weight
+    for force, counts in ((0.99 * just, False), (-0.99 * just, False), (1.01 * just, True), (-1.01 * just, True)):
+        at = one_body(
+            stiffness, weights=(OF_PLACE, of_speed, OF_FORCE), x=[0.0, 5.0, 1.0], f=[0.0, 5.0 + force, 2.0],
+            position_of=[-1, 0, -1], mass=[1.0, MASS], mass_starts=[0, 1, 2, 2], mass_rows=[0, 1],
+            numbers={"n_mass": 2},
+        )  # fmt: skip
+        assert speed_off()(at, lasting, per_mean) == (1 if counts else -1)
 
 
 def test_a_force_that_is_missed_leaves_a_speed_or_the_way_a_spring_allows_it():

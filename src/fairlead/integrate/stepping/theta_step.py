@@ -12,7 +12,7 @@ limits at the point u. So a contact that holds and one that slides are the two b
 end = 0 or against the force: a complementarity problem. It is solved by an active set (active_set.py): solve with the
 zones frozen, switch those whose guards are violated, solve again. Smooth nonlinearity is taken up by the same
 iteration, which ends when no guard is violated and the residual passes. Where f is linear as long as the zones are
-frozen one solve is exact, and the residual is looked at once per factorisation. Where every switch is landed on
+frozen one solve is exact, and the residual is looked at once per factorisation. Where steps end at every switch
 (`rule.locates`), the zones are those of the start of the step, and only the smooth iteration is left.
 
 The matrix is the W of the Rosenbrock methods with gamma = theta, for theta (y1 - y0), so that one plan of pivots serves

@@ -138,9 +138,9 @@ def follow_surfaces(problem, point, exchange, h):
 def find_forces_at_ends(problem, point, rule, h):
     """Into `x` and `f`: f at the start and at the end of the step, in its zones and with its forces.
 
-    Forces are means over the step. Where switches are landed on, those of the start balance there, and so the end has
-    as much more than the mean as the start has less. A law that is curved in both a force and a motion asks for that:
-    its cross term is of the order of q.
+    Forces are means over the step. Where steps end at every switch, those of the start balance there, and so the end
+    has as much more than the mean as the start has less. A law that is curved in both a force and a motion asks for
+    that: its cross term is of the order of q.
     """
     n = problem.n
     y, y_end = reals(point.at_y, n), reals(point.at_y_end, n)
